@@ -174,10 +174,10 @@ def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
     ]
 
 
-def _friction_values(least: float, largest: float, factor: float) -> list[Value]:
+def _friction_values(minimum: float, maximum: float, factor: float) -> list[Value]:
     """Values of the least and the largest friction of a road."""
-    keys = {"frictions": [least, largest], "friction_factor": factor}
-    return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", least), ("largest", largest))]
+    keys = {"frictions": [minimum, maximum], "friction_factor": factor}
+    return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", minimum), ("largest", maximum))]
 
 
 def height_step(z: np.ndarray) -> float:
@@ -208,10 +208,10 @@ def _plausibility_of_road(road: PlaneRoad | KerbRoad | GridRoad) -> list[Plausib
 
 
 @plausibility_of.register
-def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = MAX_POINTS) -> list[Plausibility]:
+def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), max_points: float = MAX_POINTS) -> list[Plausibility]:
     """Plausibility of a road file, and of a start of a drive on it.
 
-    `start`: x and y, m; `most`: number of points above which only the position is compared.
+    `start`: x and y, m; `max_points`: number of points above which only the position is compared.
     """
     table = read_road(road.path) if _is_text(road) else None
     place = None
@@ -219,7 +219,7 @@ def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = M
         place = _place_of_header(road)
     elif isinstance(table, GridRoad):
         place = grid_location(table)
-    if place is not None and math.prod(place.shape) > most:
+    if place is not None and math.prod(place.shape) > max_points:
         return [start_plausibility(str(road.path), place, start)]
     return [road_plausibility(str(road.path), road.read() if table is None else table, start)]
 

@@ -216,9 +216,11 @@ def read_tyre(file: str | Path) -> TyreFile:
     return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes), numbers)
 
 
-def _pressure_text(least: float, most: float) -> str:
+def _pressure_text(minimum: float, maximum: float) -> str:
     """Sentence on the range of the pressure, Pa."""
-    limits = [f"from PRESMIN, {least:g} Pa"] * (least > 0.0) + [f"to PRESMAX, {most:g} Pa"] * (most < math.inf)
+    limits = [f"from PRESMIN, {minimum:g} Pa"] * (minimum > 0.0) + [f"to PRESMAX, {maximum:g} Pa"] * (
+        maximum < math.inf
+    )
     return f"the coefficients hold {', '.join(limits)}"
 
 

@@ -13,8 +13,8 @@ MAX_PRESSURE = 4e7
 def new_port(
     b: CarBuilder,
     name: str,
-    least: float,
-    largest: float,
+    minimum: float,
+    maximum: float,
     unit: str,
     description: str,
     role: Role = Role.NONE,
@@ -25,10 +25,10 @@ def new_port(
 ) -> Input:
     """Add an input that another program sets; it is 0 until then.
 
-    `least`, `largest`: ends of its range in `unit`, to which values are clamped; `role`, `near`, `figures`: check of
+    `minimum`, `maximum`: ends of its range in `unit`, to which values are clamped; `role`, `near`, `figures`: check of
     the input in an FMU, the sensor it is compared with, and numbers for the check; `whole`: whether it is an integer.
     """
-    limits = 0.0, least, largest, unit, description
+    limits = 0.0, minimum, maximum, unit, description
     channel = new_input(b.m, name, *limits, whole, True, role, near, figures=figures)
     b.port_inputs.append(channel)
     return channel

@@ -39,11 +39,11 @@ class Row:
             raise CarFileError(f"{self.where}: {column} is {brief(self[column])}; {must}.")
         return value
 
-    def count(self, column: str, most: int) -> int:
-        """A cell as a positive integer. `most`: largest plausible value."""
+    def count(self, column: str, maximum: int) -> int:
+        """A cell as a positive integer. `maximum`: largest plausible value."""
         text = self[column]
-        if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= most):
-            must = f"it must be a whole number between 1 and {most}"
+        if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= maximum):
+            must = f"it must be a whole number between 1 and {maximum}"
             raise CarFileError(f"{self.where}: {column} is {brief(text)}; {must}.")
         return int(text)
 

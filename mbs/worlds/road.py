@@ -58,7 +58,7 @@ def make_road(options: argparse.Namespace) -> int:
 
 def _check_start(options: argparse.Namespace) -> None:
     """Check a start on a road file by its header alone: a large road is not read for it."""
-    (plausibility,) = file_plausibility(RoadFile(options.input), tuple(options.start), most=0)
+    (plausibility,) = file_plausibility(RoadFile(options.input), tuple(options.start), max_points=0)
     with warning_lines():
         plausibility.warn(RoadWarning)
     print(plausibility.text())
