@@ -103,7 +103,7 @@ def _values(
     beside: float,
     units: Units,
 ) -> list[Value]:
-    """Values of all quantities with the data in `units`; lengths and frequencies are those of the file."""
+    """Values of all quantities with the data in `units`; lengths and frequencies as in the file."""
     total, sides = units.mass * float(masses.sum()), units.length * np.ptp(x, axis=0)
     size, centre = float(sides.max()), units.length * moment / max(float(masses.sum()), np.finfo(float).tiny)
     mass, nodes = {"mass": total}, {"nodes": f"{len(x)} within {_size_text(sides)} m"}

@@ -86,7 +86,7 @@ def cornering_stiffness(coefficients: Mapping[str, float], nominal: float, load:
 def carcass_stiffness(tyre: MagicTyre, coefficients: Mapping[str, float]) -> tuple[float, float]:
     """Longitudinal and lateral carcass stiffness at the nominal load, N/m.
 
-    They are those of the file, otherwise slip stiffness divided by relaxation length.
+    The stiffness of the file, otherwise slip stiffness divided by relaxation length.
     """
     c = {**MAGIC_COEFFICIENTS, **coefficients}
     # a file without PTY1 has no relaxation length: 1 radius

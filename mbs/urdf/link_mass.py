@@ -28,7 +28,7 @@ class Factors(NamedTuple):
     efforts: float = 1.0
     speeds: float = 1.0
     solid: bool = False
-    """Whether placeholder inertias of 1, 0.1, ... kg m2 about all axes are replaced by those of a ball of
+    """Whether placeholder inertias of 1, 0.1, ... kg m2 about all axes are replaced by the inertia of a ball of
     `SOLID_DENSITY`."""
     only: str = ""
     """Name of the only link to which the factors apply; empty: all links."""

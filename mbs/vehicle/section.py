@@ -21,7 +21,7 @@ class Section(BaseModel):
     """Base of all tables of a car file: no other keys than its own, and it cannot be changed.
 
     The strings under the attributes are the descriptions of the file's reference and of the FMU's parameters. An
-    attribute without one has that of the same name in the element `of`, minus the unit.
+    attribute without one has the text of the same name in the element `of`, without its unit.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, allow_inf_nan=False)
@@ -76,7 +76,7 @@ class Section(BaseModel):
         return None
 
     def numbers(self, field: str) -> dict[str, float]:
-        """Numbers of a field by the names of parameters; those of a list have the name of the component as a suffix.
+        """Numbers of a field by the names of parameters; the numbers of a list have the name of the component as a suffix.
 
         `field`: field with a quantity and a value that is not None.
         """

@@ -30,7 +30,7 @@ class Side:
     def body(self, model: Model, name: str, part: Part) -> Body:
         """Add a part of this side as a body with principal axes along the earth axes.
 
-        `name`: name without that of the wheel; `part`: mass, centre and inertia of the left part.
+        `name`: its first part, before the name of the wheel; `part`: mass, centre and inertia of the left part.
         """
         return model.body(f"{name} {self.wheel}", mass=part.mass, com=self.point(part.com), inertia=part.inertia)
 

@@ -45,7 +45,7 @@ KNOWN_COLUMNS = (
 MAX_GRADE = 0.3
 """Grade above which a warning is given: the steepest streets have 0.35."""
 GAP_RATIO = 25.0
-"""Distance of two points over the median distance from which it is a gap, if it is 10 m or more."""
+"""Distance of two points, relative to the median distance, from which it is a gap, if it is 10 m or more."""
 
 
 def course_layer(

@@ -142,8 +142,8 @@ class Kerb(_Table):
     left: Coordinate
     height: Annotated[float, Field(gt=0.0, le=0.3)] = 0.08
     face: Annotated[float, Field(ge=0.1, le=5.0)] = 0.32
-    """Length of the slope up and down, m: where 80 mm are parabolas with a radius of 0.32 m, a little more than that of
-    a wheel, so that its nearest point stays the only one."""
+    """Length of the slope up and down, m. For a height of 80 mm the default gives parabolas with a radius of 0.32 m,
+    a little more than a wheel's, so that its nearest point stays the only one."""
     flank: Annotated[float, Field(ge=0.1, le=5.0)] = 0.5
     surface: SurfaceClass = "concrete"
 

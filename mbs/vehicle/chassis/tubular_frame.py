@@ -191,6 +191,6 @@ def _check_joint(row: Row, name: str, y: float, names: set[str]) -> None:
 
 
 def _check_name(row: Row, name: str, names: Container[str], kind: str, key: str) -> None:
-    """Raise `ModelError` if a name is not among those of another table. `key`: key path of that table."""
+    """Raise `ModelError` if a name is not in another table. `key`: key path of that table."""
     if name not in names:
         raise ModelError(f"{row.where}: {kind} {name!r} is not in {key}.")

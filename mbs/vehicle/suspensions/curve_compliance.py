@@ -36,7 +36,7 @@ BASE_FRACTION = 1e-3  # mass of the base body, relative to the carrier
 class Compliance(Section):
     """Steer angle of the left wheel, positive to the left, per force and moment of the road; the right one mirrors it.
 
-    Camber and ways are those of a lean about an axis along the car, and of a slide along it. That axis is the way per
+    Camber and ways are modelled as a lean about an axis along the car and a slide along it. That axis is the way per
     camber above the contact, or below it if the camber is positive.
 
     Of an axle that steers the moment alone is given: it turns the wheel as the rack does, against a spring at the end

@@ -55,16 +55,17 @@ class Curves(SuspensionSection):
     """Suspension by a table of where its wheels stand, instead of links.
 
     Columns, with units (m, mm, rad or deg) in the headings: `wheel_travel`, positive in bump; of an axle that steers
-    `rack_travel`, positive to the left, of one whose wheels move each other `other_wheel_travel`; `wheel_centre_x` and
-    `wheel_centre_y`, or those of the contact centre, or `wheelbase_change` and `track_change`, both of the contact
-    centres, the latter of both wheels together, twice that of one; `toe_angle` or `steer_angle`; `camber_angle` or
-    `inclination_angle`; `carrier_pitch_angle`, the turn of the carrier about the wheel's axis, positive with the top
-    forward, or `caster_angle`; if there are any `spring_length`, `damper_length`, `anti_roll_bar_angle`. One row for
-    each pair of travels, or of a rack those where one is 0. They are those of the left wheel, which the right one
-    mirrors, or of both with `_left` and `_right` behind the names. A row of both is one place of the axle:
-    `wheel_travel` is that of both wheels, or, where there is `other_wheel_travel`, that of the left wheel, and
-    `other_wheel_travel` that of the right one. All counts from the row of no travel, the drawing, whose toe and camber
-    stand in `alignment`.
+    also `rack_travel`, positive to the left; of an axle whose wheels move each other also `other_wheel_travel`;
+    `wheel_centre_x` and `wheel_centre_y`, or `contact_centre_x` and `contact_centre_y`, or `wheelbase_change` and
+    `track_change`, both of the contact centres, the latter of both wheels together, twice that of one; `toe_angle` or
+    `steer_angle`; `camber_angle` or `inclination_angle`; `carrier_pitch_angle`, the turn of the carrier about the
+    wheel's axis, positive with the top forward, or `caster_angle`; if there are any `spring_length`, `damper_length`,
+    `anti_roll_bar_angle`. One row for each pair of travels; with a rack, pairs of which one travel is 0 suffice.
+
+    The values belong to the left wheel, which the right one mirrors, or to both with `_left` and `_right` behind the
+    names. A row of both is one position of the axle: `wheel_travel` belongs to both wheels, or, with
+    `other_wheel_travel`, to the left wheel and `other_wheel_travel` to the right one. All values count from the row
+    without travel, the drawing, whose toe and camber stand in `alignment`.
     """
 
     kind: Literal["curves"]
@@ -185,7 +186,7 @@ class Curves(SuspensionSection):
                 )
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
-        """Yield a sentence if the declared wheel angle at full lock is not that of the table."""
+        """Yield a sentence if the declared wheel angle at full lock is not the table's."""
         table_angle, declared = self.steered_angle(steering.full), steering.front_wheel_angle_max
         if abs(table_angle - declared) > ANGLE_TOLERANCE * declared:
             yield (
