@@ -76,7 +76,7 @@ class Section(BaseModel):
         return None
 
     def numbers(self, field: str) -> dict[str, float]:
-        """Numbers of a field by the names of parameters; the numbers of a list have the name of the component as a suffix.
+        """Numbers of a field by the names of parameters; the numbers of a list end with the name of the component.
 
         `field`: field with a quantity and a value that is not None.
         """
