@@ -20,7 +20,7 @@ from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, frame_of
+from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, make_frame
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.ground_contact import ground_contact
 from mbs.vehicle.chassis.mass_parameters import write_inertia
@@ -66,7 +66,7 @@ class BuiltCar(Summarised, CarContent):
         ModelError
             The car has no flexible frame, or its files do not describe one that fits the car.
         """
-        return frame_of(self, self._builder(self.empty(), None), self.mechanism)
+        return make_frame(self, self._builder(self.empty(), None), self.mechanism)
 
     @cached_property
     def misfit(self) -> str:

@@ -20,7 +20,7 @@ from mbs.worlds.terrain import Terrain
 from mbs.worlds.thinned_world import STEP, measure_thinning, thinned_spacing
 from mbs.worlds.world_file import is_world
 from mbs.worlds.world_plausibility import world_plausibility
-from mbs.worlds.world_record import record_of, world_record
+from mbs.worlds.world_record import make_record, world_record
 from mbs.worlds.world_road_file import grid_shape, write_world_road
 from mbs.worlds.world_types import WorldDescription
 
@@ -137,4 +137,4 @@ def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
     if entry["kind"] == "grid":  # beyond a level strip of frictions the grid continues
         (x, y), (dx, dy), (nx, ny) = entry["origin"], entry["spacing"], entry["shape"]
         bounds = (x, y, x + dx * (nx - 1), y + dy * (ny - 1))
-    return record_of(name, bounds, [], [entry], []) | {"checksum": header_checksum(target)}
+    return make_record(name, bounds, [], [entry], []) | {"checksum": header_checksum(target)}

@@ -34,7 +34,7 @@ def world_record(
         "surface": _surface_entry(terrain),
         "note": f"Drawn within {1e3 * BOUND:g} mm of what the wheels feel; scenery is only seen.",
     }
-    return record_of(
+    return make_record(
         world.name,
         world.bounds,
         [place.model_dump(exclude={"at"}) | _pose(place.at) for place in world.places],
@@ -44,7 +44,7 @@ def world_record(
     )
 
 
-def record_of(
+def make_record(
     name: str,
     bounds: tuple[float, float, float, float],
     places: list[dict[str, Any]],

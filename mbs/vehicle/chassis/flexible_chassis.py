@@ -23,7 +23,7 @@ from mbs.vehicle.side import Point
 COMPUTED_OUTPUT = "stress.computed"
 
 
-def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
+def make_frame(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
     """Make the frame of a car with the joints of its parts. `b`: an empty model; `parts`: as in `attachments`.
 
     Raises `ModelError` if the car has no flexible frame, or its files do not describe one that fits the car.
