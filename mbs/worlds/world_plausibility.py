@@ -17,6 +17,7 @@ from mbs.worlds.world_types import FRICTIONS, Area, Band, Course, Kerb, Ramp, Wa
 MAX_POINTS = 400
 """Largest number of points along a side of a feature; a longer one is sampled."""
 MIN_HEIGHT = 1e-6  # m, of an obstacle that wheels feel
+MIN_SQUARED_LENGTH = 1e-6  # m2, of a segment of a line: points may coincide
 MIN_MM = 0.5
 """Least distance from 0, m, of coordinates that may have been in mm."""
 MM = 1e-3
@@ -152,7 +153,9 @@ def _object_values(world: WorldDescription) -> Iterator[Value]:
 def _distance_from_line(line: NDArray[np.float64], point: NDArray[np.float64]) -> float:
     """Distance of a point from a polyline, m. `line`: shape (n, 2)."""
     first, step = line[:-1], np.diff(line, axis=0)
-    along = np.clip(((point - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), MIN_HEIGHT), 0.0, 1.0)
+    along = np.clip(
+        ((point - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), MIN_SQUARED_LENGTH), 0.0, 1.0
+    )
     return float(np.linalg.norm(first + along[:, None] * step - point, axis=1).min(initial=np.inf))
 
 

@@ -67,7 +67,7 @@ def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
         second = (
             [((compression[i], b), 0.0) for b in compression] if coupled else [((compression[i],) * 2, u) for u in rack]
         )
-        q[i] = _follow(linkage, start, second, begin=i if coupled else int(np.argmin(np.abs(rack))))
+        q[i] = _follow(linkage, start, second, first=i if coupled else int(np.argmin(np.abs(rack))))
     return PoseGrid(linkage, compression, rack, coupled, q)
 
 
@@ -87,10 +87,11 @@ def even_points(low: float, high: float, spacing: float) -> Array:
 
 
 def _follow(
-    linkage: Linkage, start: Array, points: list[tuple[tuple[float, float], float]], begin: int | None = None
+    linkage: Linkage, start: Array, points: list[tuple[tuple[float, float], float]], first: int | None = None
 ) -> Array:
-    """Coordinates at points along a line, continued from the one nearest to the drawing, or `begin`, to both ends."""
-    first = int(np.argmin([abs(c[0]) + abs(u) for c, u in points])) if begin is None else begin
+    """Coordinates at points along a line, continued from the one nearest to the drawing, or `first`, to both ends."""
+    if first is None:
+        first = int(np.argmin([abs(c[0]) + abs(u) for c, u in points]))
     coordinates = np.zeros((len(points), len(start)))
     coordinates[first] = at_springs(linkage, start, *points[first])
     for direction, end in ((1, len(points)), (-1, -1)):
