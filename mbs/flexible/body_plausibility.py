@@ -35,14 +35,14 @@ class Units(NamedTuple):
 
 
 UNIT_MISTAKES = (
-    ("t, mm and N in place of kg, m and N", Units(1e-3, 1e3, 1e3)),
-    ("g in place of kg in the mass", Units(mass=1e-3)),
-    ("t in place of kg in the mass", Units(mass=1e3)),
-    ("mm in place of m in the places of the nodes", Units(length=1e-3)),
-    ("kg, mm and N in place of kg, m and N", Units(1e-3, 1.0, 1e3)),
-    ("kg, mm and ms in place of kg, m and s", Units(1e-3, 1.0, 1e6)),
-    ("g, mm and ms in place of kg, m and s", Units(1e-3, 1e-3, 1e3)),
-    ("pounds in place of kg in the mass", Units(mass=0.45359237)),
+    ("t, mm and N instead of kg, m and N", Units(1e-3, 1e3, 1e3)),
+    ("g instead of kg in the mass", Units(mass=1e-3)),
+    ("t instead of kg in the mass", Units(mass=1e3)),
+    ("mm instead of m in the places of the nodes", Units(length=1e-3)),
+    ("kg, mm and N instead of kg, m and N", Units(1e-3, 1.0, 1e3)),
+    ("kg, mm and ms instead of kg, m and s", Units(1e-3, 1.0, 1e6)),
+    ("g, mm and ms instead of kg, m and s", Units(1e-3, 1e-3, 1e3)),
+    ("pounds instead of kg in the mass", Units(mass=0.45359237)),
 )
 """Mistakes in units, the most common first. Consistent units change no frequency."""
 
@@ -103,7 +103,7 @@ def _values(
     beside: float,
     units: Units,
 ) -> list[Value]:
-    """Values of all quantities with the data in `units`; lengths and frequencies are those of the file."""
+    """Values of all quantities with the data in `units`; lengths and frequencies as in the file."""
     total, sides = units.mass * float(masses.sum()), units.length * np.ptp(x, axis=0)
     size, centre = float(sides.max()), units.length * moment / max(float(masses.sum()), np.finfo(float).tiny)
     mass, nodes = {"mass": total}, {"nodes": f"{len(x)} within {_size_text(sides)} m"}

@@ -13,12 +13,12 @@ from ali3.named_files import NamedFiles
 from ali3.reading import read_bytes
 from mbs.common.checks import LARGEST as LARGEST_NUMBER
 from mbs.common.errors import ModelError
-from mbs.flexible.foreign_file import LARGEST
+from mbs.flexible.foreign_file import MAX_BYTES
 
 Array = NDArray[np.float64]
 _COLUMNS = 72
 """Columns of data in a line; the mark of continuation follows."""
-_MOST_REPEATS = 1_000_000
+_MAX_REPEATS = 1_000_000
 _SYSTEMS = ("CORD2R", "CORD2C", "CORD2S")
 _USED_CARDS = (*_SYSTEMS, "GRDSET", "GRID")
 
@@ -50,7 +50,7 @@ class _Card:
         return int(self._read(k, int, "whole number"))
 
     def numbers(self, first: int, count: int) -> Array:
-        """`count` fields from `first` on as numbers; 0 for empty ones."""
+        """`count` fields, the first at `first`, as numbers; 0 for empty ones."""
         numbers = np.array([self._read(k, _number, "number") for k in range(first, first + count)])
         if not (np.abs(numbers) <= LARGEST_NUMBER).all():
             raise self.line.error(f"a number of this {self.name} is not finite or beyond {LARGEST_NUMBER:g}.")
@@ -76,7 +76,7 @@ def grid_points(path: Path, folder: str | Path | None = None) -> dict[int, tuple
         displacements, 0 for the basic one.
     """
     cards: dict[str, list[_Card]] = {}
-    lines = list(_lines(path, NamedFiles(path.parent if folder is None else folder, LARGEST, ModelError)))
+    lines = list(_lines(path, NamedFiles(path.parent if folder is None else folder, MAX_BYTES, ModelError)))
     begin = next((k + 1 for k, line in enumerate(lines) if re.match(r"begin\s+bulk", line.text, re.IGNORECASE)), 0)
     end = next((k for k, line in enumerate(lines) if re.match(r"enddata\b", line.text, re.IGNORECASE)), len(lines))
     for card in _cards(lines[begin:end]):
@@ -150,8 +150,8 @@ def _number(field: str) -> float:
 
 
 def _lines(path: Path, included: NamedFiles, depth: int = 0) -> Iterator[_Line]:
-    """Lines without comments, with those of included files at their position."""
-    text = read_bytes(path, LARGEST, ModelError, path.name).decode("latin-1")
+    """Lines without comments, with the lines of included files at their position."""
+    text = read_bytes(path, MAX_BYTES, ModelError, path.name).decode("latin-1")
     for number, raw in enumerate(text.splitlines(), 1):
         line = _Line(f"{path.name}, line {number}", raw.partition("$")[0].rstrip())
         if include := re.match(r"include\s+['\"]?([^'\"]+)", line.text, re.IGNORECASE):
@@ -165,7 +165,7 @@ def _lines(path: Path, included: NamedFiles, depth: int = 0) -> Iterator[_Line]:
 def _cards(lines: Sequence[_Line]) -> Iterator[_Card]:
     """Used cards; replications are expanded."""
     previous, rule = _Card(_Line("", ""), "", []), list[str]()
-    for card in _joined(lines):
+    for card in _join_cards(lines):
         is_repeat = card.name.startswith("=")
         if not is_repeat and not {"=", "=="} & {*card.data}:
             previous, rule = card, []
@@ -175,8 +175,8 @@ def _cards(lines: Sequence[_Line]) -> Iterator[_Card]:
             if not rule:
                 raise card.line.error(f"{card.name} repeats a replication, and the line before it is none.")
             count = int(repeats[1]) if repeats else 1
-            if count > _MOST_REPEATS:
-                raise card.line.error(f"{card.name} repeats a card more than {_MOST_REPEATS} times.")
+            if count > _MAX_REPEATS:
+                raise card.line.error(f"{card.name} repeats a card more than {_MAX_REPEATS} times.")
             for _ in range(count):
                 previous = _Card(
                     card.line, previous.name if is_repeat else card.name, _replicate(rule, previous.data, card.line)
@@ -188,7 +188,7 @@ def _cards(lines: Sequence[_Line]) -> Iterator[_Card]:
 
 
 def _replicate(rule: Sequence[str], previous_data: Sequence[str], line: _Line) -> list[str]:
-    """Data of a replicated card: ``=`` copies a field of the card before, ``==`` all from there on, ``*(n)`` adds n."""
+    """Data of a replicated card: ``=`` copies a field of the card before, ``==`` all that follow, ``*(n)`` adds n."""
     fields = list[str]()
     for k, field in enumerate(rule):
         previous = previous_data[k] if k < len(previous_data) else ""
@@ -210,7 +210,7 @@ def _replicate(rule: Sequence[str], previous_data: Sequence[str], line: _Line) -
     return fields
 
 
-def _joined(lines: Sequence[_Line]) -> Iterator[_Card]:
+def _join_cards(lines: Sequence[_Line]) -> Iterator[_Card]:
     """Cards with their continuation lines, not expanded; unused cards have no data."""
     card, mark = _Card(_Line("", ""), "", []), ""
     for line in lines:

@@ -15,7 +15,7 @@ from ali3.message_text import brief
 from ali3.reading import is_file, no_file, open_file, read_bytes
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
-from mbs.flexible.foreign_file import LARGEST, read_foreign
+from mbs.flexible.foreign_file import MAX_BYTES, read_foreign
 from mbs.flexible.matrix_files import external_model
 
 
@@ -47,7 +47,7 @@ def read_calculix(deck: str | Path, *, total_mass: float | None = None) -> Finit
 def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.ndarray, list[int]]:
     """Read stiffness and mass (3 n, 3 n), with x, y, z of one node after the other, positions (n, 3) and node numbers.
 
-    Raises `ModelError`: as `read_calculix`.
+    Raises `ModelError` as `read_calculix` does.
     """
     try:
         import meshio
@@ -100,7 +100,7 @@ def _read_freedoms(path: Path) -> list[tuple[int, int]]:
 
 def _read_entries(path: Path) -> np.ndarray:
     """Rows, columns and values of one triangle, shape (3, entries)."""
-    with open_file(path, LARGEST, ModelError, path.name) as file:
+    with open_file(path, MAX_BYTES, ModelError, path.name) as file:
         return np.loadtxt(file, unpack=True, ndmin=2, encoding="latin-1")
 
 
@@ -141,4 +141,4 @@ def _node_lines(deck: Path) -> list[str]:
 
 
 def _read_text(path: Path) -> str:
-    return read_bytes(path, LARGEST, ModelError, path.name).decode("latin-1")
+    return read_bytes(path, MAX_BYTES, ModelError, path.name).decode("latin-1")

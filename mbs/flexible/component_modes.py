@@ -17,8 +17,8 @@ from mbs.flexible.modal_body import InterfaceModes
 from mbs.flexible.reduced_body import ReducedBody
 
 DEPENDENT = 1e-10  # squared mass norm below which an inertia mode depends linearly on others
-ROUND_OFF = 2e-16  # share of the squared mass norm
-MOST_MODES = 10**6
+ROUND_OFF = 2e-16  # fraction of the squared mass norm
+MAX_MODES = 10**6
 FIRST_BATCH = 20  # modes that are computed first if they are chosen by frequency
 
 
@@ -111,8 +111,8 @@ def _accelerations(fixed: FixedInterface, modes: np.ndarray) -> np.ndarray | Non
         return None
     motions = np.hstack([model.rigid_motions(model.origin(fixed.reference)), modes])
     inertia = np.asarray(model.mass_matrix() @ motions)[fixed.inner]
-    shares = np.linalg.lstsq(inertia, np.asarray(model.K @ modes)[fixed.inner], rcond=None)[0]
-    return np.asarray((motions @ shares)[model.dof[:, :3].ravel()])
+    coefficients = np.linalg.lstsq(inertia, np.asarray(model.K @ modes)[fixed.inner], rcond=None)[0]
+    return np.asarray((motions @ coefficients)[model.dof[:, :3].ravel()])
 
 
 def _dynamic_modes(
@@ -143,7 +143,7 @@ def _mode_indices(dynamic_modes: int | Sequence[int]) -> np.ndarray:
     """Indices of the dynamic modes, from their number or a sequence of indices."""
     if isinstance(dynamic_modes, Sequence) and not isinstance(dynamic_modes, (str, bytes)):
         return np.array([whole(k, "An entry of dynamic_modes") for k in dynamic_modes], dtype=int)
-    return np.arange(whole(dynamic_modes, "The number of dynamic_modes", 0, MOST_MODES))
+    return np.arange(whole(dynamic_modes, "The number of dynamic_modes", 0, MAX_MODES))
 
 
 def _with_inertia_modes(fixed: FixedInterface, dynamic: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -24,7 +24,7 @@ class RayleighDamping:
         Parameters
         ----------
         ratio : float
-            Damping ratio, over the critical damping.
+            Damping ratio, relative to the critical damping.
         low, high : float
             The frequencies, Hz.
 

@@ -15,7 +15,7 @@ from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.mass_points import MassPoints
 
-ON_ONE_LINE = 1e-6  # share of the extent of the three reference nodes
+ON_ONE_LINE = 1e-6  # fraction of the extent of the three reference nodes
 Reference = str | int | Sequence[str | int]
 
 
@@ -28,7 +28,7 @@ class FiniteElementModel(Summarised):
     names: tuple[str, ...]
     """One per node."""
     dof: np.ndarray
-    """Shape (n, 6): number of each displacement x, y, z and rotation rx, ry, rz (rad) in the matrices; -1 where a node
+    """Shape (n, 6): number of each displacement x, y, z and rotation rx, ry, rz (rad) in the matrices; -1 if a node
     has none (nodes of solid elements have no rotations)."""
     K: sp.csc_array
     """Shape (n_dof, n_dof): symmetric stiffness of the free model: only the six rigid motions have no energy."""
@@ -36,7 +36,7 @@ class FiniteElementModel(Summarised):
     frame: BeamFrame | None = None
     """Beams of the model, with its nodes; None for models of other programs."""
     mass_along_beams: bool = False
-    """Whether the mass of beams is distributed between their ends, where its inertia loads them."""
+    """Whether the mass of beams is distributed between their ends, so that its inertia loads them."""
     given: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     """Measures of faults of matrices of other programs, by quantity and matrix, for `summary`."""
 
@@ -102,7 +102,7 @@ class FiniteElementModel(Summarised):
         Parameters
         ----------
         rotations : bool
-            Whether to return the rotations in place of the translations.
+            Whether to return the rotations instead of the translations.
 
         Returns
         -------
@@ -123,7 +123,7 @@ class FiniteElementModel(Summarised):
         return numbers
 
     def reference_freedoms(self, reference: Reference) -> np.ndarray:
-        """Six degrees of freedom that hold the model: those of one node, or six of three nodes of solid elements.
+        """Six degrees of freedom that hold the model: all of one node, or six of three nodes of solid elements.
 
         Of three nodes the first is held, and of the others the three translations that best resist rotations about it
         (rank-revealing QR).

@@ -14,12 +14,12 @@ from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.sparse_matrices import Sparse
 
-SYMMETRY = 1e-6  # share of the largest entry: round-off of matrices printed with seven digits
-GROUNDED = 1e-5  # force of a rigid motion over stiffness and size: above round-off, below a spring to the ground
+SYMMETRY = 1e-6  # fraction of the largest entry: round-off of matrices printed with seven digits
+GROUNDED = 1e-5  # force of a rigid motion / (stiffness size): above round-off, below a spring to the ground
 MECHANISM = 1e-13  # eigenvalue of the scaled stiffness, whose largest one is of order 1
 AXES = ("x", "y", "z")
 AXIS_WORDS = ("along x", "along y", "along z", "about x", "about y", "about z")
-MOST_NAMES = 5  # largest number of nodes in a message
+MAX_NAMES = 5  # largest number of nodes in a message
 
 
 def check_symmetric(matrix: Sparse, label: str) -> None:
@@ -42,7 +42,7 @@ def check_symmetric(matrix: Sparse, label: str) -> None:
 
 
 def asymmetry(matrix: Sparse) -> float:
-    """Largest difference of a matrix from its transpose over its largest entry."""
+    """Largest difference of a matrix from its transpose, relative to its largest entry."""
     differences = sp.coo_array(matrix - matrix.T).data
     return float(np.abs(differences).max(initial=0.0) / np.abs(sp.coo_array(matrix).data).max())
 
@@ -95,14 +95,14 @@ def check_free(model: FiniteElementModel) -> None:
         transverse_forces[model.dof[:, k], k] = 0.0
     if transverse_forces.max() > GROUNDED:
         raise ModelError(
-            f"{subject}, with forces {AXIS_WORDS[axis]} across the motion, which no support has: the freedoms are not "
-            "in the order of the nodes, or an entry is wrong."
+            f"{subject}, with forces {AXIS_WORDS[axis]} across the motion, which no support has: the degrees of "
+            "freedom are not in the order of the nodes, or an entry is wrong."
         )
     raise ModelError(f"{subject}: give the free model, without supports.")
 
 
 def _rigid_motion_forces(model: FiniteElementModel, x: np.ndarray, dof: np.ndarray) -> np.ndarray:
-    """Forces at unit rigid motions over the largest stiffness, shape (n_dof, 6), for node positions and freedoms."""
+    """Forces at unit rigid motions / largest stiffness, shape (n_dof, 6), for node positions and freedoms."""
     corrected = replace(model, positions=x, dof=dof)
     forces = np.asarray(np.abs(model.K @ corrected.rigid_motions(x.mean(axis=0))))
     forces[:, 3:] /= float(np.ptp(x, axis=0).max())
@@ -116,21 +116,21 @@ def _mistakes(model: FiniteElementModel) -> Iterator[tuple[str, np.ndarray, np.n
     if per_node:
         axis_major = dof.copy()
         axis_major[:, :per_node] = np.arange(per_node * n).reshape(per_node, n).T
-        yield "one axis after the other in place of node after node in the order of the freedoms", x, axis_major
+        yield "one axis after the other instead of node after node in the order of the freedoms", x, axis_major
     if per_node == 6:
         separated = np.hstack([np.arange(3 * n).reshape(n, 3), 3 * n + np.arange(3 * n).reshape(n, 3)])
-        yield "all translations before all rotations in place of node after node", x, separated
+        yield "all translations before all rotations instead of node after node", x, separated
         yield "rotations before translations of each node", x, dof[:, [3, 4, 5, 0, 1, 2]]
-        yield "mm in place of m in the places of the nodes", 1e-3 * x, dof
-        yield "N mm in place of N m in the stiffness", 1e3 * x, dof
+        yield "mm instead of m in the places of the nodes", 1e-3 * x, dof
+        yield "N mm instead of N m in the stiffness", 1e3 * x, dof
     numbers = [(len(name), name) if name.isdigit() else (0, name) for name in model.names]
     for text, node_order in (
         ("by their names", sorted(range(n), key=lambda k: numbers[k])),
         ("by their names as words", sorted(range(n), key=lambda k: model.names[k])),
         ("backwards", list(range(n))[::-1]),
     ):
-        yield f"nodes in the order of the matrices in place of {text}", x[np.argsort(node_order)], dof
-        yield f"nodes {text} in place of the order of the matrices", x[node_order], dof
+        yield f"nodes in the order of the matrices instead of {text}", x[np.argsort(node_order)], dof
+        yield f"nodes {text} instead of the order of the matrices", x[node_order], dof
     for order in permutations(range(3)):
         names = [f"{a} for {b}" for a, b in zip((AXES[k] for k in order), AXES, strict=True) if a != b]
         if names:
@@ -189,7 +189,7 @@ def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
         raise ModelError(f"Nothing resists the motion {AXIS_WORDS[axis]} of node {model.names[node]!r}.")
     scale = sp.csr_array(sp.diags(1 / np.sqrt(diagonal)))
     K = sp.csc_array(scale @ model.K[free][:, free] @ scale)
-    # the shift keeps the factorisation regular where the stiffness is not
+    # the shift keeps the factorisation regular if the stiffness is singular
     value, vector = eigsh(K, k=1, sigma=-1e-9, which="LM", v0=np.ones(free.size))
     if value[0] < MECHANISM:
         motion = np.zeros(model.n_dof)
@@ -203,4 +203,4 @@ def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
 
 
 def _node_list(model: FiniteElementModel, nodes: np.ndarray) -> str:
-    return f"{'node' if nodes.size == 1 else 'nodes'} {some_of((repr(model.names[i]) for i in nodes), MOST_NAMES)}"
+    return f"{'node' if nodes.size == 1 else 'nodes'} {some_of((repr(model.names[i]) for i in nodes), MAX_NAMES)}"

@@ -43,7 +43,7 @@ class Frame(BeamFrame):
         Warns
         -----
         FlexibleWarning
-            Mass or size are those of no body in SI units.
+            Mass or size are impossible in SI units.
         """
         rotary = flag(rotary, "The rotary inertia")
         n = len(self.positions)
@@ -72,6 +72,7 @@ class Frame(BeamFrame):
         return model
 
     def _beam_mass(self, kind: str, rotary: bool) -> MassPoints:
+        """Mass points of all beams; arguments as in `finite_element_model`."""
         positions, masses, rows, columns, values = [], [], [], [], []
         count = 0
         for e, beam in enumerate(self.beams):

@@ -48,7 +48,7 @@ def load_path_modes(
     """Body with the deformations under given loads and the inertia that balances them, and no others.
 
     Each load is put in balance by the inertia of the rigid motion it causes and the deformation is solved for in the
-    modes of `body` (give it the inertia modes: then the deformations are those of the full model). A singular value
+    modes of `body` (give it the inertia modes: then the deformations are as of the full model). A singular value
     decomposition in the energy norm orders the combinations of loads, and those with little energy are left out. The
     result is in modes of its own that are orthogonal in stiffness and mass.
 

@@ -12,7 +12,7 @@ from mbs.common.errors import ModelError
 
 @dataclass(frozen=True)
 class MassPoints:
-    """Point masses, isotropic in translation, whose displacements are linear in those of the nodes.
+    """Point masses, isotropic in translation, whose displacements are linear in the nodes'.
 
     With isotropy ``B' M_FEM B`` of the paper's equation (13) reduces to constant shape integrals, because A'A = I holds
     for each point. Points at the nodes give the lumped mass matrix; points at the Gauss stations of the

@@ -107,7 +107,7 @@ def external_model(
 
 
 def _rigid_inertia_error(M: Sparse, model: FiniteElementModel) -> float:
-    """Deviation of the inertia of rigid unit motions from that of a rigid body, relative to mass and size."""
+    """Deviation of the inertia of rigid unit motions from a rigid body's, relative to mass and size."""
     R = model.rigid_motions(model.positions.mean(axis=0))
     inertia = R.T @ (M @ R)
     totals, moments = inertia[:3, :3], inertia[:3, 3:]
@@ -166,7 +166,7 @@ def read_model(
     Raises
     ------
     ModelError
-        A file is missing or has another form, or the matrices are not those of a free model.
+        A file is missing or has another form, or the matrices do not describe a free model.
     """
     names, positions = [], []
     table = TextTable(nodes, ModelError, known=("x", "y", "z"))
@@ -180,7 +180,8 @@ def read_model(
 
 
 def _freedom_table(dof: ArrayLike | None, n: int, size: int) -> np.ndarray:
-    """Numbers of the degrees of freedom of each node, shape (n, 6), checked; -1 for none. `size`: of the matrices."""
+    """Numbers of the degrees of freedom of each node, shape (n, 6), checked; -1 for none. `size`: number of rows of the
+    matrices."""
     if dof is None:
         if size not in (3 * n, 6 * n):
             raise ModelError(f"The stiffness matrix has {size} rows; {n} nodes have {3 * n} or {6 * n} freedoms.")

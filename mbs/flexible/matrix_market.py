@@ -13,7 +13,7 @@ import scipy.sparse as sp
 from ali3.arrays import read_arrays
 from ali3.unpacked_size import Unpacked, check_memory
 from mbs.common.errors import ModelError
-from mbs.flexible.foreign_file import LARGEST
+from mbs.flexible.foreign_file import MAX_BYTES
 
 _SIGNS = {"general": 0.0, "symmetric": 1.0, "skew-symmetric": -1.0}
 _FIELDS = ("real", "double", "integer", "pattern")
@@ -23,7 +23,7 @@ _COPIES = 4
 
 def read_matrix_market(path: Path) -> sp.csc_array:
     """Read a real matrix; raise `ValueError` or `ModelError` if the file is damaged or complex."""
-    with io.TextIOWrapper(io.BufferedReader(Unpacked(path, LARGEST, ModelError, path.name)), "latin-1") as stream:
+    with io.TextIOWrapper(io.BufferedReader(Unpacked(path, MAX_BYTES, ModelError, path.name)), "latin-1") as stream:
         head = stream.readline().lower().split()
         if len(head) != 5 or head[:2] != ["%%matrixmarket", "matrix"]:
             raise ValueError("its first line is no %%MatrixMarket matrix")
@@ -45,7 +45,7 @@ def read_matrix_market(path: Path) -> sp.csc_array:
         width = 1 if form == "array" else 2 if field == "pattern" else 3
         table = np.loadtxt(stream, ndmin=2, comments="%", max_rows=count + 1) if count else np.zeros((0, width))
     if table.shape != (count, width):
-        raise ValueError(f"it has {table.shape[0]} lines of {table.shape[1]} numbers in place of {count} of {width}")
+        raise ValueError(f"it has {table.shape[0]} lines of {table.shape[1]} numbers instead of {count} of {width}")
     values = np.ones(count) if field == "pattern" else table[:, -1]
     if form == "coordinate":
         i, j = (_indices(table[:, k], n) for k, n in ((0, rows), (1, columns)))
@@ -73,7 +73,7 @@ def _indices(numbers: np.ndarray, size: int) -> np.ndarray:
 
 def read_sparse_arrays(path: Path) -> sp.csc_array:
     """Read a real matrix of SciPy's `save_npz`; raise `KeyError`, `ValueError` or `ModelError` if it is damaged."""
-    arrays = read_arrays(path, LARGEST, ModelError, path.name)
+    arrays = read_arrays(path, MAX_BYTES, ModelError, path.name)
     form, shape = str(arrays["format"].astype("U")), [int(n) for n in arrays["shape"].ravel()]
     if len(shape) != 2 or min(shape) < 0:
         raise ValueError(f"its shape is {shape}")

@@ -39,9 +39,9 @@ class ModalBody:
     node_translations: np.ndarray
     node_rotations: np.ndarray
     """`node_translations`, `node_rotations`, shape (n, 3, m): displacement and rotation of every node per unit
-    amplitude; zero rotations where a node has none."""
+    amplitude; zero rotations if a node has none."""
     modes: np.ndarray
-    """Shape (d, m): the same over the degrees of freedom of the finite-element model."""
+    """Shape (d, m): the same at the degrees of freedom of the finite-element model."""
     accelerations: np.ndarray | None = None
     """Shape (3 n, m): of the nodes, whose inertia loads the beams between their ends in each mode, m/s2; None: the body
     has no beams with mass along them."""

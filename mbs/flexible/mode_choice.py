@@ -24,7 +24,7 @@ class ModeChoice:
     modes: tuple[int, ...]
     """Numbers of the modes (0 is the lowest), ascending; for `craig_bampton`."""
     left_out: float
-    """Largest error of the output over the accelerations considered, as a fraction of its largest value."""
+    """Largest error of the output for the accelerations considered, as a fraction of its largest value."""
     frequencies: np.ndarray
     """Of the chosen modes, Hz."""
 
@@ -56,7 +56,7 @@ def modes_for_output(
     rows : ndarray or sparse array, shape (n_outputs, n_dof) or (n_outputs, n_dof + 3 n)
         Outputs per unit nodal displacement.
     tolerance : float
-        Fraction of each output's largest value over the six accelerations.
+        Fraction of each output's largest value for the six accelerations.
     candidates : int
         Lowest modes that are considered.
     frequency : float
@@ -79,7 +79,7 @@ def modes_for_output(
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(reference)))
     # angular accelerations are scaled by the size of the model, for comparison with linear ones
     load[:, 3:] /= float(np.ptp(model.positions, axis=0).max())
-    # outputs of the deformation only: those of the inertia along the beams do not depend on the choice
+    # outputs of the deformation only: outputs of the inertia along the beams do not depend on the choice
     rows = rows[:, : model.n_dof]
     exact = np.asarray(rows @ fixed.solve(load))
     scale = np.abs(exact).max(axis=1, keepdims=True)

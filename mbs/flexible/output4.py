@@ -15,22 +15,23 @@ from scipy.io import FortranEOFError, FortranFile
 from ali3.reading import open_file
 from ali3.unpacked_size import check_memory
 from mbs.common.errors import ModelError
-from mbs.flexible.foreign_file import LARGEST
+from mbs.flexible.foreign_file import MAX_BYTES
 
 Array = NDArray[np.float64]
 _BIGMAT_ROWS = 65536
-"""Rows from which on, as with a negative number of rows, a string has its row in a separate word (format BIGMAT)."""
+"""Rows at and above which, as with a negative number of rows, a string has its row in a separate word (format
+BIGMAT)."""
 
-_LONGEST_LINE = 1000
+_MAX_LINE_LENGTH = 1000
 
 
 def read_output4(path: Path) -> dict[str, sp.csc_array]:
     """Read all matrices of a file, by their names in capital letters; complex matrices stay complex.
 
     `path`: text, or binary with integers of 4 or 8 bytes in either order. Raises `ValueError`, `IndexError` or
-    `TypeError`: the file is damaged.
+    `TypeError` if the file is damaged.
     """
-    with open_file(path, LARGEST, ModelError, path.name) as file:
+    with open_file(path, MAX_BYTES, ModelError, path.name) as file:
         head = file.read(4)
         if len(head) < 4:
             raise ValueError("it is empty")
@@ -136,7 +137,7 @@ class _Text:
         self.kind = int(line[8:16])
         form = re.search(r"(\d+)[ED](\d+)\.", line[24:].upper())
         self._per_line, self._width = (int(form[1]), int(form[2])) if form else (5, 16)
-        if self._per_line * self._width > _LONGEST_LINE:
+        if self._per_line * self._width > _MAX_LINE_LENGTH:
             raise ValueError(f"a line has {self._per_line} numbers of {self._width} characters")
         return line[16:24].strip().upper(), columns, rows
 
@@ -146,7 +147,7 @@ class _Text:
     def integers(self, count: int) -> list[int]:
         integers = [int(n) for n in self._line().split()]
         if len(integers) != count:
-            raise ValueError(f"a line has {len(integers)} numbers in place of {count}")
+            raise ValueError(f"a line has {len(integers)} numbers instead of {count}")
         return integers
 
     def numbers(self, words: int, dense: bool) -> Array:

@@ -92,7 +92,7 @@ def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray
 
     Units: Pa per m and rad, and per m/s2.
 
-    `fibres`: points (y, z) of the section, m, shape (n_fibres, 2); by default those of `Section.fibres` (highest and
+    `fibres`: points (y, z) of the section, m, shape (n_fibres, 2); by default `Section.fibres` (highest and
     lowest first).
     """
     section = frame.beams[int(element)].section
@@ -116,7 +116,7 @@ class StrainGauge:
     xi: float = 0.5
     """Position along the beam, 0 at its start and 1 at its end."""
     fibre: tuple[float, float] | None = None
-    """Point (y, z) of the section where a gauge sits, m; by default the highest fibre. The second gauge of a
+    """Point (y, z) of the section at which a gauge sits, m; by default the highest fibre. The second gauge of a
     half-bridge sits on the opposite point."""
 
     def bending_moment(self, frame: BeamFrame) -> sp.csr_array:
@@ -127,7 +127,7 @@ class StrainGauge:
         return sp.csr_array(forces[[4]] * (z / size) - forces[[5]] * (y / size))
 
     def half_bridge(self, frame: BeamFrame) -> sp.csr_array:
-        """Stress of the fibre minus that of the opposite one, which axial force and torque do not change."""
+        """Stress of the fibre minus the stress of the opposite one, which axial force and torque do not change."""
         y, z = self._point(frame)
         both = fibre_stresses(frame, self.element, self.xi, np.array([(y, z), (-y, -z)]))
         return sp.csr_array(both[[0]] - both[[1]])
@@ -205,8 +205,8 @@ def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
 def peak_tube_stress(frame: BeamFrame, forces: np.ndarray) -> np.ndarray:
     """Largest absolute normal stress in each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
 
-    `forces`: of `section_force_field`, shape (12 n_elements,). Returns an array of shape (n_elements, 2): at the start
-    and at the end of each element.
+    `forces`: result of `section_force_field`, shape (12 n_elements,). Returns an array of shape (n_elements, 2): at the
+    start and at the end of each element.
     """
     f = np.asarray(forces).reshape(len(frame.beams), 2, 6)
     area = np.array([b.section.area for b in frame.beams])[:, None]

@@ -25,7 +25,7 @@ class ReducedBody(ModalBody, Summarised):
     frequencies: np.ndarray
     """Shape (m - n_static,): fixed-interface frequencies of the dynamic modes, Hz."""
     frame: BeamFrame | None = None
-    """Beams of the finite-element model, with its nodes; None where it was given as matrices."""
+    """Beams of the finite-element model, with its nodes; None if it was given as matrices."""
 
     def __str__(self) -> str:
         return self.summary()

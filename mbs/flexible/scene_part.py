@@ -15,7 +15,7 @@ from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import Section
 
 Array = NDArray[np.float64]
-MOST_POINTS = 4000
+MAX_POINTS = 4000
 """Largest number of nodes of a model without beams in a scene; of more nodes every second, third ... is taken."""
 
 
@@ -46,13 +46,13 @@ def flexible_parts(
     amplitudes : sequence of str
         One column of the recording per mode.
     axes : array_like, shape (3, 3), optional
-        Columns are the axes of the finite-element model in those of the scene's frame; by default they are the same.
+        Columns are the axes of the finite-element model in the axes of the scene's frame; by default they are the same.
     origin : array_like, shape (3,)
-        Origin of the floating frame in those of the scene's frame, m.
+        Origin of the floating frame in the axes of the scene's frame, m.
     start : array_like, shape (n_modes,), optional
         Amplitudes of a picture without a run, by default 0.
     computed : str
-        Column that is 0 where the amplitudes are not computed; by default they always are.
+        Column that is 0 if the amplitudes are not computed; by default they always are.
     full_scale : float, optional
         Stress at the end of the colour scale, Pa; by default the drawing program chooses it.
     gauges : sequence of mapping
@@ -105,7 +105,7 @@ def is_round(section: Section) -> bool:
 
 def _node_selection(count: int) -> tuple[NDArray[np.int64], dict[str, Any]]:
     """Nodes that are drawn of a model without beams, and a note about it."""
-    every = -(-count // MOST_POINTS)
+    every = -(-count // MAX_POINTS)
     note = f"one of {every} of the {count} nodes is drawn" if every > 1 else "nodes are drawn"
     return np.arange(0, count, every), {"note": f"a finite-element model without beams: {note}, stresses are not known"}
 

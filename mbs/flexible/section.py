@@ -15,16 +15,17 @@ class Section:
     """Constants of a cross-section in its principal axes y, z (x runs along the beam)."""
 
     area: float
-    """m2."""
+    """Area, m2."""
     Iy: float
+    """Second moment of area about y, m4, for bending in the x-z plane."""
     Iz: float
-    """`Iy`, `Iz`: second moments of area about y and z, m4: ``Iy`` is for bending in the x-z plane."""
+    """Second moment of area about z, m4, for bending in the x-y plane."""
     J: float
     """Torsion constant, m4."""
     shear_y: tuple[float, float, float, float]
+    """Coefficients ``(a, b, c, d)`` of the shear factor ``(a + b nu) / (c + d nu)`` along y (Cowper 1966)."""
     shear_z: tuple[float, float, float, float]
-    """`shear_y`, `shear_z`: coefficients ``(a, b, c, d)`` of the shear factor ``(a + b nu) / (c + d nu)`` along y and z
-    (Cowper 1966)."""
+    """Likewise along z."""
     fibres: tuple[tuple[float, float], ...]
     """Points (y, z) of the outline, m, at which stresses are computed; the first two are the highest and the lowest."""
 

@@ -90,7 +90,7 @@ class GridOfFiles(_Description):
 
 
 class Washboard(_Description):
-    """Sine waves across the road from x = start on; the first and the last one are lower."""
+    """Sine waves across the road from x = start; the first and the last one are lower."""
 
     kind: Literal["washboard"]
     start: Coordinate
@@ -111,7 +111,7 @@ class Washboard(_Description):
 
 
 class Rough(_Description):
-    """An isotropic uneven surface of a class of ISO 8608 from x = start on, level at both ends."""
+    """An isotropic uneven surface of a class of ISO 8608 from x = start, level at both ends."""
 
     kind: Literal["rough"]
     start: Coordinate
@@ -156,7 +156,7 @@ def _round_heights(heights: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray
 
 
 def described_road(path: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
-    """Read the road that a TOML file describes. Raises `RoadFileError`: the description is not valid."""
+    """Read the road that a TOML file describes. Raises `RoadFileError` if the description is not valid."""
     table = read_toml(path, RoadFileError)
     try:
         description = _ADAPTER.validate_python(table, strict=False)
@@ -215,7 +215,7 @@ def _read_heights(
     spacing: tuple[float, float] | None,
     mesh: dict[str, Any],
 ) -> GridRoad:
-    """Read the heights of a table, array or picture, or sample those of a mesh or an OpenCRG file."""
+    """Read the heights of a table, array or picture, or sample a mesh or an OpenCRG file."""
     kind = Path(heights).suffix.lower()
     if mesh and kind not in MESHES:
         raise RoadFileError(f"{heights} is not a mesh, which {next(iter(mesh))} is of; {', '.join(MESHES)} are.")

@@ -24,7 +24,7 @@ UNIT = re.compile(r"[\[(]\s*(?P<unit>[^\[\]()]*?)\s*[\])]$|(?:^|[\s_,;/\\])(?P<b
 """Unit in the first cell of a table: in brackets or parentheses, or alone at the end."""
 SPACING_TOLERANCE = 1e-6
 """Largest deviation of coordinates from a regular grid, relative to its spacing."""
-MOST_BYTES = 2**31
+MAX_BYTES = 2**31
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,9 @@ class Grid:
     values: NDArray[np.float64]
     """Shape (nx, ny)."""
     origin: tuple[float, float] | None = None
+    """x and y of the first point, m; None if the file has none."""
     spacing: tuple[float, float] | None = None
-    """`origin`, `spacing`: first point and spacing in x and y, m; None if the file has none."""
+    """Distances of the points in x and y, m; None if the file has none."""
     frictions: NDArray[np.float64] | None = None
     """Shape (nx, ny); None if the file has none."""
 
@@ -44,7 +45,7 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     """Read a grid from a file.
 
     `path`: ``.csv`` or ``.txt``, ``.npy``, ``.npz`` or ``.png``; `picture_range`: values of black and white in a
-    picture; `quantity`: "heights" or "frictions". Raises `RoadFileError`: the file cannot be read as a grid.
+    picture; `quantity`: "heights" or "frictions". Raises `RoadFileError` if the file cannot be read as a grid.
     """
     file = Path(path)
     kind = file.suffix.lower()
@@ -53,7 +54,7 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
             f"{path} is not read as {quantity} of a road; its suffix must be one of {', '.join(GRIDS)}."
         )
     try:
-        check_file(file, MOST_BYTES, RoadFileError)
+        check_file(file, MAX_BYTES, RoadFileError)
         if kind in TABLES:
             grid = _read_table(file)
         elif kind == PICTURE:
@@ -79,7 +80,7 @@ def _read_table(file: Path) -> Grid:
 
     A second table with coordinates has the frictions. `mbs/kernel/src/roads/road_table.c` reads the same format.
     """
-    table = TextTable(file, RoadFileError, headed=False, largest=MOST_BYTES)
+    table = TextTable(file, RoadFileError, headed=False, largest=MAX_BYTES)
     rows = list(table.rows())
     if len(rows) < 2:
         raise RoadFileError(f"{file} has {len(rows)} rows; a grid needs at least two.")
@@ -150,7 +151,7 @@ def _origin_and_spacing(values: NDArray[np.float64], name: str, path: object) ->
 
 def _read_arrays(file: Path, quantity: str) -> Grid:
     """Read a grid from a file of NumPy arrays."""
-    arrays = read_arrays(file, MOST_BYTES, RoadFileError)
+    arrays = read_arrays(file, MAX_BYTES, RoadFileError)
     if file.suffix.lower() == ".npy":
         return Grid(_as_floats(arrays[""], file))
     keys = {"heights", "frictions", "origin", "spacing"}
@@ -168,14 +169,14 @@ def _read_arrays(file: Path, quantity: str) -> Grid:
 
 
 def _as_floats(values: NDArray[np.generic], file: Path) -> NDArray[np.float64]:
-    """Convert real numbers to floats. Raises `RoadFileError`: they are of another type."""
+    """Convert real numbers to floats. Raises `RoadFileError` if they are of another type."""
     if values.dtype.kind not in "fiu":
         raise RoadFileError(f"{file} has values of type {values.dtype}; real numbers are needed.")
     return values.astype(float)
 
 
 def _as_pair(values: NDArray[np.float64], subject: str) -> tuple[float, float]:
-    """Numbers for x and y from an array of one or two. Raises `RoadFileError`: it has another shape."""
+    """Numbers for x and y from an array of one or two. Raises `RoadFileError` if it has another shape."""
     if values.shape not in ((2,), (1,), ()):
         raise RoadFileError(f"{subject} has shape {values.shape}; it is one number or two, of x and y.")
     first, *rest = np.atleast_1d(values).tolist()
@@ -192,7 +193,7 @@ def _read_picture(file: Path, picture_range: tuple[float, float] | None, quantit
         raise RoadFileError(f"{file} is a picture: say which {quantity} black and white mean, as in --range 0 0.25.")
     try:
         # from memory: Pillow then allocates nothing for a damaged length beyond the end
-        stream = io.BytesIO(read_bytes(file, MOST_BYTES, RoadFileError))
+        stream = io.BytesIO(read_bytes(file, MAX_BYTES, RoadFileError))
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)  # at 90 million pixels, 3 GB of memory
             image = Image.open(stream)

@@ -13,21 +13,21 @@ from scipy import ndimage
 from ali3.scene.mesh_file import MeshError, read_corners
 from mbs.elements.road import GridRoad
 from mbs.roads.road_header import RoadFileError
-from mbs.roads.sampled_road import SampledRoad, Values, cell_points, points_of_box, with_deviation
+from mbs.roads.sampled_road import SampledRoad, Values, cell_points, grid_over_box, measure_deviation
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.triangle_heights import triangle_heights
 
 DEFAULT_SPACING = 0.1, 0.1
 """Of the grid, m."""
-LEAST_PROJECTED_AREA = 0.5
+MIN_PROJECTED_AREA = 0.5
 """Least area of the mesh of a road projected on the ground, relative to its area."""
-LEAST_DIAGONAL = 1.0
+MIN_DIAGONAL = 1.0
 """Of the bounding box of a road seen from above, m."""
-LARGEST_HOLE = 100.0
+MAX_HOLE = 100.0
 """Area of a gap in a mesh up to which it is a hole, m2; a larger one is the infield of a closed road."""
-LEAST_OVERHANG = 1e-3
+MIN_OVERHANG = 1e-3
 """Least vertical distance of two surfaces that is an overhang, m."""
-LARGEST_PROJECTED_AREA = 3.0
+MAX_PROJECTED_AREA = 3.0
 """Of a mesh, relative to its bounding box: the time of the scan conversion grows with it."""
 _ONE_HEIGHT = "a road has one height at each place. Leave only the surface in the file that wheels roll on."
 _UNIT = 'for a file in millimetres write a description with kind = "grid", heights = "{}" and scale = 0.001'
@@ -70,7 +70,7 @@ def mesh_road(
     if (up or ("y" if Path(path).suffix.lower() in (".glb", ".gltf") else "z")) == "y":
         corners = np.stack([corners[..., 0], -corners[..., 2], corners[..., 1]], -1)
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-    if not np.hypot(*(high - low)[:2]) >= LEAST_DIAGONAL:
+    if not np.hypot(*(high - low)[:2]) >= MIN_DIAGONAL:
         raise RoadFileError(
             f"{source} is {np.hypot(*(high - low)[:2]):.3g} m across, which is not a road; `scale` in a description "
             "says how many metres its unit has."
@@ -78,17 +78,17 @@ def mesh_road(
     areas = _projected_areas(corners)
     _check_projected_area(corners, areas, source, name)
     area, box = float(areas.sum()), float((high - low)[:2].prod())
-    if area > LARGEST_PROJECTED_AREA * box:
+    if area > MAX_PROJECTED_AREA * box:
         raise RoadFileError(
             f"{source} has surfaces above one another, {area:.4g} m2 seen from above within {box:.4g} m2: {_ONE_HEIGHT}"
         )
-    x, y = points_of_box(
+    x, y = grid_over_box(
         low[:2], high[:2], spacing or DEFAULT_SPACING, source, f" The unit is taken as metre; {_UNIT.format(name)}."
     )
     road = GridRoad((float(x[0]), float(y[0])), (float(x[1] - x[0]), float(y[1] - y[0])), np.empty((len(x), len(y))))
     x_between, y_between = cell_points(road)
     lowest, highest = triangle_heights(corners, x_between, y_between)
-    if np.any(overhangs := highest - lowest > LEAST_OVERHANG):
+    if np.any(overhangs := highest - lowest > MIN_OVERHANG):
         i, j = np.argwhere(overhangs)[0].tolist()
         raise RoadFileError(
             f"{source} has surfaces above one another at x = {x_between[i]:.6g} m, y = {y_between[j]:.6g} m, of "
@@ -107,7 +107,7 @@ def mesh_road(
     rows = (
         (np.stack([np.full(len(y_between), x_k), y_between], -1), z) for x_k, z in zip(x_between, highest, strict=True)
     )
-    return with_deviation(road, chain(rows, [(vertices[:, :2], vertices[:, 2])]), source)
+    return measure_deviation(road, chain(rows, [(vertices[:, :2], vertices[:, 2])]), source)
 
 
 def _projected_areas(corners: Values) -> Values:
@@ -126,17 +126,17 @@ def _spacing_of_widest_triangle(corners: Values, areas: Values) -> float:
 def _check_projected_area(corners: Values, areas: Values, source: str, name: str) -> None:
     """Raise `RoadFileError` if the projected area of a mesh is small, as of one whose y axis points up."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    share = 2.0 * float(areas.sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
-    if share < LEAST_PROJECTED_AREA:
+    fraction = 2.0 * float(areas.sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
+    if fraction < MIN_PROJECTED_AREA:
         raise RoadFileError(
-            f"{source} shows only {100.0 * share:.2g} % of its area from above, a road more than "
-            f"{100.0 * LEAST_PROJECTED_AREA:g} %; "
+            f"{source} shows only {100.0 * fraction:.2g} % of its area from above, a road more than "
+            f"{100.0 * MIN_PROJECTED_AREA:g} %; "
             f'if its y axis points up, write a description with kind = "grid", heights = "{name}" and up = "y".'
         )
 
 
 def _fill_gaps(heights: Values, road: GridRoad, source: str) -> Values:
-    """Fill missing heights with those of the nearest grid points on the mesh.
+    """Fill missing heights from the nearest grid points on the mesh.
 
     Raises `RoadFileError` for a small gap inside the mesh, warns of a large one and of separate pieces.
     """
@@ -148,7 +148,7 @@ def _fill_gaps(heights: Values, road: GridRoad, source: str) -> Values:
     for region in np.setdiff1d(np.arange(1, count + 1), outside):
         i, j = np.argwhere(regions == region)[0].tolist()
         gap = f"a gap of {areas[region]:.3g} m2 at x = {x0 + i * dx:.6g} m, y = {y0 + j * dy:.6g} m"
-        if areas[region] < LARGEST_HOLE:
+        if areas[region] < MAX_HOLE:
             raise RoadFileError(f"{source} has {gap} in its surface, with no triangle above or below; close the hole.")
         warning = f"{source} has {gap}; it is taken as what the road goes round and filled from its border."
         warnings.warn(warning, RoadWarning, stacklevel=4)

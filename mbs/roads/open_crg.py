@@ -20,35 +20,37 @@ from ali3.reading import check_file
 from mbs.elements.road import GridRoad
 from mbs.kernel.header.limits import ROAD_HIGHEST
 from mbs.roads.road_header import RoadFileError
-from mbs.roads.sampled_road import SampledRoad, Values, grid_heights, points_of_box, with_deviation
+from mbs.roads.sampled_road import SampledRoad, Values, grid_heights, grid_over_box, measure_deviation
 from mbs.roads.steep_faces import RoadWarning
 
 if TYPE_CHECKING:
     import pyopencrg
 
-MOST_BYTES = 2**31
+MAX_BYTES = 2**31
 BATCH_SIZE = 2**18  # points that are evaluated at once
 COARSE_STEP = 16  # grid points between which heights beside the road are interpolated
-SAMPLES_PER_SPACING, MOST_SUBDIVISIONS = 3.0, 12  # of a comparison: on the least grid spacing, between two points
-MOST_SAMPLES = 2**24
+SAMPLES_PER_SPACING = 3.0  # points of a comparison per smallest spacing of the grid
+MAX_SUBDIVISIONS = 12  # points of a comparison between two points of the road
+MAX_SAMPLES = 2**24  # points of a comparison
 CANDIDATES = 64  # points of each batch with the largest differences, around which the maximum is sought
 REFINEMENTS = 4  # each with a fourth of the steps before
 HEADING_TOLERANCE = 1e-9  # rad: a straight reference line with a smaller heading lies along x
+MAX_COORDINATE = 1e7  # m
 
 
 def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) -> SampledRoad:
     """Sample the heights of an OpenCRG road on a grid.
 
-    The modifiers of the file are applied, by default those of the standard: missing heights are taken from the
+    The modifiers of the file are applied, by default as in the standard: missing heights are taken from the
     neighbours in the same cross section, and the reference line begins at the origin along x. Beyond the border the
     heights at the border continue.
 
-    `path`: ``.crg``, in any form of the standard; `spacing`: of the grid, m; by default that of the file if the road is
-    straight along x, else the smaller of its two. Raises `RoadFileError`: the file is not OpenCRG, is damaged, has
-    holes, or needs too many points. Warns `RoadWarning`: a warning of the reader of the format.
+    `path`: ``.crg``, in any form of the standard; `spacing`: spacing of the grid, m; by default the file's if the road
+    is straight along x, otherwise the smaller of its two. Raises `RoadFileError` if the file is not OpenCRG, is
+    damaged, has holes, or needs too many points. Warns `RoadWarning`: a warning of the reader of the format.
     """
     source = os.fspath(path)
-    check_file(Path(path), MOST_BYTES, RoadFileError)
+    check_file(Path(path), MAX_BYTES, RoadFileError)
     crg = _read(source)
     _check_surface(crg, source)
     edges = np.concatenate([np.stack(crg.uv_to_xy(crg.u, np.full(crg.nu, v)), -1) for v in (crg.v[0], crg.v[-1])])
@@ -56,23 +58,23 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
     if spacing is None:
         along_x = crg.is_straight and abs(crg.phi_start) < HEADING_TOLERANCE
         spacing = (crg.u_inc, v_spacing) if along_x else (min(crg.u_inc, v_spacing),) * 2
-    x, y = points_of_box(edges.min(axis=0), edges.max(axis=0), spacing, source)
+    x, y = grid_over_box(edges.min(axis=0), edges.max(axis=0), spacing, source)
     spacing = float(x[1] - x[0]), float(y[1] - y[0])
     grid = GridRoad((float(x[0]), float(y[0])), spacing, _heights_on_grid(crg, x, y))
     worst_positions = list[Values]()
-    road = with_deviation(grid, _surface_samples(crg, grid, worst_positions), source)
+    road = measure_deviation(grid, _surface_samples(crg, grid, worst_positions), source)
     largest, place = _largest_deviation(crg, grid, np.concatenate(worst_positions), road.largest, road.place)
     return replace(road, largest=largest, place=place)
 
 
 def _heights(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights at points x, y, m; outside the road those at its border."""
+    """Heights at points x, y, m; outside the road the heights at its border."""
     u, v = crg.xy_to_uv(x, y)
     return np.asarray(crg.uv_to_z(np.clip(u, crg.u[0], crg.u[-1]), np.clip(v, crg.v[0], crg.v[-1])))
 
 
 def _heights_on_grid(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights of an OpenCRG road on a grid: at each point near the road, elsewhere at every 16th and linear in between.
+    """Heights of an OpenCRG road on a grid: at each point near the road, elsewhere at every 16th, linear in between.
 
     The station of a point takes a microsecond, and most of the bounding box of a long road lies beside it.
     """
@@ -102,9 +104,9 @@ def _surface_samples(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]
     """
     intervals = [float(crg.u_inc), float(np.diff(crg.v).max())]
     subdivisions = [
-        min(max(math.ceil(SAMPLES_PER_SPACING * d / min(road.spacing)), 3), MOST_SUBDIVISIONS) for d in intervals
+        min(max(math.ceil(SAMPLES_PER_SPACING * d / min(road.spacing)), 3), MAX_SUBDIVISIONS) for d in intervals
     ]
-    while math.prod(subdivisions) > 1 and crg.nu * crg.nv * math.prod(subdivisions) > MOST_SAMPLES:
+    while math.prod(subdivisions) > 1 and crg.nu * crg.nv * math.prod(subdivisions) > MAX_SAMPLES:
         subdivisions[subdivisions.index(max(subdivisions))] -= 1
     u, v = (
         np.interp((np.arange((len(a) - 1) * n) + 0.5) / n, np.arange(len(a)), a)
@@ -121,7 +123,7 @@ def _surface_samples(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]
 def _largest_deviation(
     crg: pyopencrg.CrgRoad, road: GridRoad, uv: Values, largest: float, place: tuple[float, float]
 ) -> tuple[float, tuple[float, float]]:
-    """Largest deviation of a grid near points u, v (k, 2), and its x and y, m; `largest`, `place` if none is larger."""
+    """Largest deviation of a grid near points u, v (k, 2), and its x and y, m, or `largest` and `place`."""
     half_steps = np.array([crg.u_inc, float(np.diff(crg.v).max())]) / 2.0
     offsets = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), -1).reshape(-1, 2)
     for _ in range(REFINEMENTS):
@@ -143,7 +145,7 @@ def _surface(crg: pyopencrg.CrgRoad, uv: Values) -> tuple[Values, Values]:
 
 
 def _read(source: str) -> pyopencrg.CrgRoad:
-    """Read an OpenCRG file with its modifiers. Raises `RoadFileError`: it cannot be read."""
+    """Read an OpenCRG file with its modifiers. Raises `RoadFileError` if it cannot be read."""
     try:
         import pyopencrg
 
@@ -170,7 +172,7 @@ def _first_fault(message: object, source: str) -> str:
 def _check_surface(crg: pyopencrg.CrgRoad, source: str) -> None:
     """Raise `RoadFileError` if the road has no points, holes or heights beyond the limits."""
     numbers = np.concatenate([np.ravel(a) for a in (crg.u, crg.v, crg.x, crg.y)])
-    if min(crg.shape) < 2 or not np.all(np.abs(numbers) < 1e7):
+    if min(crg.shape) < 2 or not np.all(np.abs(numbers) < MAX_COORDINATE):
         raise RoadFileError(f"{source} is not a road: its points, {crg.nu} x {crg.nv}, do not lie within 10 000 km.")
     if np.any(too_high := np.abs(crg.surface_z()) > ROAD_HIGHEST):
         i, j = np.argwhere(too_high)[0].tolist()

@@ -11,7 +11,7 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 HALF_LENGTH = 20.0
 """Drawn length to each side of the origin of a plane or of a kerb, m."""
 LABEL = {"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 0.5}
-MOST_POINTS = 2000
+MAX_POINTS = 2000
 """Largest number of drawn points along a side of a grid."""
 
 
@@ -54,7 +54,7 @@ def drawn_values(
     if isinstance(road, GridRoad):
         heights = np.asarray(road.heights, float)
         frictions = np.broadcast_to(np.asarray(road.frictions, float) * road.friction_factor, heights.shape)
-        strides = tuple(slice(None, None, -(-n // MOST_POINTS)) for n in heights.shape)
+        strides = tuple(slice(None, None, -(-n // MAX_POINTS)) for n in heights.shape)
         x, y = (
             np.asarray(road.origin[k] + road.spacing[k] * np.arange(heights.shape[k]), np.float64) for k in range(2)
         )

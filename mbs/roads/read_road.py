@@ -26,14 +26,14 @@ def read_road(
     ----------
     path : path
         ``.road``; ``.toml``; or heights: ``.csv`` or ``.txt`` (a row for each x, a column for each y; with coordinates
-        in the first row and column where the first cell is not a number), ``.npy`` (``heights[i, j]`` at x number i and
+        in the first row and column if the first cell is not a number), ``.npy`` (``heights[i, j]`` at x number i and
         y number j), ``.npz`` (arrays `heights`, optionally `frictions`, `origin`, `spacing`), ``.png`` (8 or 16
         bits of grey, seen from above with x to the right and y up), ``.crg`` (OpenCRG), or a mesh of triangles
         (``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb``, ``.gltf``).
     frictions : path or float, optional
-        Of a grid: a second file of the same shape, or one coefficient; by default what the file says, else 0.9.
+        Of a grid: a second file of the same shape, or one coefficient; by default what the file says, otherwise 0.9.
     origin : (float, float), optional
-        Of a grid: x and y of its first point, m; by default what the file says, else 0.
+        Of a grid: x and y of its first point, m; by default what the file says, otherwise 0.
     spacing : (float, float), optional
         Of a grid: distances of its points in x and y, m; by default what the file says, of a mesh 0.1.
     height_range, friction_range : (float, float), optional

@@ -23,7 +23,7 @@ from mbs.roads.shared_tiles import read_shared
 
 TABLE_SUFFIXES = (".csv", ".txt")
 """Of tables that the kernel reads."""
-MOST_POINTS = 10**8
+MAX_POINTS = 10**8
 """Largest number of points of a grid that is read as a whole."""
 
 
@@ -37,7 +37,7 @@ class RoadFile(RoadOfFile):
     path: str | os.PathLike[str]
     """The file; `Model.road` takes it relative to the current folder."""
     road: PlaneRoad | KerbRoad | GridRoad = field(default_factory=PlaneRoad)
-    """The road in the file's place while the equilibrium of a model is sought, and where the file is taken away. Its
+    """The road in the file's place while the equilibrium of a model is sought, and if the file is taken away. Its
     friction factor multiplies the frictions of the file."""
 
     def __post_init__(self) -> None:
@@ -51,7 +51,7 @@ class RoadFile(RoadOfFile):
         Raises
         ------
         RoadFileError
-            The file is not there, no road file, or damaged.
+            The file is missing, not a road file, or damaged.
         """
         with _open(self.path) as file:
             return read_header(file, self.path)
@@ -84,7 +84,7 @@ class RoadFile(RoadOfFile):
             if head.kind == RoadType.KERB:
                 position, lower, step, side, friction = head.real[:5]
                 return KerbRoad(position, step, lower, "before" if side > 0.0 else "after", friction)
-            if head.nx * head.ny > MOST_POINTS:
+            if head.nx * head.ny > MAX_POINTS:
                 raise RoadFileError(f"{self.path} has {head.nx} x {head.ny} points, too many to be read as a whole.")
             heights, frictions = _read_grid(file, head, self.path)
         return GridRoad(head.real[0:2], head.real[2:4], heights, head.real[4] if frictions is None else frictions)
@@ -95,7 +95,7 @@ def _open(path: str | os.PathLike[str]) -> BinaryIO:
 
 
 def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Heights and frictions of a grid (nx, ny) from the tiles of a file; `name`: of the file, for messages."""
+    """Heights and frictions of a grid (nx, ny) from the tiles of a file; `name`: name of the file, for messages."""
     tiles_x, tiles_y = head.tiles
     values = np.empty((head.maps, tiles_x * ROAD_TILE, tiles_y * ROAD_TILE))
     checksums = []

@@ -41,8 +41,9 @@ class Header:
 
     kind: RoadType
     nx: int
+    """Points of the grid along x, 0 without a grid."""
     ny: int
-    """`nx`, `ny`: points of the grid, 0 without one."""
+    """Points of the grid along y, 0 without a grid."""
     maps: int
     """1: heights, 2: heights and frictions."""
     real: tuple[float, ...]
@@ -72,7 +73,7 @@ class Header:
         return HEADER.size + self.tiles[0] * self.tiles[1] * self.tile_bytes
 
     def to_bytes(self) -> bytes:
-        """Bytes of the header in a file. Raises `RoadFileError`: a number is not valid."""
+        """Bytes of the header in a file. Raises `RoadFileError` if a number is not valid."""
         fields = (self.file_bytes, int(self.kind), self.contents, self.nx, self.ny)
         tile = (ROAD_TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
         if fault := _fault(int(self.kind), self.nx, self.ny, *tile, self.real):
@@ -83,7 +84,7 @@ class Header:
 
 
 def read_header(file: BinaryIO, name: object) -> Header:
-    """Read and check the header of an open road file. `name`: of the file, for messages."""
+    """Read and check the header of an open road file. `name`: name of the file, for messages."""
     data = file.read(HEADER.size)
     if data[: len(MAGIC)] != MAGIC:
         raise RoadFileError(f"{name} is not a road file; ali3 road INPUT OUTPUT.road makes one.")

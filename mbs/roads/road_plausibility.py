@@ -15,15 +15,15 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import TABLE_SUFFIXES, RoadFile
 
-LEAST_LEVELS = 5
+MIN_LEVELS = 5
 """Least number of different heights from which the step of a number type is inferred."""
-MOST_LEVELS = 4096
+MAX_LEVELS = 4096
 """Largest number of different heights for which it is inferred."""
 SLOPE_QUANTILE = 0.9
 """Quantile of the slopes that is compared: it excludes kerbs and steps."""
 STEP_MANTISSAS = (1.0, 2.0, 2.5, 5.0)
 """Of steps of number types."""
-MOST_POINTS = 4e6
+MAX_POINTS = 4e6
 """Most points of a file that is read as a whole; of a larger one only the position is compared."""
 UNITS = {1e-3: "mm", 1e-2: "cm", 0.0254: "inches", 0.3048: "feet", 1e3: "km"}
 """Units that are mistaken for metres, by their length in m."""
@@ -63,7 +63,7 @@ class Place:
         return replace(self, origin=origin, spacing=spacing)
 
 
-def place_of(road: GridRoad) -> Place:
+def grid_location(road: GridRoad) -> Place:
     """Location of a grid road."""
     origin, spacing = (tuple(map(float, pair)) for pair in (road.origin, road.spacing))
     return Place(origin, spacing, np.shape(road.heights))
@@ -73,7 +73,7 @@ def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: S
     """Plausibility of a road. `what`: name of the file; `start`: x and y of the start of a drive, m."""
     if not isinstance(road, GridRoad):
         return Plausibility(what, _plain_values(road), title=TITLE)
-    place, z = place_of(road), np.asarray(road.heights, float)
+    place, z = grid_location(road), np.asarray(road.heights, float)
     mistakes, values = [], road_values(road, place, z, start)
     usual = any(v.quantity is QUANTITIES["slope"] and v.mended() for v in values)
     for factor, unit in UNITS.items():
@@ -84,13 +84,13 @@ def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: S
             ("coordinates and heights", KEYS | HEIGHTS, scaled, factor),
         ):
             if not (usual and keys is HEIGHTS):  # a single steep spot has another cause
-                text = f"{unit} in place of m in {subject}"
+                text = f"{unit} instead of m in {subject}"
                 mistakes.append(Mistake(text, keys, partial(road_values, road, position, z, start, height_factor)))
     if (missing := far_values(z)).any():
         filled = partial(road_values, road, place, filled_up(z, missing), start)
         mistakes.append(Mistake(f"{z[missing][0]:g} in the place of no value in heights", HEIGHTS, filled))
     as_ratios = partial(road_values, road, place, z, start, friction_factor=0.01)
-    mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), as_ratios))
+    mistakes.append(Mistake("percent instead of a ratio in frictions", frozenset({"frictions"}), as_ratios))
     if start is not None:
         mistakes += start_mistakes(place, start)
     return Plausibility(what, values, mistakes, title=TITLE)
@@ -100,7 +100,7 @@ def start_plausibility(what: str, place: Place, start: Start) -> Plausibility:
     """Plausibility of the position of a grid alone. `start`: x and y where a drive begins, m."""
     mistakes, small = start_mistakes(place, start), place.scaled(1e-3)
     if min(small.extent) > 1.0:
-        mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_position_values, small, start)))
+        mistakes.insert(0, Mistake("mm instead of m in coordinates", KEYS, partial(_position_values, small, start)))
     return Plausibility(what, _position_values(place, start), mistakes, title=TITLE)
 
 
@@ -174,20 +174,20 @@ def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
     ]
 
 
-def _friction_values(least: float, largest: float, factor: float) -> list[Value]:
+def _friction_values(minimum: float, maximum: float, factor: float) -> list[Value]:
     """Values of the least and the largest friction of a road."""
-    keys = {"frictions": [least, largest], "friction_factor": factor}
-    return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", least), ("largest", largest))]
+    keys = {"frictions": [minimum, maximum], "friction_factor": factor}
+    return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", minimum), ("largest", maximum))]
 
 
 def height_step(z: np.ndarray) -> float:
     """Step of which all heights are multiples, m; 0 if there is none, or if too few different heights show it."""
     levels = np.unique(z)
-    if not LEAST_LEVELS <= len(levels) <= MOST_LEVELS:
+    if not MIN_LEVELS <= len(levels) <= MAX_LEVELS:
         return 0.0
     gaps = np.diff(levels)
     steps = gaps / gaps.min()
-    # the few levels of a designed road have any distances; those of a coarse number type are mostly one step apart
+    # the few levels of a designed road have any distances; levels of a coarse number type are mostly one step apart
     integer_multiples = bool(np.all(np.abs(steps - np.round(steps)) < 1e-3 * np.round(steps)))
     step = float(gaps.min())
     mantissa = np.round(step / 10.0 ** np.floor(np.log10(step * (1.0 + 1e-6))), 3)
@@ -195,7 +195,7 @@ def height_step(z: np.ndarray) -> float:
 
 
 def filled_up(z: np.ndarray, missing: np.ndarray) -> np.ndarray:
-    """Heights with those of the nearest point where `missing` is true."""
+    """Heights with the height of the nearest point where `missing` is true."""
     nearest = distance_transform_edt(missing, return_distances=False, return_indices=True)
     return np.asarray(z[tuple(nearest)])
 
@@ -208,18 +208,18 @@ def _plausibility_of_road(road: PlaneRoad | KerbRoad | GridRoad) -> list[Plausib
 
 
 @plausibility_of.register
-def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POINTS) -> list[Plausibility]:
+def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), max_points: float = MAX_POINTS) -> list[Plausibility]:
     """Plausibility of a road file, and of a start of a drive on it.
 
-    `start`: x and y, m; `most`: number of points above which only the position is compared.
+    `start`: x and y, m; `max_points`: number of points above which only the position is compared.
     """
     table = read_road(road.path) if _is_text(road) else None
     place = None
     if table is None:
         place = _place_of_header(road)
     elif isinstance(table, GridRoad):
-        place = place_of(table)
-    if place is not None and math.prod(place.shape) > most:
+        place = grid_location(table)
+    if place is not None and math.prod(place.shape) > max_points:
         return [start_plausibility(str(road.path), place, start)]
     return [road_plausibility(str(road.path), road.read() if table is None else table, start)]
 
@@ -247,4 +247,4 @@ def _place_of_header(road: RoadFile) -> Place | None:
 def _place_of_table(file: Path, changed: int) -> Place | None:
     """Location of the grid of a table. `changed`: time of the last change of the file, part of the key of the cache."""
     road = read_road(file)
-    return place_of(road) if isinstance(road, GridRoad) else None
+    return grid_location(road) if isinstance(road, GridRoad) else None

@@ -16,7 +16,7 @@ from mbs.roads.road_header import RoadFileError
 from mbs.roads.steep_faces import RoadWarning
 
 Values = NDArray[np.float64]
-MOST_POINTS = 2**24
+MAX_POINTS = 2**24
 """Largest number of points of a grid: 134 MB of heights."""
 WARNING_DEVIATION = 0.01
 """Deviation above which a warning is given, m."""
@@ -26,7 +26,7 @@ CELL_POINT = 0.382, 0.618
 
 @dataclass(frozen=True)
 class SampledRoad(GridRoad):
-    """A grid sampled from another surface, with its deviation between the grid points and at points of the surface."""
+    """A grid sampled from another surface, with its deviation from that surface."""
 
     source: str = ""
     """Name of the other surface, for messages."""
@@ -39,7 +39,7 @@ class SampledRoad(GridRoad):
 
     @property
     def sentence(self) -> str:
-        """Deviation of the samples from the source, as the end of a sentence."""
+        """Deviation from the source, such as "differs from a.obj by 3 mm at most, ..."."""
         return (
             f"differs from {self.source} by {1000.0 * self.largest:.3g} mm at most, at x = {self.place[0]:.6g} m, "
             f"y = {self.place[1]:.6g} m, and by {1000.0 * self.rms:.3g} mm (root mean square)"
@@ -51,22 +51,23 @@ class SampledRoad(GridRoad):
         return replace(self, origin=origin, place=(x, y))
 
 
-def points_of_box(
-    low: Values, high: Values, spacing: tuple[float, float], source: str, more: str = ""
+def grid_over_box(
+    low: Values, high: Values, spacing: tuple[float, float], source: str, hint: str = ""
 ) -> tuple[Values, Values]:
     """Coordinates x (nx,) and y (ny,), m, of a grid over a box, at most `spacing` apart.
 
-    `low`, `high`: x and y of the corners of the box, m; `source`: name of the surface, for messages; `more`: end of the
-    message. Raises `RoadFileError`: the grid has too many points.
+    `low`, `high`: x and y of the corners of the box, m; `source`: name of the surface, for messages; `hint`: further
+    sentence of the message. Raises `RoadFileError` if the grid has too many points.
     """
     sides = high - low
+    # a side that is a multiple of the spacing but for round-off needs no further point
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
-    if not counts.prod() <= MOST_POINTS:
-        coarser = max(spacing) * float(np.sqrt(counts.prod() / MOST_POINTS)) * 1.05
+    if not counts.prod() <= MAX_POINTS:  # also refuses NaN
+        coarser = max(spacing) * float(np.sqrt(counts.prod() / MAX_POINTS)) * 1.05  # 5 % margin
         raise RoadFileError(
             f"{source} is {sides[0]:.4g} by {sides[1]:.4g} m, which at a spacing of {spacing[0]:g} by {spacing[1]:g} m "
-            f"is a grid of {counts.prod():.3g} points; {MOST_POINTS} are read at most. A spacing of {coarser:.2g} m by "
-            f"{coarser:.2g} m fits.{more}"
+            f"is a grid of {counts.prod():.3g} points; {MAX_POINTS} are read at most. A spacing of {coarser:.2g} m by "
+            f"{coarser:.2g} m fits.{hint}"
         )
     x, y = (low[k] + sides[k] / (counts[k] - 1.0) * np.arange(int(counts[k])) for k in range(2))
     return x, y
@@ -79,22 +80,35 @@ def cell_points(road: GridRoad) -> tuple[Values, Values]:
     return x, y
 
 
-def with_deviation(road: GridRoad, samples: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
+def measure_deviation(road: GridRoad, samples: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
     """Make a road with its deviation from the surface that it was sampled from.
 
-    `samples`: x and y (n, 2) and heights (n,) of the surface, m; NaN where it has none.
+    `samples`: x and y (n, 2) and heights (n,) of the surface, m; NaN if it has none.
     """
     heights = np.ascontiguousarray(road.heights, np.float64)
-    largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0
+    largest = 0.0
+    place = float(road.origin[0]), float(road.origin[1])
+    sum_of_squares = 0.0
+    count = 0
     for positions, surface_heights in samples:
         deviations = np.abs(grid_heights(road, heights, positions) - surface_heights)
         deviations = np.where(np.isnan(deviations), 0.0, deviations)
         k = int(deviations.argmax())
         if deviations[k] > largest:
-            largest, place = float(deviations[k]), (float(positions[k, 0]), float(positions[k, 1]))
-        squares, count = squares + float(deviations @ deviations), count + int(np.isfinite(surface_heights).sum())
-    rms = float(np.sqrt(squares / max(count, 1)))
-    return SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
+            largest = float(deviations[k])
+            place = float(positions[k, 0]), float(positions[k, 1])
+        sum_of_squares += float(deviations @ deviations)
+        count += int(np.isfinite(surface_heights).sum())
+    return SampledRoad(
+        road.origin,
+        road.spacing,
+        heights,
+        road.frictions,
+        source=source,
+        largest=largest,
+        rms=float(np.sqrt(sum_of_squares / max(count, 1))),
+        place=place,
+    )
 
 
 def warn_of_deviation(road: SampledRoad) -> None:
@@ -104,18 +118,22 @@ def warn_of_deviation(road: SampledRoad) -> None:
         warnings.warn(
             f"The grid with points {step} m apart {road.sentence}; a smaller spacing follows it more closely.",
             RoadWarning,
-            stacklevel=4,
+            stacklevel=4,  # the caller of `read_road`
         )
 
 
 def grid_heights(road: GridRoad, heights: Values, positions: Values) -> Values:
     """Heights (n,) of the surface of a grid, m, as the kernel computes them.
 
-    `heights`: those of the road, contiguous, (nx, ny), m; `positions`: x and y, (n, 2), m.
+    `heights`: heights of the road, contiguous, (nx, ny), m; `positions`: x and y, (n, 2), m.
     """
     interpolated_heights = np.empty(len(positions))
     grid = np.array((*road.origin, *road.spacing), np.float64)
     points = np.ascontiguousarray(positions, np.float64)
-    pointers = [a.ctypes.data_as(POINTER(c_double)) for a in (grid, heights, points, interpolated_heights)]
-    load_library().ali3_grid_heights(*heights.shape, *pointers[:2], len(positions), *pointers[2:])
+    grid_pointer, heights_pointer, points_pointer, result_pointer = (
+        a.ctypes.data_as(POINTER(c_double)) for a in (grid, heights, points, interpolated_heights)
+    )
+    load_library().ali3_grid_heights(
+        *heights.shape, grid_pointer, heights_pointer, len(positions), points_pointer, result_pointer
+    )
     return interpolated_heights

@@ -16,11 +16,11 @@ from mbs.roads.road_file import RoadFile
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.shared_tiles import read_shared
 
-MOST_READ_POINTS = 4_000_000
+MAX_READ_POINTS = 4_000_000
 """Largest number of points of a road file that are read to draw it."""
-MOST_DRAWN_POINTS = 400
+MAX_DRAWN_POINTS = 400
 """Largest number along a side of a drawn grid; a larger grid is thinned."""
-LEAST_HALF_WIDTH = 10.0  # m, of a drawn level grid with several frictions: those at its border continue
+MIN_HALF_WIDTH = 10.0  # m, of a drawn level grid with several frictions: those at its border continue
 KERB_LENGTH = 1e-3  # m, of the drawn step of a kerb
 
 
@@ -43,7 +43,7 @@ def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoa
     """Read a road file; of a large grid with shared tiles only every n-th point in x and y."""
     road_file = RoadFile(file)
     head = road_file.header
-    stride = max(1, math.isqrt(head.nx * head.ny // MOST_READ_POINTS))
+    stride = max(1, math.isqrt(head.nx * head.ny // MAX_READ_POINTS))
     if head.version != ROAD_SHARED or stride == 1:
         return road_file.read()
     x, y = np.arange(0, head.nx, stride), np.arange(0, head.ny, stride)
@@ -58,9 +58,9 @@ def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoa
 
 
 def drawn_roads(roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Roads of a scene, with the content of files in place of their paths, which are paths of this machine.
+    """Roads of a scene, with the content of files instead of their paths, which are paths of this machine.
 
-    Raises `RoadFileError`: a file cannot be read.
+    Raises `RoadFileError` if a file cannot be read.
     """
     return [
         scene_part(read_road(road["path"])) if road["kind"] == "file" and road.get("path") else dict(road)
@@ -96,11 +96,11 @@ def _grid_entry(road: GridRoad) -> dict[str, Any]:
     frictions = np.broadcast_to(np.asarray(road.frictions, float), heights.shape)
     origin = np.array(road.origin, float)
     if heights.min() == heights.max() and frictions.min() != frictions.max():
-        shortfall = LEAST_HALF_WIDTH - 0.5 * (np.array(heights.shape) - 1) * road.spacing
+        shortfall = MIN_HALF_WIDTH - 0.5 * (np.array(heights.shape) - 1) * road.spacing
         padding = np.maximum(np.ceil(shortfall / road.spacing), 0).astype(int)
         heights, frictions = (np.pad(values, [(n, n) for n in padding], mode="edge") for values in (heights, frictions))
         origin -= padding * np.array(road.spacing, float)
-    strides = [max(1, -(-(n - 1) // (MOST_DRAWN_POINTS - 1))) for n in heights.shape]
+    strides = [max(1, -(-(n - 1) // (MAX_DRAWN_POINTS - 1))) for n in heights.shape]
     slices = tuple(slice(None, None, k) for k in strides)
     grid = heights[slices]
     entry: dict[str, Any] = {

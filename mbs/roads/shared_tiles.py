@@ -15,10 +15,10 @@ from mbs.roads.road_header import HEADER, Header, RoadFileError, check_grid
 
 ENTRY = struct.Struct("<qiIII")
 RECORD = struct.Struct("<iiii")
-MOST_COEFFICIENTS = 8
+MAX_COEFFICIENTS = 8
 ORDERS = (2, 3, 4, 6, 8)
 """Numbers of polynomial coefficients in x and y that are tried."""
-MOST_FRICTIONS = 255
+MAX_FRICTIONS = 255
 TOLERANCE = 5e-6
 """Largest deviation of the polynomial of a tile from its heights, m: 1 N for a tyre of 200 N/mm."""
 
@@ -73,11 +73,11 @@ class SharedWriter:
         `heights`: m, shape (32 or fewer in the last row, ny); `frictions`: likewise, None if the file has one friction.
         """
         check_grid(heights, frictions, self.name)
-        z = _padded(heights)
-        mu = None if frictions is None else _padded(frictions)
+        z = _pad(heights)
+        mu = None if frictions is None else _pad(frictions)
         tiles = z.shape[1] // ROAD_TILE
         blocks = z.reshape(ROAD_TILE, tiles, ROAD_TILE).transpose(1, 0, 2)
-        for k, form in enumerate(polynomials_of(blocks, TILE_COORDINATES, self.tolerance)):
+        for k, form in enumerate(fit_polynomials(blocks, TILE_COORDINATES, self.tolerance)):
             block_frictions = None if mu is None else np.ascontiguousarray(mu[:, k * ROAD_TILE : (k + 1) * ROAD_TILE])
             self.tile(np.ascontiguousarray(blocks[k]) if form is None else form, block_frictions)
 
@@ -111,7 +111,7 @@ class SharedWriter:
         self.out.write(head.to_bytes() + self.entries)
 
 
-def _padded(values: Float) -> Float:
+def _pad(values: Float) -> Float:
     """Pad a grid to whole tiles with the values at its border."""
     padding = [-n % ROAD_TILE for n in values.shape]
     return np.pad(values, [(0, padding[0]), (0, padding[1])], mode="edge") if any(padding) else values
@@ -131,11 +131,11 @@ def polynomial_values(c: Float) -> Float:
     return z
 
 
-def polynomials_of(blocks: Float, coordinates: Float, tolerance: float) -> list[Float | None]:
+def fit_polynomials(blocks: Float, coordinates: Float, tolerance: float) -> list[Float | None]:
     """Coefficients of the smallest polynomial of each tile within the tolerance; None if there is none.
 
-    `blocks`: heights, m, shape (tiles, n, n); `coordinates`: of their points in a tile, -1 to 1, shape (n,);
-    `tolerance`: m; 0: only level tiles have polynomials.
+    `blocks`: heights, m, shape (tiles, n, n); `coordinates`: coordinates of their points in a tile, -1 to 1, shape
+    (n,); `tolerance`: m; 0: only level tiles have polynomials.
     """
     forms: list[Float | None] = [None] * len(blocks)
     first_heights = blocks[:, :1, :1]
@@ -177,7 +177,7 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
     if (frictions == first).all():
         return 1, struct.pack("<d", first)
     values, indices = np.unique(frictions, return_inverse=True)
-    if len(values) > MOST_FRICTIONS:
+    if len(values) > MAX_FRICTIONS:
         return _POINTS, frictions.astype("<f8").tobytes()
     return len(values), values.astype("<f8").tobytes() + indices.astype(np.uint8).tobytes()
 
@@ -185,7 +185,7 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
     """Yield the number and the values (maps, 32, 32) of each tile: heights, m, then frictions if there are two maps.
 
-    `file`: open; `name`: for messages. Raises `RoadFileError`: a tile is damaged.
+    `file`: the open file; `name`: its name, for messages. Raises `RoadFileError` if a tile is damaged.
     """
     file.seek(HEADER.size)
     count = head.tiles[0] * head.tiles[1]
@@ -206,14 +206,14 @@ def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[in
 
 
 def _tile_values(record: bytes, maps: int, name: str) -> Float:
-    """Heights and frictions of a tile from its record. Raises `RoadFileError`: the record is damaged."""
+    """Heights and frictions of a tile from its record. Raises `RoadFileError` if the record is damaged."""
     try:
         rows, columns, friction_count, zero = RECORD.unpack(record[: RECORD.size])
         reals = np.frombuffer(record, "<f8", rows * columns + friction_count, RECORD.size)
         heights = reals[: rows * columns].reshape(rows, columns)
         tail = record[RECORD.size + reals.nbytes :]
-        is_polynomial = min(rows, columns) >= 1 and max(rows, columns) <= MOST_COEFFICIENTS
-        if friction_count > MOST_FRICTIONS and friction_count != _POINTS:
+        is_polynomial = min(rows, columns) >= 1 and max(rows, columns) <= MAX_COEFFICIENTS
+        if friction_count > MAX_FRICTIONS and friction_count != _POINTS:
             raise ValueError
         if (
             zero
@@ -226,7 +226,7 @@ def _tile_values(record: bytes, maps: int, name: str) -> Float:
             mu = reals[rows * columns :]
             indices = (
                 np.frombuffer(tail, np.uint8, _POINTS)
-                if 1 < friction_count <= MOST_FRICTIONS
+                if 1 < friction_count <= MAX_FRICTIONS
                 else np.zeros(_POINTS, np.uint8)
             )
             values.append((mu if friction_count == _POINTS else mu[indices]).reshape(ROAD_TILE, ROAD_TILE))

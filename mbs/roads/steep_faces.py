@@ -7,8 +7,8 @@ import numpy as np
 from mbs.elements.road import GridRoad
 
 WHEEL_RADIUS = 0.3
-"""Radius of a car's wheel where no car is known, m."""
-LARGEST_SLOPE = 2.0
+"""Radius of a car's wheel if no car is known, m."""
+MAX_SLOPE = 2.0
 """Rise over run of a face that a wheel climbs, 63 degrees."""
 BLOCK_ROWS = 4096  # grid rows that are evaluated at once
 
@@ -24,12 +24,12 @@ def steep_face(road: GridRoad, name: object, radius: float = WHEEL_RADIUS) -> st
     surface. At a face that rises by more than the radius over half the radius, or from one point to the next, the
     centre can get below the surface.
 
-    `name`: of the road in the sentence; `radius`: of the wheel, m.
+    `name`: name of the road in the sentence; `radius`: radius of the wheel, m.
     """
     heights = np.asarray(road.heights, float)
     highest, index, run = radius, None, 0.0
     for axis in range(2):
-        points = min(max(1, int(radius / LARGEST_SLOPE / road.spacing[axis])), heights.shape[axis] - 1)
+        points = min(max(1, int(radius / MAX_SLOPE / road.spacing[axis])), heights.shape[axis] - 1)
         for first in range(0, max(len(heights) - points, 1), BLOCK_ROWS):
             block = heights[first : first + BLOCK_ROWS + points]
             rise = (

@@ -5,12 +5,12 @@ from numpy.typing import NDArray
 
 Values = NDArray[np.float64]
 BATCH_SIZE = 2**21  # grid points that are evaluated at once
-AREA_TOLERANCE = 1e-12  # twice the projected area over the size of a triangle, up to which it is upright
+AREA_TOLERANCE = 1e-12  # twice the projected area / size of a triangle, up to which it is upright
 EDGE_TOLERANCE = 1e-9  # distance of a point from an edge in units of the spacing, up to which it lies on it
 
 
 def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Values]:
-    """Lowest and highest height of triangles at the points of a regular grid; NaN where there is none.
+    """Lowest and highest height of triangles at the points of a regular grid; NaN if there is none.
 
     Each line of points along y that crosses a triangle is cut by its edges (scan conversion). Upright triangles are
     omitted.
@@ -37,8 +37,8 @@ def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Val
     for begin, end in _batches(lines):
         k = np.repeat(np.arange(begin, end), lines[begin:end])
         i = first[k] + _indices_in_groups(lines[begin:end])
-        long_share = _relative_position(i, ax[k], cx[k])
-        long_edge = ay[k] + long_share * (cy[k] - ay[k])
+        long_fraction = _relative_position(i, ax[k], cx[k])
+        long_edge = ay[k] + long_fraction * (cy[k] - ay[k])
         on_first_edge = i <= bx[k]
         short_edges = np.where(
             on_first_edge,

@@ -35,7 +35,7 @@ def write_road(
     shared : bool
         Whether equal tiles of a grid are stored once, which FMUs of version 0.1.0 do not read.
     tolerance : float
-        With `shared`: largest deviation of polynomials that are stored in place of the heights of tiles, m.
+        With `shared`: largest deviation of polynomials that are stored instead of the heights of tiles, m.
 
     Raises
     ------
@@ -60,7 +60,8 @@ def write_road(
 
 
 def _write_shared_tiles(road: GridRoad, out: BinaryIO, name: object, tolerance: float) -> None:
-    """Write a grid with equal tiles stored once. `name`: of the file, for messages; `tolerance`: as in `write_road`."""
+    """Write a grid with equal tiles stored once. `name`: name of the file, for messages; `tolerance`: as in
+    `write_road`."""
     nx, ny, x0, y0, dx, dy, factor, *_ = road.real
     heights, frictions = np.asarray(road.heights, float), np.asarray(road.frictions, float) * factor
     check_grid(heights, np.atleast_2d(frictions), name)
@@ -73,7 +74,7 @@ def _write_shared_tiles(road: GridRoad, out: BinaryIO, name: object, tolerance: 
 
 
 def _write_content(road: PlaneRoad | KerbRoad | GridRoad, out: BinaryIO, name: object) -> None:
-    """Write a road without shared tiles. `name`: of the file, for messages."""
+    """Write a road without shared tiles. `name`: name of the file, for messages."""
     if isinstance(road, GridRoad):
         _write_grid(road, out, name)
         return
@@ -90,7 +91,7 @@ def _padded_numbers(real: list[float]) -> tuple[float, ...]:
 
 
 def _write_grid(road: GridRoad, out: BinaryIO, name: object) -> None:
-    """Write a grid with a checksum of each tile. `name`: of the file, for messages."""
+    """Write a grid with a checksum of each tile. `name`: name of the file, for messages."""
     nx, ny, x0, y0, dx, dy, factor, *_ = road.real
     heights = np.asarray(road.heights, float)
     frictions = np.asarray(road.frictions, float) * factor

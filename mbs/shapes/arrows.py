@@ -19,7 +19,7 @@ TYRE_OUTPUTS = {
 """Outputs of a tyre that its arrow needs, by part of the arrow."""
 
 
-def arrows_of(model: Model, names: FrameNames, lines: Sequence[Line]) -> list[Arrow]:
+def force_arrows(model: Model, names: FrameNames, lines: Sequence[Line]) -> list[Arrow]:
     """Arrows of forces that sensors read: of springs and rods along their lines, of tyres, and of joints on their first
     bodies.
     """

@@ -20,11 +20,13 @@ from mbs.shapes.joint_points import POINT_TOLERANCE, JointGeometry, Line, Pivot,
 
 COLORS = ("#c8553d", "#3d7ea6", "#6a994e", "#e09f3e", "#7d5ba6", "#2a9d8f", "#b56576", "#8d99ae")
 GROUND, RAIL, SPRING, ROD = "#4a4e57", "#8b9099", "#d9a441", "#aeb4bd"
-TUBE_RADIUS, LARGEST_RADIUS = 0.014, 0.09
-"""Radius of a tube relative to the extent of the drawing, and its largest value relative to the length of its body."""
-LEAST_TRIANGLE_HEIGHT = 0.2  # over its longest side, below which it is drawn as tubes
-LEAST_SLIDER_LENGTH = 1.1  # distance of the joints of a slider over the edge of its box, below which the box is drawn
-LARGEST_OVERHANG = 0.1  # of a centre of mass beyond the ends of a tube, over the length of the tube
+TUBE_RADIUS = 0.014
+"""Radius of a tube, relative to the extent of the drawing."""
+MAX_RADIUS = 0.09
+"""Largest radius of a tube, relative to the length of its body."""
+MIN_TRIANGLE_HEIGHT = 0.2  # relative to its longest side, below which it is drawn as tubes
+MIN_SLIDER_LENGTH = 1.1  # distance of the joints of a slider / edge of its box, below which the box is drawn
+MAX_OVERHANG = 0.1  # of a centre of mass beyond the ends of a tube, relative to the length of the tube
 
 Shape = dict[str, Any]
 
@@ -44,7 +46,7 @@ class Defaults:
         """Radius of tubes, m: small relative to the extent and to the longest body."""
         bodies = [points for frame, points in self.geometry.points.items() if frame != "ground" and len(points) > 1]
         longest = max((float(np.linalg.norm(np.ptp(points, axis=0))) for points in bodies), default=0.0)
-        return min(TUBE_RADIUS * self.extent, LARGEST_RADIUS * longest) if longest > 0.0 else TUBE_RADIUS * self.extent
+        return min(TUBE_RADIUS * self.extent, MAX_RADIUS * longest) if longest > 0.0 else TUBE_RADIUS * self.extent
 
     @cached_property
     def _rolling_discs(self) -> dict[Body, list[RollingBody]]:
@@ -133,7 +135,7 @@ class Defaults:
                 return [*self._tube_shapes(frame, [*points, com], com), self._com_ball(frame)]
         if (
             self._is_slider(frame)
-            and np.linalg.norm(np.ptp(points, axis=0)) < LEAST_SLIDER_LENGTH * self._inertia_box(body).max()
+            and np.linalg.norm(np.ptp(points, axis=0)) < MIN_SLIDER_LENGTH * self._inertia_box(body).max()
         ):
             return [self._inertia_shape(body, frame)]
         shapes = self._plate_shapes(frame, points, com) or self._tube_shapes(frame, points, com)
@@ -160,7 +162,7 @@ class Defaults:
 
     def _tube_shapes(self, frame: str, points: Sequence[Vector], com: Vector) -> list[Shape]:
         """Tubes along the shortest tree through the points."""
-        radius = min(self.tube_radius, LARGEST_RADIUS * float(np.linalg.norm(np.ptp(points, axis=0))))
+        radius = min(self.tube_radius, MAX_RADIUS * float(np.linalg.norm(np.ptp(points, axis=0))))
         return [
             {"kind": "tube", "points": [[frame, numbers(p - com)] for p in (points[i], points[j])], "radius": radius}
             for i, j in _shortest_tree(points)
@@ -172,9 +174,9 @@ class Defaults:
             return []
         sides = [float(np.linalg.norm(a - b)) for a, b in combinations(points, 2)]
         height = float(np.linalg.norm(np.cross(points[1] - points[0], points[2] - points[0]))) / max(sides)
-        if height < LEAST_TRIANGLE_HEIGHT * max(sides):
+        if height < MIN_TRIANGLE_HEIGHT * max(sides):
             return []
-        thickness = min(self.tube_radius, LARGEST_RADIUS * max(sides))
+        thickness = min(self.tube_radius, MAX_RADIUS * max(sides))
         return [{"kind": "plate", "points": [[frame, numbers(p - com)] for p in points], "thickness": thickness}]
 
     def _inertia_shape(self, body: Body, frame: str) -> Shape:
@@ -294,8 +296,8 @@ def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
 
 def _is_beyond(com: Vector, a: Vector, b: Vector) -> bool:
     """Whether a centre of mass lies beyond the ends of a tube from a to b."""
-    share = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
-    return not -LARGEST_OVERHANG <= share <= 1.0 + LARGEST_OVERHANG
+    fraction = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
+    return not -MAX_OVERHANG <= fraction <= 1.0 + MAX_OVERHANG
 
 
 def _axes_along(axis: Vector) -> Vector:

@@ -78,7 +78,7 @@ class FrameNames:
 def turns_of(model: Model) -> list[Spin | Turning]:
     """Wheels and turning parts; of those on tabled bodies only wheels whose pose sensors read."""
     turns: list[Spin | Turning] = [*model.spins, *model.turnings]
-    return [t for t in turns if not _carrier_of(t).is_tabled or _pose_sensors(t)]
+    return [t for t in turns if not _carrier_body(t).is_tabled or _pose_sensors(t)]
 
 
 def _pose_sensors(turn: Spin | Turning) -> tuple[str, ...]:
@@ -86,7 +86,7 @@ def _pose_sensors(turn: Spin | Turning) -> tuple[str, ...]:
     return turn.carrier.outputs if isinstance(turn, Spin) and isinstance(turn.carrier, TabledBody) else ()
 
 
-def _carrier_of(turn: Spin | Turning) -> Body:
+def _carrier_body(turn: Spin | Turning) -> Body:
     """Body that carries a wheel or turning part."""
     return turn.carrier if isinstance(turn, Spin) else turn.body
 
@@ -171,7 +171,7 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
         angles.append(np.asarray(weights @ constant) + angle.constant)
         row = len(indices) + len(turns)
         column = names.columns[f"{turn.name}.angle"]
-        carrier, axis = _carrier_of(turn).owner.name, tuple(numbers(turn.axis_reference))
+        carrier, axis = _carrier_body(turn).owner.name, tuple(numbers(turn.axis_reference))
         turns.append(TurnPlace(turn.name, row, carrier, axis, isinstance(turn, Spin), column))
     matrix = sparse.vstack([T[indices], *rows]).tocsr()
     matrix.sort_indices()
@@ -182,12 +182,13 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
 def anchors_of_difference(
     model: Model, names: FrameNames, bodies: Mapping[int, Body], drawn: Vector, gap: Sequence[Affine]
 ) -> tuple[Anchor, Anchor] | None:
-    """Anchors of p1 and p2 for a difference ``p2 - p1`` of points of two bodies; None if `gap` is no such difference.
+    """Anchors of p1 and p2 for a difference ``p2 - p1`` of points of two bodies; None if `gap` is not such a
+    difference.
 
-    The coefficient of a body's position is 1 for p2 and -1 for p1; those of its axes are the coordinates of the point.
-    Coordinates of a node or a port are replaced by their values as drawn.
+    The coefficient of a body's position is 1 for p2 and -1 for p1; the coefficients of its axes are the coordinates of
+    the point. Coordinates of a node or a port are replaced by their values as drawn.
 
-    `bodies`: by their first coordinate; `drawn`: full coordinates as drawn; `gap`: components of the difference.
+    `bodies`: bodies by their first coordinate; `drawn`: full coordinates as drawn; `gap`: components of the difference.
     """
     d = model.dimension
     anchors: dict[float, Anchor] = {}

@@ -18,7 +18,7 @@ from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, numbers, place_drawn
 
-POINT_TOLERANCE = 1e-6  # distance over the extent up to which points coincide
+POINT_TOLERANCE = 1e-6  # distance relative to the extent, up to which points coincide
 LINE_ELEMENTS = (ElementType.SPRING_DAMPER, ElementType.SPRING_DAMPER_TABLE)
 
 

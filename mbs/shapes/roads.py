@@ -7,20 +7,25 @@ from mbs.model.model import Model
 from mbs.roads.scene_part import scene_part
 
 
-def roads_of(model: Model) -> list[dict[str, Any]]:
+def road_entries(model: Model) -> list[dict[str, Any]]:
     """Entries of all roads, and of the level planes on which wheels roll without slip.
 
-    The entry of a road file is its path. A road at ports is omitted, as only the program at the port knows it; the
-    following roads keep their numbers.
+    A road file is entered by its path. A road at a port is left out because only the host knows its heights; the roads
+    after it keep their numbers.
     """
-    files = {file.road: file for file in model.road_files if file.start}
-    parts: list[tuple[int, dict[str, Any]]] = []
-    for k, road in enumerate(model.roads):
+    # without a path the road of the model is used
+    files_by_road = {file.road: file for file in model.road_files if file.start}
+    entries: list[tuple[int, dict[str, Any]]] = []
+    for number, road in enumerate(model.roads):
         if isinstance(road, PortRoad):
             continue
-        file = files.get(k)
-        road_part = scene_part(road) if file is None else {"kind": "file", "variable": file.name, "path": file.start}
-        parts.append((k, road_part))
+        file = files_by_road.get(number)
+        entry = scene_part(road) if file is None else {"kind": "file", "variable": file.name, "path": file.start}
+        entries.append((number, entry))
     plane_levels = sorted({joint.rolls.level for joint in model.joints if joint.rolls is not None})
-    parts += [(k, {"kind": "flat", "height": level}) for k, level in enumerate(plane_levels, len(model.roads))]
-    return [road_part if k == position else road_part | {"number": k} for position, (k, road_part) in enumerate(parts)]
+    for number, level in enumerate(plane_levels, len(model.roads)):
+        entries.append((number, {"kind": "flat", "height": level}))
+    # an entry without a number has the number of its position
+    return [
+        entry if number == position else entry | {"number": number} for position, (number, entry) in enumerate(entries)
+    ]

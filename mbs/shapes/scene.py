@@ -16,11 +16,11 @@ from mbs.model.checked_shapes import Shape
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.table_bodies import TabledBody
-from mbs.shapes.arrows import arrows_of
+from mbs.shapes.arrows import force_arrows
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import joint_geometry
-from mbs.shapes.roads import roads_of
+from mbs.shapes.roads import road_entries
 from mbs.shapes.shared_points import shared_points
 from mbs.system.drawing import Drawing, Places, matrices
 
@@ -32,7 +32,7 @@ Scene = dict[str, Any]
 def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
     """Scene of a model, with its rows for the poses of frames.
 
-    `places`: rows of its frames over the coordinates; `q`: coordinates at the start, shape (nq,).
+    `places`: rows of its frames by coordinates; `q`: coordinates at the start, shape (nq,).
     """
     geometry = joint_geometry(model, names)
     meshes: dict[str, Any] = {}
@@ -65,8 +65,8 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "shapes": shapes,
         "meshes": meshes,
         "flexible": list(model.flexible_scene),
-        "arrows": arrows_of(model, names, geometry.lines),
-        "roads": roads_of(model),
+        "arrows": force_arrows(model, names, geometry.lines),
+        "roads": road_entries(model),
         "missing": [{"name": name, "why": SLIDING_REASON} for name in geometry.sliding if name not in named]
         + [{"name": t.name, "why": TABLED_REASON} for t in model.tabled if isinstance(t, TabledBody) and not t.outputs],
     }
@@ -144,7 +144,7 @@ def _up_direction(model: Model) -> list[float]:
 
 
 def _focus_frame(model: Model, names: FrameNames) -> str:
-    """Frame of the heaviest body of a model that is not joined to the ground; else empty."""
+    """Frame of the heaviest body of a model that is not joined to the ground; otherwise empty."""
     if model.grounded and not model.floating:
         return ""
     return names.of_body(max(model.bodies, key=lambda body: body.mass))
@@ -202,7 +202,7 @@ def _initial_poses(frames: Mapping[str, Any]) -> dict[str, tuple[Vector, Vector]
 def _initial_position(
     frames: Mapping[str, Any], starts: Mapping[str, tuple[Vector, Vector]], name: str, point: Vector
 ) -> Vector:
-    """Position at the start of a point of the frame `name`, earth axes, m; `point`: in the frame, m."""
+    """Position at the start of a point of the frame `name`, earth axes, m; `point`: position in the frame, m."""
     if name == "ground":
         return point
     if name not in starts:  # the angle at the start is neglected: it does not change the extent

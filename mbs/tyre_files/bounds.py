@@ -30,16 +30,17 @@ _BOUNDS = {
     "QSY8": (-3.0, 3.0, ""),
 }
 _RANGES = (("FZMIN", "FZMAX", "N"), ("PRESMIN", "PRESMAX", "Pa"))
-_LARGEST_COEFFICIENT = 1e4  # the largest in public files is a PEY4 of 760
+_MAX_COEFFICIENT = 1e4  # the largest in public files is a PEY4 of 760
 _COEFFICIENTS = (*MAGIC_COEFFICIENTS, "LCZ", "Q_FZ1", "Q_FZ2")
 
 
 def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
-    """Raise `TyreFileError` if a number is outside its bounds; 0 counts as missing. `numbers`: by key, SI units."""
+    """Raise `TyreFileError` if a number is outside its bounds; 0 counts as missing. `numbers`: numbers by key, SI
+    units."""
     for key, value in numbers.items():
         if key not in _BOUNDS and key not in _COEFFICIENTS:
             continue
-        least, most, unit = _BOUNDS.get(key, (-_LARGEST_COEFFICIENT, _LARGEST_COEFFICIENT, ""))
+        least, most, unit = _BOUNDS.get(key, (-_MAX_COEFFICIENT, _MAX_COEFFICIENT, ""))
         if value and not least <= value <= most:
             suffix = f" {unit}" if unit else ""
             raise text.fault(f"{key} is {value:g}{suffix}; it must lie between {least:g} and {most:g}{suffix}.")

@@ -1,7 +1,9 @@
-"""Fits of TMeasy to the Magic Formula and of the Magic Formula to TMeasy by their steady curves, with the errors."""
+"""Fits TMeasy to the Magic Formula and the Magic Formula to TMeasy by their steady curves, and gives the errors."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from math import atan, sin, sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +13,13 @@ from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.tyre_files.pure_curves import (
     at_load,
+    carcass_stiffness,
     cornering_stiffness,
+    formula_slip,
     magic_lateral,
     magic_longitudinal,
     magic_trail,
+    slip_at_load,
     tmeasy_force,
     tmeasy_trail,
 )
@@ -22,95 +27,43 @@ from mbs.tyre_files.pure_curves import (
 Array = NDArray[np.float64]
 LOADS = (0.5, 1.0, 1.5, 2.0)
 """Loads at which curves are fitted and compared, relative to the nominal load."""
-KAPPA = np.concatenate([-np.geomspace(0.5, 1e-3, 60), np.geomspace(1e-3, 1.0, 60)])
-"""Longitudinal slips."""
-TANGENT = np.geomspace(1e-3, 0.6, 80)
+LONGITUDINAL_SLIPS = np.concatenate([-np.geomspace(0.5, 1e-3, 60), np.geomspace(1e-3, 1.0, 60)])
+TANGENTS = np.geomspace(1e-3, 0.6, 80)
 """Tangents of the slip angle."""
-_LEAST_SLIP_RATIO, _LARGEST_SLIP_RATIO = 0.7, 1.9  # slips at two nominal loads over those at one
+_TMEASY_SLIPS = LONGITUDINAL_SLIPS / (1.0 + LONGITUDINAL_SLIPS)
+"""Slips of TMeasy, which are relative to the rolling speed instead of the speed of travel."""
+_MAX_LOAD_RATIO = 2.5  # up to which a fitted Magic Formula holds
+_MIN_SLIP_RATIO = 0.7  # slip at two nominal loads, relative to that at one
+_MAX_SLIP_RATIO = 1.9
 
 
 def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     """Fit MF-Tyre 5.2 to a TMeasy tyre by the curves at pure slip.
 
-    Combined slip follows the friction ellipse, in TMeasy another one; camber thrust and bore torque are neglected.
+    Combined slip follows the friction ellipse, which differs from the ellipse of TMeasy; camber thrust and bore torque
+    are neglected.
 
-    `tyre`: its curves hold on a road of the reference friction.
+    `tyre`: its curves must be those at the reference friction.
 
     Returns
     -------
     fitted_tyre : MagicTyre
         Symmetric, in ISO axes.
     errors : dict of str to float
-        Largest difference at 0.5 to 2 nominal loads: "longitudinal" and "lateral" over the largest force at each load,
-        longitudinal slips from -0.5 to 1 and tan(alpha) up to 0.6; "moment": trail times force, over the largest moment
-        at each load.
+        Largest difference at 0.5 to 2 nominal loads, longitudinal slips from -0.5 to 1 and tan(alpha) up to 0.6:
+        "longitudinal" and "lateral" relative to the largest force at that load; "moment": lateral force times trail,
+        relative to the largest moment at that load.
     """
-    nominal, alpha = tyre.nominal_load, np.arctan(TANGENT)
-    longitudinal_forces = {q: _tmeasy_curve(tyre.longitudinal, q, KAPPA / (1.0 + KAPPA)) for q in LOADS}
-    lateral_forces = {q: _tmeasy_curve(tyre.lateral, q, TANGENT) for q in LOADS}
-    largest_forces = {
-        name: [at_load(getattr(tyre, name).max_force, q) for q in LOADS] for name in ("longitudinal", "lateral")
+    errors = {
+        "longitudinal": partial(_longitudinal_errors, tyre),
+        "lateral": partial(_lateral_errors, tyre),
+        "moment": partial(_moment_errors, tyre),
     }
-    slopes = {name: getattr(tyre, name).slope[0] / nominal for name in largest_forces}
-    peaks = {name: getattr(tyre, name).max_force[0] / nominal for name in largest_forces}
-
-    def fit(
-        names: Sequence[str], start: Sequence[float], residuals: Callable[[dict[str, float]], Array]
-    ) -> dict[str, float]:
-        """Coefficients with the least squares of the residuals."""
-
-        def by_name(x: Array) -> dict[str, float]:
-            return dict(zip(names, map(float, x), strict=True))
-
-        def differences(x: Array) -> Array:
-            return residuals(by_name(x))
-
-        return by_name(least_squares(differences, start, x_scale="jac").x)
-
-    def errors(name: str, c: dict[str, float]) -> Array:
-        """Errors of a curve at all loads and slips over the largest force. `name`: "longitudinal" or "lateral"."""
-        law, slip, target = (
-            (magic_longitudinal, KAPPA, longitudinal_forces)
-            if name == "longitudinal"
-            else (magic_lateral, alpha, lateral_forces)
-        )
-        return np.concatenate(
-            [
-                (law(c, nominal, q * nominal, slip) - target[q]) / m
-                for q, m in zip(LOADS, largest_forces[name], strict=True)
-            ]
-        )
-
-    c = fit(
-        ("PCX1", "PDX1", "PDX2", "PEX1", "PEX2", "PKX1", "PKX2"),
-        (1.5, peaks["longitudinal"], -0.05, 0.0, 0.0, slopes["longitudinal"], 0.0),
-        lambda c: errors("longitudinal", c),
-    )
-    c |= fit(
-        ("PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PKY1", "PKY2"),
-        (1.3, peaks["lateral"], -0.05, 0.0, 0.0, -1.2 * slopes["lateral"], 2.0),
-        lambda c: errors("lateral", c),
-    )
-    moments = {q: _patch_length(tyre, q) * _trail(tyre, q) * lateral_forces[q] for q in LOADS}
-
-    def moment_errors(trail_coefficients: dict[str, float]) -> Array:
-        """Errors of the moment at all loads and slips over the largest moment."""
-        return np.concatenate(
-            [
-                (magic_trail(trail_coefficients, nominal, tyre.radius, q * nominal, alpha) * lateral_forces[q] - m)
-                / np.abs(m).max()
-                for q, m in moments.items()
-            ]
-        )
-
-    names = ("QBZ1", "QBZ2", "QCZ1", "QDZ1", "QDZ2", "QEZ1")
-    c |= fit(names, (8.0, 0.0, 1.2, 0.1, 0.0, -1.0), moment_errors)
-    largest_errors = {name: float(np.abs(errors(name, c)).max()) for name in largest_forces}
-    largest_errors["moment"] = float(np.abs(moment_errors(c)).max())
-    stiffness = tyre.carcass_stiffness
-    c["PTX1"] = c["PKX1"] * nominal / stiffness[0] / tyre.radius
-    c["PTY2"] = 2.0
-    c["PTY1"] = cornering_stiffness(c, nominal, nominal) / stiffness[1] / (tyre.radius * sin(2.0 * atan(0.5)))
+    c: dict[str, float] = {}
+    for name, start in _start_coefficients(tyre).items():
+        c |= _fit_coefficients(start, errors[name])
+    largest_errors = {name: float(np.abs(error(c)).max()) for name, error in errors.items()}
+    c |= _relaxation_coefficients(tyre, c)
     c["QSY1"] = tyre.rolling_resistance
     fitted_tyre = MagicTyre(
         "MF52",
@@ -118,13 +71,13 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
         tyre.radius,
         tyre.bottoming_radius,
         tyre.stiffness,
-        nominal,
+        tyre.nominal_load,
         damping=tyre.damping,
         bottoming_stiffness=tyre.bottoming_stiffness,
         reference_friction=tyre.reference_friction,
         friction_factor=tyre.friction_factor,
         combination="ellipse",
-        largest_load=2.5 * nominal,
+        largest_load=_MAX_LOAD_RATIO * tyre.nominal_load,
     )
     return fitted_tyre, largest_errors
 
@@ -132,10 +85,10 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
 def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     """Fit TMeasy to a Magic Formula tyre by the curves at pure slip, at one and two nominal loads.
 
-    The nominal load is that of the tyre, or half of the largest load of the coefficients if that is less. Shifts,
-    camber, moments other than that of the trail and the influence of the speed are neglected.
+    The nominal load is the tyre's, or half of the largest load for which the coefficients are valid, if that is
+    less. Shifts, camber, moments other than of the trail and the influence of the speed are neglected.
 
-    `tyre`: at its nominal pressure. Raises `ValueError`: the pressure is not the nominal one.
+    `tyre`: a tyre at its nominal pressure, otherwise `ValueError` is raised.
 
     Returns
     -------
@@ -145,170 +98,261 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
         As in `magic_of_tmeasy`.
     """
     if tyre.pressure != 0.0:
-        raise ValueError(f"The pressure of the tyre is {1.0 + tyre.pressure:g} times the nominal one; it must be that.")
+        raise ValueError(f"The pressure of the tyre is {1.0 + tyre.pressure:g} times the nominal one; it must be 1.")
     c, nominal_of_file = dict(tyre.coefficients), tyre.nominal_load
     nominal = min(nominal_of_file, 0.5 * tyre.largest_load)
     c["LMUX"], c["LMUY"] = c.get("LMUX", 1.0) * tyre.lmux, c.get("LMUY", 1.0) * tyre.lmuy
     c["LKX"], c["LKY"] = c.get("LKX", 1.0) * tyre.lkx, c.get("LKY", 1.0) * tyre.lky
-    alpha = TANGENT if tyre.version in ("MF61", "MF62") else np.arctan(TANGENT)
-    longitudinal_forces = {q: magic_longitudinal(c, nominal_of_file, q * nominal, KAPPA) for q in LOADS}
-    lateral_forces = {q: magic_lateral(c, nominal_of_file, q * nominal, alpha) for q in LOADS}
-    curves = {
-        "longitudinal": _fit_both_loads(KAPPA / (1.0 + KAPPA), longitudinal_forces),
-        "lateral": _fit_both_loads(TANGENT, lateral_forces),
-    }
-    # at the nominal load
+    alpha = formula_slip(tyre.version, TANGENTS)
+    longitudinal_forces = {r: magic_longitudinal(c, nominal_of_file, r * nominal, LONGITUDINAL_SLIPS) for r in LOADS}
+    lateral_forces = {r: magic_lateral(c, nominal_of_file, r * nominal, alpha) for r in LOADS}
+    trails = {r: magic_trail(c, nominal_of_file, tyre.radius, r * nominal, TANGENTS, tyre.version) for r in LOADS}
+    longitudinal = _fit_both_loads(_TMEASY_SLIPS, longitudinal_forces)
+    lateral = _fit_both_loads(TANGENTS, lateral_forces)
+    # N/m, tangent stiffness at the nominal load
     stiffness = 0.5 * (tyre.stiffness + sqrt(tyre.stiffness**2 + 4.0 * tyre.progression * nominal))
-    trails = {q: magic_trail(c, nominal_of_file, tyre.radius, q * nominal, alpha) for q in LOADS}
-    shares = {q: trails[q] / (2.0 * sqrt(tyre.radius * q * nominal / stiffness)) for q in LOADS}
-    weights = {q: lateral_forces[q] / lateral_forces[q].max() for q in LOADS}
-    nominal_trail = _fit_trail(shares[1.0], weights[1.0])
-    trail_parameters = nominal_trail, _fit_trail(shares[2.0], weights[2.0], nominal_trail)
-    carcass_stiffness = carcass_stiffness_of(tyre, c)
+    relative_trails = {r: trails[r] / _patch_length(tyre.radius, r, nominal, stiffness) for r in LOADS}
+    trail, trail_zero, trail_end = _fit_trail_at_both_loads(relative_trails, lateral_forces)
+    carcass = carcass_stiffness(tyre, c)
     fitted_tyre = Tyre(
         radius=tyre.radius * c.get("Q_RE0", 1.0),
         bottoming_radius=tyre.bottoming_radius,
         stiffness=stiffness,
         damping=tyre.damping,
-        longitudinal=curves["longitudinal"],
-        lateral=curves["lateral"],
-        trail=(trail_parameters[0][0], trail_parameters[1][0]),
-        trail_zero=(trail_parameters[0][1], trail_parameters[1][1]),
-        trail_end=(trail_parameters[0][2], trail_parameters[1][2]),
-        carcass_stiffness=carcass_stiffness,
-        carcass_damping=(tyre.settling * carcass_stiffness[0], tyre.settling * carcass_stiffness[1]),
+        longitudinal=longitudinal,
+        lateral=lateral,
+        trail=trail,
+        trail_zero=trail_zero,
+        trail_end=trail_end,
+        carcass_stiffness=carcass,
+        carcass_damping=(tyre.settling * carcass[0], tyre.settling * carcass[1]),
         nominal_load=nominal,
         reference_friction=tyre.reference_friction,
         bottoming_stiffness=tyre.bottoming_stiffness,
-        max_load_factor=min(3.5, tyre.largest_load / nominal, 0.95 * _largest_load(list(curves.values()))),
+        max_load_factor=min(3.5, tyre.largest_load / nominal, 0.95 * _max_load_ratio([longitudinal, lateral])),
         rolling_resistance=max(c.get("QSY1", 0.0) * c.get("LMY", 1.0), 0.0),
         friction_factor=tyre.friction_factor,
         bore=tyre.bore,
     )
-    largest_errors = {
-        "longitudinal": max(
-            float(
-                np.abs(_tmeasy_curve(fitted_tyre.longitudinal, q, KAPPA / (1.0 + KAPPA)) - longitudinal_forces[q]).max()
-                / longitudinal_forces[q].max()
-            )
-            for q in LOADS
-        ),
-        "lateral": max(
-            float(
-                np.abs(_tmeasy_curve(fitted_tyre.lateral, q, TANGENT) - lateral_forces[q]).max()
-                / lateral_forces[q].max()
-            )
-            for q in LOADS
-        ),
-        "moment": max(
-            float(
-                np.abs((_patch_length(fitted_tyre, q) * _trail(fitted_tyre, q) - trails[q]) * lateral_forces[q]).max()
-            )
-            / (float(np.abs(trails[q] * lateral_forces[q]).max()) or 1.0)  # of a tyre without trail
-            for q in LOADS
-        ),
+    return fitted_tyre, _tmeasy_errors(fitted_tyre, longitudinal_forces, lateral_forces, trails)
+
+
+def _start_coefficients(tyre: Tyre) -> dict[str, dict[str, float]]:
+    """Coefficients from which the fits of longitudinal force, lateral force and moment start."""
+    slopes = {name: getattr(tyre, name).slope[0] / tyre.nominal_load for name in ("longitudinal", "lateral")}
+    peaks = {name: getattr(tyre, name).max_force[0] / tyre.nominal_load for name in slopes}
+    # usual values of passenger-car tyres where TMeasy gives none
+    longitudinal = {"PCX1": 1.5, "PDX1": peaks["longitudinal"], "PDX2": -0.05, "PEX1": 0.0, "PEX2": 0.0}
+    lateral = {"PCY1": 1.3, "PDY1": peaks["lateral"], "PDY2": -0.05, "PEY1": 0.0, "PEY2": 0.0}
+    return {
+        "longitudinal": longitudinal | {"PKX1": slopes["longitudinal"], "PKX2": 0.0},
+        "lateral": lateral | {"PKY1": -1.2 * slopes["lateral"], "PKY2": 2.0},
+        "moment": {"QBZ1": 8.0, "QBZ2": 0.0, "QCZ1": 1.2, "QDZ1": 0.1, "QDZ2": 0.0, "QEZ1": -1.0},
     }
-    return fitted_tyre, largest_errors
 
 
-def _tmeasy_curve(curve: TyreCurve, q: float, slip: Array) -> Array:
-    """Force of TMeasy at q nominal loads over the slips, N."""
-    slips = (pair[0] + (pair[1] - pair[0]) * (q - 1.0) for pair in (curve.max_slip, curve.slide_slip))
-    slope, peak, sliding = (at_load(pair, q) for pair in (curve.slope, curve.max_force, curve.slide_force))
-    peak_slip, sliding_slip = slips
-    return tmeasy_force(slope, peak, peak_slip, sliding, sliding_slip, slip)
+def _fit_coefficients(start: Mapping[str, float], residuals: Callable[[dict[str, float]], Array]) -> dict[str, float]:
+    """Coefficients with the least squares of the residuals."""
+
+    def by_name(x: Array) -> dict[str, float]:
+        return dict(zip(start, map(float, x), strict=True))
+
+    def differences(x: Array) -> Array:
+        return residuals(by_name(x))
+
+    return by_name(least_squares(differences, list(start.values()), x_scale="jac").x)
 
 
-def _patch_length(tyre: Tyre, q: float) -> float:
-    """Length of the contact patch at q nominal loads, m."""
-    return 2.0 * sqrt(tyre.radius * q * tyre.nominal_load / tyre.stiffness)
+def _longitudinal_errors(tyre: Tyre, c: dict[str, float]) -> Array:
+    """Errors of the longitudinal force at all loads and slips, relative to the largest force at each load."""
+
+    def error(load_ratio: float) -> Array:
+        force = magic_longitudinal(c, tyre.nominal_load, load_ratio * tyre.nominal_load, LONGITUDINAL_SLIPS)
+        target = _tmeasy_forces(tyre.longitudinal, load_ratio, _TMEASY_SLIPS)
+        return np.asarray((force - target) / at_load(tyre.longitudinal.max_force, load_ratio))
+
+    return np.concatenate([error(r) for r in LOADS])
 
 
-def _trail(tyre: Tyre, q: float) -> Array:
-    """Trail of TMeasy over the length of the patch at q nominal loads and the slips `TANGENT`."""
+def _lateral_errors(tyre: Tyre, c: dict[str, float]) -> Array:
+    """Errors of the lateral force at all loads and slips, relative to the largest force at each load."""
+    alpha = formula_slip("MF52", TANGENTS)
+
+    def error(load_ratio: float) -> Array:
+        force = magic_lateral(c, tyre.nominal_load, load_ratio * tyre.nominal_load, alpha)
+        target = _tmeasy_forces(tyre.lateral, load_ratio, TANGENTS)
+        return np.asarray((force - target) / at_load(tyre.lateral.max_force, load_ratio))
+
+    return np.concatenate([error(r) for r in LOADS])
+
+
+def _moment_errors(tyre: Tyre, c: dict[str, float]) -> Array:
+    """Errors of the moment at all loads and slips, relative to the largest moment at each load."""
+
+    def error(load_ratio: float) -> Array:
+        length = _patch_length(tyre.radius, load_ratio, tyre.nominal_load, tyre.stiffness)
+        force = _tmeasy_forces(tyre.lateral, load_ratio, TANGENTS)
+        moment = length * _relative_trail(tyre, load_ratio) * force
+        load = load_ratio * tyre.nominal_load
+        trail = magic_trail(c, tyre.nominal_load, tyre.radius, load, TANGENTS, "MF52")
+        return np.asarray((trail * force - moment) / np.abs(moment).max())
+
+    return np.concatenate([error(r) for r in LOADS])
+
+
+def _relaxation_coefficients(tyre: Tyre, c: dict[str, float]) -> dict[str, float]:
+    """PTX1, PTY1 and PTY2 that give the carcass stiffnesses at the nominal load."""
+    nominal, (longitudinal, lateral), PTY2 = tyre.nominal_load, tyre.carcass_stiffness, 2.0
+    load_factor = sin(2.0 * atan(1.0 / PTY2))
+    PTX1 = c["PKX1"] * nominal / longitudinal / tyre.radius
+    PTY1 = cornering_stiffness(c, nominal, nominal) / lateral / (tyre.radius * load_factor)
+    return {"PTX1": PTX1, "PTY2": PTY2, "PTY1": PTY1}
+
+
+def _tmeasy_errors(
+    tyre: Tyre,
+    longitudinal_forces: Mapping[float, Array],
+    lateral_forces: Mapping[float, Array],
+    trails: Mapping[float, Array],
+) -> dict[str, float]:
+    """Largest errors of a fitted TMeasy, as in `magic_of_tmeasy`; target forces, N, and trails, m, by load ratio."""
+
+    def moment_errors(r: float) -> Array:
+        length = _patch_length(tyre.radius, r, tyre.nominal_load, tyre.stiffness)
+        return np.asarray((length * _relative_trail(tyre, r) - trails[r]) * lateral_forces[r])
+
+    def largest(error: Callable[[float], Array], references: Mapping[float, Array]) -> float:
+        # a tyre without trail has moments of 0
+        return max(float(np.abs(error(r)).max()) / (float(references[r].max()) or 1.0) for r in LOADS)
+
+    moments = {r: np.abs(trails[r] * lateral_forces[r]) for r in LOADS}
+    return {
+        "longitudinal": largest(
+            lambda r: _tmeasy_forces(tyre.longitudinal, r, _TMEASY_SLIPS) - longitudinal_forces[r], longitudinal_forces
+        ),
+        "lateral": largest(lambda r: _tmeasy_forces(tyre.lateral, r, TANGENTS) - lateral_forces[r], lateral_forces),
+        "moment": largest(moment_errors, moments),
+    }
+
+
+def _tmeasy_forces(curve: TyreCurve, load_ratio: float, slip: Array) -> Array:
+    """Forces of TMeasy at a load relative to the nominal load, N."""
+    slope, max_force, slide_force = (
+        at_load(pair, load_ratio) for pair in (curve.slope, curve.max_force, curve.slide_force)
+    )
+    max_slip, slide_slip = (slip_at_load(pair, load_ratio) for pair in (curve.max_slip, curve.slide_slip))
+    return tmeasy_force(slope, max_force, max_slip, slide_force, slide_slip, slip)
+
+
+def _patch_length(radius: float, load_ratio: float, nominal: float, stiffness: float) -> float:
+    """Length of the contact patch, m."""
+    return 2.0 * sqrt(radius * load_ratio * nominal / stiffness)
+
+
+def _relative_trail(tyre: Tyre, load_ratio: float) -> Array:
+    """Trail of TMeasy relative to the length of the contact patch, at the slips `TANGENTS`."""
     pairs = (tyre.trail, tyre.trail_zero, tyre.trail_end)
-    first, zero, end = (pair[0] + (pair[1] - pair[0]) * (q - 1.0) for pair in pairs)
-    return tmeasy_trail(first, zero, end, TANGENT)
+    trail, zero, end = (slip_at_load(pair, load_ratio) for pair in pairs)
+    return tmeasy_trail(trail, zero, end, TANGENTS)
 
 
-CurveParameters = tuple[float, float, float, float, float]
-TrailParameters = tuple[float, float, float]
+class _CurveValues(NamedTuple):
+    """Fields of `TyreCurve` at one load."""
+
+    slope: float
+    max_force: float
+    max_slip: float
+    slide_force: float
+    slide_slip: float
 
 
-def _fit_curve(slip: Array, force: Array, first: CurveParameters | None = None) -> CurveParameters:
-    """Fit slope, largest force, its slip, sliding force and its slip at one load.
+class _TrailValues(NamedTuple):
+    """Fields of the trail of `Tyre` at one load."""
 
-    The unknowns are logarithms, so that all values are positive. `first`: the result at the nominal load, which bounds
-    the slips so that they stay positive and in order where TMeasy extrapolates them from both loads.
+    trail: float
+    trail_zero: float
+    trail_end: float
+
+
+def _fit_curve(slip: Array, force: Array, nominal: _CurveValues | None = None) -> _CurveValues:
+    """Fit a curve at one load.
+
+    The unknowns are logarithms, so that all values are positive. `nominal`: the result at the nominal load; it bounds
+    the slips, so that they stay positive and in order when TMeasy extrapolates them.
     """
     peak = int(np.argmax(force))
     scale = float(force[peak])
 
-    def parameters(x: Array) -> CurveParameters:
-        share, most_at, sliding_share, gap, excess_slope = (float(v) for v in np.exp(x))
-        most = share * scale
-        return most * (1.02 + excess_slope) / most_at, most, most_at, most * sliding_share, most_at + gap
+    def values(x: Array) -> _CurveValues:
+        peak_ratio, max_slip, slide_ratio, slip_gap, excess_slope = (float(v) for v in np.exp(x))
+        max_force = peak_ratio * scale
+        slope = max_force * (1.02 + excess_slope) / max_slip  # steeper than the secant to the peak
+        return _CurveValues(slope, max_force, max_slip, max_force * slide_ratio, max_slip + slip_gap)
 
+    # in the order of the unknowns
     low, high = [0.5, 0.01, 0.2, 0.005, 1e-3], [2.0, 2.0, 0.9999, 20.0, 20.0]
-    if first is not None:
-        gap, sliding_share = first[4] - first[2], first[3] / first[1]
-        low[2], high[2] = 0.7 * sliding_share, min(1.4 * sliding_share, 0.9999)
-        low[1], high[1], low[3], high[3] = (
-            _LEAST_SLIP_RATIO * first[2],
-            _LARGEST_SLIP_RATIO * first[2],
-            _LEAST_SLIP_RATIO * gap,
-            _LARGEST_SLIP_RATIO * gap,
-        )
+    if nominal is not None:
+        slip_gap, slide_ratio = nominal.slide_slip - nominal.max_slip, nominal.slide_force / nominal.max_force
+        low[1:4] = _MIN_SLIP_RATIO * nominal.max_slip, 0.7 * slide_ratio, _MIN_SLIP_RATIO * slip_gap
+        high[1:4] = _MAX_SLIP_RATIO * nominal.max_slip, min(1.4 * slide_ratio, 0.9999), _MAX_SLIP_RATIO * slip_gap
     start = np.clip([1.0, float(slip[peak]), 0.85, 0.5, 1.0], np.multiply(low, 1.01), np.multiply(high, 0.99))
 
     def differences(x: Array) -> Array:
-        return np.asarray((tmeasy_force(*parameters(x), slip) - force) / scale)
+        return np.asarray((tmeasy_force(*values(x), slip) - force) / scale)
 
-    return parameters(least_squares(differences, np.log(start), bounds=(np.log(low), np.log(high))).x)
+    return values(least_squares(differences, np.log(start), bounds=(np.log(low), np.log(high))).x)
 
 
-def _fit_trail(share: Array, weight: Array, first: TrailParameters | None = None) -> TrailParameters:
-    """Fit the trail at no slip over the patch length, and the slips of its zero and end; `first` as in `_fit_curve`."""
+def _fit_trail(relative_trail: Array, weight: Array, nominal: _TrailValues | None = None) -> _TrailValues:
+    """Fit the trail at one load; `nominal` as in `_fit_curve`.
 
-    def parameters(x: Array) -> TrailParameters:
+    The unknowns are the trail at zero slip relative to the patch length, and logarithms of the slip at which it
+    vanishes and of the further slip up to its end.
+    """
+
+    def values(x: Array) -> _TrailValues:
         zero = float(np.exp(x[1]))
-        return float(x[0]), zero, zero + float(np.exp(x[2]))
+        return _TrailValues(float(x[0]), zero, zero + float(np.exp(x[2])))
 
-    low, high = [0.02, 0.01], [3.0, 20.0]
-    if first is not None:
-        slips = first[1], first[2] - first[1]
-        low, high = [_LEAST_SLIP_RATIO * slip for slip in slips], [_LARGEST_SLIP_RATIO * slip for slip in slips]
+    low, high = [0.02, 0.01], [3.0, 20.0]  # of both slips
+    if nominal is not None:
+        slips = nominal.trail_zero, nominal.trail_end - nominal.trail_zero
+        low, high = [_MIN_SLIP_RATIO * slip for slip in slips], [_MAX_SLIP_RATIO * slip for slip in slips]
     start = np.clip([0.2, 0.8], np.multiply(low, 1.01), np.multiply(high, 0.99))
     bounds = [-1.0, *np.log(low)], [1.0, *np.log(high)]
-    initial = [float(np.clip(share[0], -0.99, 0.99)), *np.log(start)]
+    initial = [float(np.clip(relative_trail[0], -0.99, 0.99)), *np.log(start)]
 
     def differences(x: Array) -> Array:
-        return np.asarray((tmeasy_trail(*parameters(x), TANGENT) - share) * weight)
+        return np.asarray((tmeasy_trail(*values(x), TANGENTS) - relative_trail) * weight)
 
-    return parameters(least_squares(differences, initial, bounds=bounds).x)
-
-
-def _fit_both_loads(slip: Array, force: dict[float, Array]) -> TyreCurve:
-    """Fit a curve at one and two nominal loads. `force`: N, by load over the nominal load."""
-    first = _fit_curve(slip, force[1.0])
-    return TyreCurve(*zip(first, _fit_curve(slip, force[2.0], first), strict=True))
+    return values(least_squares(differences, initial, bounds=bounds).x)
 
 
-def _largest_load(curves: Sequence[TyreCurve]) -> float:
+def _fit_both_loads(slip: Array, forces: Mapping[float, Array]) -> TyreCurve:
+    """Fit a curve at one and two nominal loads. `forces`: N, by load ratio."""
+    nominal = _fit_curve(slip, forces[1.0])
+    return TyreCurve(*zip(nominal, _fit_curve(slip, forces[2.0], nominal), strict=True))
+
+
+def _fit_trail_at_both_loads(
+    relative_trails: Mapping[float, Array], forces: Mapping[float, Array]
+) -> Iterator[tuple[float, float]]:
+    """Trail, its zero and its end at one and two nominal loads. `forces`: N, by load ratio, the weights of the fit."""
+    weights = {r: forces[r] / forces[r].max() for r in (1.0, 2.0)}
+    nominal = _fit_trail(relative_trails[1.0], weights[1.0])
+    return zip(nominal, _fit_trail(relative_trails[2.0], weights[2.0], nominal), strict=True)
+
+
+def _max_load_ratio(curves: Sequence[TyreCurve]) -> float:
     """Load, relative to the nominal load, at which an extrapolated force or slip of TMeasy vanishes."""
-    limits = [100.0]
+    limits = [100.0]  # no limit
     for curve in curves:
         for first, second in (curve.slope, curve.max_force, curve.slide_force):
             difference = first - 0.5 * second
-            limits += [(2.0 * first - 0.5 * second) / difference] if difference > 0.0 else []
-        slip_differences = tuple(end - at for end, at in zip(curve.slide_slip, curve.max_slip, strict=True))
-        for first, second in (curve.max_slip, slip_differences):
-            limits += [1.0 + first / (first - second)] if second < first else []
+            if difference > 0.0:
+                limits.append((2.0 * first - 0.5 * second) / difference)
+        slip_gaps = tuple(slide - peak for slide, peak in zip(curve.slide_slip, curve.max_slip, strict=True))
+        for first, second in (curve.max_slip, slip_gaps):
+            if second < first:
+                limits.append(1.0 + first / (first - second))
     return min(limits)
-
-
-def carcass_stiffness_of(tyre: MagicTyre, c: dict[str, float]) -> tuple[float, float]:
-    """Longitudinal and lateral carcass stiffness at the nominal load, N/m: slip stiffness over relaxation length."""
-    length = c.get("PTY1", 0.0) * sin(2.0 * atan(1.0 / (c.get("PTY2", 0.0) or 1.0))) or 1.0
-    lateral_stiffness = cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load) / (length * tyre.radius)
-    return tyre.along[1], c.get("LATERAL_STIFFNESS", 0.0) or lateral_stiffness

@@ -79,11 +79,11 @@ _NUMBERS = {  # keys whose values must be numbers
 }
 _STIFFNESS_TOLERANCE = 0.05  # relative difference of VERTICAL_STIFFNESS and Q_FZ1
 _BOTTOMED_RUBBER = 0.010  # m between rim and road of a bottomed tyre
-_BOTTOMING_STIFFNESS = 5.0  # default, over the stiffness of the tyre
-_LEAST_SHARE = 0.05  # of friction and slip stiffness at the nominal load, below which a fit is out of its range
+_BOTTOMING_STIFFNESS = 5.0  # default, relative to the stiffness of the tyre
+_MIN_FRACTION = 0.05  # of friction and slip stiffness at the nominal load, below which a fit is out of its range
 _LOADS = 400  # number of loads at which these are checked
-_LEAST_RANGE = 0.01  # of slips and angles, rad
-_DEFAULT_LARGEST_LOAD = 5.0  # over the nominal load
+_MIN_RANGE = 0.01  # of slips and angles, rad
+_DEFAULT_LARGEST_LOAD = 5.0  # relative to the nominal load
 
 
 @dataclass(frozen=True)
@@ -97,8 +97,9 @@ class TyreFile(Summarised):
     side: str
     """Side of the measured tyre, "left" or "right", or "symmetric"."""
     pressure: float
+    """Inflation pressure, Pa; 0 if the file has none."""
     nominal_pressure: float
-    """`pressure`, `nominal_pressure`: Pa; 0 if the file has none."""
+    """Nominal inflation pressure, Pa; 0 if the file has none."""
     pressure_range: tuple[float, float]
     """Range in which the coefficients hold, Pa."""
     notes: tuple[str, ...]
@@ -118,7 +119,7 @@ class TyreFile(Summarised):
         signs : {"iso", "sae", "adapted_sae"}
             Sign convention of the coefficients.
         pressure : float, optional
-            Inflation pressure, Pa; by default that of the file.
+            Inflation pressure, Pa; by default as in the file.
         more
             Other fields of `MagicTyre`, such as `friction_factor`.
 
@@ -133,9 +134,9 @@ class TyreFile(Summarised):
         if slope * slip * force > 0.0:
             expected = "negative" if signs != "adapted_sae" else "positive"
             raise TyreFileError(
-                f"{self.name}: PKY1 is {slope:g}; with the signs '{signs}' it must be {expected}, else the lateral "
-                "force has the sign of the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of most "
-                "files."
+                f"{self.name}: PKY1 is {slope:g}; with the signs '{signs}' it must be {expected}, otherwise the "
+                "lateral force has the sign of the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of "
+                "most files."
             )
         inflation = self.pressure if pressure is None else pressure
         if pressure is not None and not self.nominal_pressure > 0.0:
@@ -145,7 +146,7 @@ class TyreFile(Summarised):
             raise TyreFileError(f"{self.name}: the pressure is {pressure:g} Pa; {_pressure_text(least, most)}.")
         relative = inflation / self.nominal_pressure - 1.0 if self.nominal_pressure > 0.0 and inflation > 0.0 else 0.0
         factor = 1.0 + self.values["coefficients"].get("PFZ1", 0.0) * relative
-        if not factor >= _LEAST_SHARE:
+        if not factor >= _MIN_FRACTION:
             raise TyreFileError(f"{self.name}: at {inflation:g} Pa PFZ1 leaves {factor:.2g} of the vertical stiffness.")
         mirrored = mounted in SIDES and self.side in SIDES and mounted != self.side
         return MagicTyre(**{**self.values, **more}, signs=signs, pressure=relative, mirrored=mirrored)
@@ -154,7 +155,7 @@ class TyreFile(Summarised):
 def read_tyre(file: str | Path) -> TyreFile:
     """Read a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2. `file`: usually with the extension .tir.
 
-    Raises `TyreFileError`: it cannot be read, is of another format, or lacks a number or has one out of bounds.
+    Raises `TyreFileError` if it cannot be read, is of another format, or lacks a number or has one out of bounds.
     """
     text = read_properties(file)
     notes: list[str] = []
@@ -174,8 +175,8 @@ def read_tyre(file: str | Path) -> TyreFile:
     check_bounds(text, numbers)
     if numbers["PKX1"] < 0.0:
         raise text.fault(
-            f"PKX1 is {numbers['PKX1']:g}; it must be positive, else the longitudinal force has the direction of the "
-            "slip."
+            f"PKX1 is {numbers['PKX1']:g}; it must be positive, otherwise the longitudinal force has the direction of "
+            "the slip."
         )
     coefficients = {key: numbers[key] for key in MAGIC_COEFFICIENTS if key in numbers}
     if text.word("TYRESIDE", "MODEL") in ("SYMMETRIC", "SYMMETRICAL"):
@@ -215,9 +216,11 @@ def read_tyre(file: str | Path) -> TyreFile:
     return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes), numbers)
 
 
-def _pressure_text(least: float, most: float) -> str:
+def _pressure_text(minimum: float, maximum: float) -> str:
     """Sentence on the range of the pressure, Pa."""
-    limits = [f"from PRESMIN, {least:g} Pa"] * (least > 0.0) + [f"to PRESMAX, {most:g} Pa"] * (most < math.inf)
+    limits = [f"from PRESMIN, {minimum:g} Pa"] * (minimum > 0.0) + [f"to PRESMAX, {maximum:g} Pa"] * (
+        maximum < math.inf
+    )
     return f"the coefficients hold {', '.join(limits)}"
 
 
@@ -227,12 +230,12 @@ def asymmetric_coefficients(version: str) -> tuple[str, ...]:
 
 
 def _version(text: PropertyText, notes: list[str]) -> str:
-    """Version of the formula. Raises `TyreFileError`: the format is not known."""
+    """Version of the formula. Raises `TyreFileError` if the format is not known."""
     format_name = text.word("PROPERTY_FILE_FORMAT", "MODEL")
     fittyp = text.sections["MODEL"].get("FITTYP")
     if format_name == "PAC2002":
         if isinstance(fittyp, float) and VERSION_BY_FITTYP.get(int(fittyp), "MF52") != "MF52":
-            notes.append(f"FITTYP is {fittyp:g} and PROPERTY_FILE_FORMAT PAC2002; the equations are those of PAC2002.")
+            notes.append(f"FITTYP is {fittyp:g} and PROPERTY_FILE_FORMAT PAC2002; the equations of PAC2002 are used.")
         return format_name
     if isinstance(fittyp, float) and (format_name in _FORMATS_WITH_FITTYP or format_name.startswith("MF")):
         if fittyp in VERSION_BY_FITTYP:
@@ -321,10 +324,8 @@ def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> 
         ("camber_range", "CAMMIN", "CAMMAX", 0.5),
     ):
         low, high = numbers.get(first, -default), numbers.get(last, default)
-        if not low <= 0.0 <= high or high - low < _LEAST_RANGE:
-            raise text.fault(
-                f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_LEAST_RANGE:g} apart."
-            )
+        if not low <= 0.0 <= high or high - low < _MIN_RANGE:
+            raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_MIN_RANGE:g} apart.")
         if low * high == 0.0:
             notes.append(f"{first} is {low:g} and {last} {high:g}: the other side is taken as wide.")
             low, high = -max(-low, high), max(-low, high)
@@ -345,7 +346,8 @@ def _largest_load(
         if not c[key] > 0.0:
             raise text.fault(f"{key} is {coefficients[key]:g}; it must be positive.")
 
-    def shares_at(load: float) -> dict[str, float]:
+    def relative_at(load: float) -> dict[str, float]:
+        """Friction and slip stiffness per load, relative to those at the nominal load."""
         dfz = load / nominal - 1.0
         turn = c["PKY4"] * math.atan2(load / nominal, c["PKY2"])
         return {
@@ -359,12 +361,12 @@ def _largest_load(
 
     for k in range(1, _LOADS + 1):
         load = largest * k / _LOADS
-        for quantity, share in shares_at(load).items():
-            if share >= _LEAST_SHARE:
+        for quantity, ratio in relative_at(load).items():
+            if ratio >= _MIN_FRACTION:
                 continue
             if load < nominal:
                 raise text.fault(
-                    f"{quantity} is {share:.2g} of that at the nominal load at {load:.0f} N; it must be positive."
+                    f"{quantity} is {ratio:.2g} of that at the nominal load at {load:.0f} N; it must be positive."
                 )
             notes.append(f"{quantity} fades at {load:.0f} N; above it the forces stay, FZMAX is {largest:.0f} N.")
             return largest * (k - 1) / _LOADS

@@ -10,9 +10,9 @@ from ali3.message_text import brief, one_line
 from ali3.reading import read_bytes
 from mbs.common.errors import ModelError
 
-MOST_BYTES = 1_000_000
+MAX_BYTES = 1_000_000
 """Usual files have some ten thousand bytes."""
-_LONGEST_LINE = 1000  # characters
+_MAX_LINE_LENGTH = 1000  # characters
 _SECTION = re.compile(r"\[\s*([A-Za-z0-9_]+)\s*\]")
 _ENTRY = re.compile(r"([A-Za-z][A-Za-z0-9_]*)\s*=\s*(.*)")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?", re.ASCII)
@@ -44,8 +44,8 @@ class PropertyText:
     def numbers(self, expected: Container[str] = ()) -> dict[str, float]:
         """All numbers by key.
 
-        `expected`: keys whose values must be numbers. Raises `TyreFileError`: a key has different values in two
-        sections, or a text where a number is expected.
+        `expected`: keys whose values must be numbers. Raises `TyreFileError` if a key has different values in two
+        sections, or a text instead of a number.
         """
         numbers: dict[str, float] = {}
         for section, entries in self.sections.items():
@@ -65,9 +65,9 @@ class PropertyText:
 def read_properties(file: str | Path) -> PropertyText:
     """Read the sections of a tyre property file. `file`: text in UTF-8 or Latin-1; keys and values are ASCII.
 
-    Raises `TyreFileError`: it is not such a text.
+    Raises `TyreFileError` if it is not such a text.
     """
-    data = read_bytes(file, MOST_BYTES, TyreFileError)
+    data = read_bytes(file, MAX_BYTES, TyreFileError)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:
         raise TyreFileError(f"{file} is not text of single bytes; it must be in UTF-8 or Latin-1.")
     try:
@@ -80,14 +80,14 @@ def read_properties(file: str | Path) -> PropertyText:
 
 
 def _parse(text: str, name: str) -> PropertyText:
-    """Sections of a text. `name`: of the file, for messages."""
+    """Sections of a text. `name`: name of the file, for messages."""
     sections: dict[str, dict[str, str | float]] = {}
     tables: set[str] = set()
     section = ""
     for k, raw in enumerate(text.splitlines(), 1):
         where = f"{name}, line {k}"
-        if len(raw) > _LONGEST_LINE:
-            raise TyreFileError(f"{where} has {len(raw)} characters; it must have at most {_LONGEST_LINE}.")
+        if len(raw) > _MAX_LINE_LENGTH:
+            raise TyreFileError(f"{where} has {len(raw)} characters; it must have at most {_MAX_LINE_LENGTH}.")
         line = _without_comment(raw)
         if not line or line.startswith("{"):
             continue

@@ -29,7 +29,7 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
     file : path
         Usually with the extension .tir.
     tyre : MagicTyre
-        In ISO axes, not mirrored, at its nominal pressure; its friction factor over its reference friction is
+        In ISO axes, not mirrored, at its nominal pressure; its friction factor / its reference friction is
         multiplied into LMUX and LMUY.
     side : {"LEFT", "RIGHT", "SYMMETRIC"}
         Side of the measured tyre; a reader takes the asymmetric coefficients of a symmetric one as 0.
@@ -104,13 +104,13 @@ def _lines(t: MagicTyre, side: str) -> Iterator[str]:
     yield from _number_lines(factors)
     groups: dict[str, dict[str, float]] = {f"{name}_COEFFICIENTS": {} for name in _SECTION_BY_PREFIX.values()}
     for name, value in c.items():
-        groups[f"{_section_of(name)}_COEFFICIENTS"][name] = value
+        groups[f"{_coefficient_section(name)}_COEFFICIENTS"][name] = value
     for section, values in groups.items():
         yield f"[{section}]"
         yield from _number_lines(values)
 
 
-def _section_of(name: str) -> str:
+def _coefficient_section(name: str) -> str:
     """Section of a coefficient, without its suffix."""
     for start, group in _SECTION_BY_PREFIX.items():
         if name.startswith(start):

@@ -1,29 +1,39 @@
 """Steady forces at pure slip and trail of both tyre formulas, without camber and shifts, for fits."""
 
 from collections.abc import Mapping, Sequence
+from math import atan, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mbs.elements.magic_tyre import MagicTyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 
 Array = NDArray[np.float64]
 
 
-def at_load(pair: Sequence[float], q: float) -> float:
-    """Force or stiffness of TMeasy at q nominal loads from the values at one and two: a parabola through 0."""
+def at_load(pair: Sequence[float], load_ratio: float) -> float:
+    """Force or stiffness of TMeasy at a load: a parabola through 0.
+
+    `pair`: values at one and two nominal loads; `load_ratio`: load relative to the nominal load.
+    """
     first, second = pair
-    return q * (2.0 * first - 0.5 * second - (first - 0.5 * second) * q)
+    return load_ratio * (2.0 * first - 0.5 * second - (first - 0.5 * second) * load_ratio)
+
+
+def slip_at_load(pair: Sequence[float], load_ratio: float) -> float:
+    """Slip or relative trail of TMeasy at a load: linear. Arguments as in `at_load`."""
+    first, second = pair
+    return first + (second - first) * (load_ratio - 1.0)
 
 
 def tmeasy_force(
     slope: float, peak: float, peak_slip: float, sliding: float, sliding_slip: float, slip: ArrayLike
 ) -> Array:
-    """Force of TMeasy over a slip, odd in it (Hirschberg, Rill and Weinfurter, 2007).
+    """Force of TMeasy, N, an odd function of the slip (Hirschberg, Rill and Weinfurter, 2007).
 
     `slope`, `peak`, `sliding`: initial slope, largest and sliding force, N; `peak_slip`, `sliding_slip`: slips of the
-    largest force and of the beginning of sliding; `slip`: relative to the speed of the rolling wheel. Result: N, with
-    the sign of the slip.
+    largest force and at which sliding starts; `slip`: relative to the speed of the rolling wheel.
     """
     s = np.abs(np.asarray(slip, float))
     x = s / peak_slip
@@ -34,9 +44,9 @@ def tmeasy_force(
 
 
 def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Array:
-    """Trail of TMeasy over the length of the patch, at a lateral slip.
+    """Trail of TMeasy at a lateral slip, relative to the length of the contact patch.
 
-    `first`: at no slip; `zero`, `end`: slips of its zero and of its end.
+    `first`: trail at zero slip; `zero`, `end`: slips at which it vanishes and ends.
     """
     s = np.abs(np.asarray(slip, float))
     w, x = zero / end, s / zero
@@ -54,7 +64,7 @@ def _magic_sine(B: float, C: float, D: float, E: float, x: Array) -> Array:
 def magic_longitudinal(coefficients: Mapping[str, float], nominal: float, load: float, kappa: ArrayLike) -> Array:
     """Longitudinal force of the Magic Formula at pure slip (4.E9 to 4.E18), N.
 
-    `coefficients`: by name, the missing ones at their defaults; `nominal`, `load`: in N.
+    `coefficients`: coefficients by name, the missing ones at their defaults; `nominal`, `load`: N.
     """
     c = {**MAGIC_COEFFICIENTS, **coefficients}
     nominal *= c["LFZO"]
@@ -73,10 +83,30 @@ def cornering_stiffness(coefficients: Mapping[str, float], nominal: float, load:
     return float(abs(c["PKY1"]) * nominal * np.sin(turn) * c["LKY"])
 
 
+def carcass_stiffness(tyre: MagicTyre, coefficients: Mapping[str, float]) -> tuple[float, float]:
+    """Longitudinal and lateral carcass stiffness at the nominal load, N/m.
+
+    The stiffness of the file, otherwise slip stiffness divided by relaxation length.
+    """
+    c = {**MAGIC_COEFFICIENTS, **coefficients}
+    # a file without PTY1 has no relaxation length: 1 radius
+    relative_length = c["PTY1"] * sin(2.0 * atan(1.0 / (c["PTY2"] or 1.0))) or 1.0
+    slip_stiffness = cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load)
+    return tyre.along[1], c["LATERAL_STIFFNESS"] or slip_stiffness / (relative_length * tyre.radius)
+
+
+def formula_slip(version: str, tangent: ArrayLike) -> Array:
+    """Lateral slip of the Magic Formula (4.E3): the slip angle, rad, up to 5.2, its tangent from 6.1.
+
+    `version`: key of `VERSIONS`; `tangent`: tangent of the slip angle.
+    """
+    return np.asarray(tangent, float) if version in ("MF61", "MF62") else np.asarray(np.arctan(tangent))
+
+
 def magic_lateral(coefficients: Mapping[str, float], nominal: float, load: float, alpha: ArrayLike) -> Array:
     """Lateral force, opposite to the slip, at pure slip (4.E19 to 4.E30), N.
 
-    `alpha`: the slip angle, rad, up to 5.2; its tangent from 6.1 on.
+    `alpha`: lateral slip as `formula_slip` gives it.
     """
     c = {**MAGIC_COEFFICIENTS, **coefficients}
     dfz = load / (nominal * c["LFZO"]) - 1.0
@@ -86,14 +116,18 @@ def magic_lateral(coefficients: Mapping[str, float], nominal: float, load: float
 
 
 def magic_trail(
-    coefficients: Mapping[str, float], nominal: float, radius: float, load: float, alpha: ArrayLike
+    coefficients: Mapping[str, float], nominal: float, radius: float, load: float, tangent: ArrayLike, version: str
 ) -> Array:
-    """Pneumatic trail (4.E71 to 4.E75) without camber and shifts, m."""
+    """Pneumatic trail (4.E71 to 4.E75) without camber and shifts, m.
+
+    `tangent`: tangent of the slip angle; `version`: key of `VERSIONS`.
+    """
     c = {**MAGIC_COEFFICIENTS, **coefficients}
-    a = np.asarray(alpha, float)
+    alpha = np.arctan(tangent)
+    a = formula_slip(version, tangent)
     dfz = load / (nominal * c["LFZO"]) - 1.0
     B = (c["QBZ1"] + c["QBZ2"] * dfz + c["QBZ3"] * dfz**2) * c["LKY"] / c["LMUY"]
     D = load * radius / (nominal * c["LFZO"]) * (c["QDZ1"] + c["QDZ2"] * dfz) * c["LTR"]
     E = min(c["QEZ1"] + c["QEZ2"] * dfz + c["QEZ3"] * dfz**2, 1.0)
     scaled = B * a
-    return np.asarray(D * np.cos(c["QCZ1"] * np.arctan(scaled - E * (scaled - np.arctan(scaled)))) * np.cos(a))
+    return np.asarray(D * np.cos(c["QCZ1"] * np.arctan(scaled - E * (scaled - np.arctan(scaled)))) * np.cos(alpha))

@@ -13,20 +13,26 @@ from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, qua
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
-from mbs.tyre_files.fits import carcass_stiffness_of
 from mbs.tyre_files.magic_file import TyreFile
-from mbs.tyre_files.pure_curves import at_load, cornering_stiffness, magic_lateral, magic_longitudinal, tmeasy_force
+from mbs.tyre_files.pure_curves import (
+    at_load,
+    carcass_stiffness,
+    cornering_stiffness,
+    magic_lateral,
+    magic_longitudinal,
+    tmeasy_force,
+)
 
 Array = NDArray[np.float64]
 AnyTyre: TypeAlias = "MagicTyre | Tyre"
 DEG = math.pi / 180.0
-LARGEST_SLIP = 0.6
+MAX_SLIP = 0.6
 """Slip, and slip angle, rad, up to which the peak is sought."""
 COMPARED_SLIP = 0.5
 """Slip at which the force is compared with its peak."""
-PEAK_SHARE = 0.95
+PEAK_FRACTION = 0.95
 """Share of the largest force that counts as the peak: some curves rise without end."""
-SLIPS = np.linspace(0.0, LARGEST_SLIP, 1201)
+SLIPS = np.linspace(0.0, MAX_SLIP, 1201)
 
 QUANTITIES = quantities_of("tyre")
 SOURCE_KEYS = {  # the main coefficients of each value
@@ -44,15 +50,15 @@ SOURCE_KEYS = {  # the main coefficients of each value
     "trail": ("QDZ1", "LTR"),
 }
 SCALING_MISTAKES = (  # keys, factor that undoes the mistake, words; scaling factors before their coefficients
-    *(((key,), 1.0 / DEG, "per degree in place of per radian in") for key in ("LKY", "PKY1")),
-    (("PKX1",), 100.0, "per percent in place of per slip in"),
-    (("PHY1",), DEG, "degrees in place of radians in"),
-    *((keys, DEG, "degrees in place of radians in") for keys in (("ALPMIN", "ALPMAX"), ("CAMMIN", "CAMMAX"))),
-    *((keys, 0.01, "percent in place of a ratio in") for keys in (("KPUMIN", "KPUMAX"), ("PHX1",), ("ASPECT_RATIO",))),
+    *(((key,), 1.0 / DEG, "per degree instead of per radian in") for key in ("LKY", "PKY1")),
+    (("PKX1",), 100.0, "per percent instead of per slip in"),
+    (("PHY1",), DEG, "degrees instead of radians in"),
+    *((keys, DEG, "degrees instead of radians in") for keys in (("ALPMIN", "ALPMAX"), ("CAMMIN", "CAMMAX"))),
+    *((keys, 0.01, "percent instead of a ratio in") for keys in (("KPUMIN", "KPUMAX"), ("PHX1",), ("ASPECT_RATIO",))),
     *(((key,), -1.0, "the sign of") for key in ("PVY1", "PEY1", "PEX1", "PCY1", "PCX1", "PKY1", "QDZ1")),
-    *(((key,), 0.01, "percent in place of a ratio in") for key in ("PDY1", "PDX1", "LMUY", "LMUX", "LFZO")),
-    (("LONGVL",), 1.0 / 3.6, "km/h in place of m/s in"),
-    (("RIM_RADIUS",), 0.5, "the diameter in place of the radius in"),
+    *(((key,), 0.01, "percent instead of a ratio in") for key in ("PDY1", "PDX1", "LMUY", "LMUX", "LFZO")),
+    (("LONGVL",), 1.0 / 3.6, "km/h instead of m/s in"),
+    (("RIM_RADIUS",), 0.5, "the diameter instead of the radius in"),
 )
 RANGES = {
     "slip_range": ("KPUMIN", "KPUMAX"),
@@ -61,7 +67,7 @@ RANGES = {
 }
 FACTORS = [key for key, usual in MAGIC_COEFFICIENTS.items() if key[0] == "L" and usual == 1.0]
 COMPARED_CAMBER = 5.0 * DEG
-"""Camber angle at which the friction is compared with that of an upright wheel, rad."""
+"""Camber angle at which the friction is compared with an upright wheel, rad."""
 RELATIONS: tuple[tuple[str, tuple[str, ...], str, Callable[..., float]], ...] = (  # quantity, keys, subject, formula
     (
         "section",
@@ -101,11 +107,11 @@ LOADS = {1.0: "", 0.5: "at half the nominal load"}
 @dataclass(frozen=True)
 class _Curve:
     slope: float
-    """At no slip, over the load, 1/rad or 1."""
+    """Slope at zero slip / load, 1/rad or 1."""
     force: Array
-    """Force over the load at `SLIPS`, without shifts."""
+    """Force / load at `SLIPS`, without shifts."""
     at_zero: float
-    """Force at no slip over the load, with shifts."""
+    """Force at zero slip / load, with shifts."""
 
 
 def magic_plausibility(
@@ -113,8 +119,8 @@ def magic_plausibility(
 ) -> Plausibility:
     """Plausibility of a Magic Formula tyre.
 
-    `what`: name of the file; `numbers`: of the file, SI units; `kind`: of vehicle, by default any; `prefix`: of keys,
-    for those of a car file.
+    `what`: name of the file; `numbers`: numbers of the file, SI units; `kind`: kind of vehicle, by default any;
+    `prefix`: prefix of keys, for a car file.
     """
     tyre = replace(tyre, largest_load=numbers.get("FZMAX") or tyre.largest_load)
     values = partial(_magic_values, prefix=prefix, numbers=numbers)
@@ -141,8 +147,8 @@ def tmeasy_plausibility(what: str, tyre: Tyre, kind: str = "", prefix: str = "")
     for name, per in (("lateral", "degree"), ("longitudinal", "percent")):
         factor = DEG if per == "degree" else 0.01
         for fields, direction, text in (
-            (("slope",), 1.0 / factor, f"per {per} in place of per slip in {prefix}{name}.slope"),
-            (("max_slip", "slide_slip"), factor, f"{per}s in place of a ratio in {prefix}{name}.max_slip"),
+            (("slope",), 1.0 / factor, f"per {per} instead of per slip in {prefix}{name}.slope"),
+            (("max_slip", "slide_slip"), factor, f"{per}s instead of a ratio in {prefix}{name}.max_slip"),
         ):
             curve = getattr(tyre, name)
             changed = replace(curve, **{f: tuple(direction * v for v in getattr(curve, f)) for f in fields})
@@ -168,14 +174,14 @@ def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[
     """Mistakes in radii, loads and stiffness. `values`: function of a tyre."""
     names = _vertical_names(tyre, prefix)
     corrections = [
-        (f"{unit} in place of newtons in {names[field]}", {field: factor})
+        (f"{unit} instead of newtons in {names[field]}", {field: factor})
         for field in ("nominal_load", "stiffness", "largest_load")
         for factor, unit in FORCE_UNITS
         if hasattr(tyre, field)
     ]
-    corrections.append((f"the diameter in place of the radius in {names['radius']}", {"radius": 0.5}))
+    corrections.append((f"the diameter instead of the radius in {names['radius']}", {"radius": 0.5}))
     corrections.append(
-        (f"the load of an axle in place of that of a wheel in {names['nominal_load']}", {"nominal_load": 0.5})
+        (f"the load of an axle instead of that of a wheel in {names['nominal_load']}", {"nominal_load": 0.5})
     )
     forces = [f for f in ("nominal_load", "stiffness", "damping", "largest_load") if hasattr(tyre, f)]
     corrections += [
@@ -207,7 +213,7 @@ def _magic_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) ->
     slip_stiffnesses = tyre.along[0], cornering_stiffness_at(tyre, nominal)
     sources_of_lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
     for of, slip_stiffness, stiffness, sources in zip(
-        ("longitudinal", "lateral"), slip_stiffnesses, carcass_stiffness_of(tyre, c), sources_of_lengths, strict=True
+        ("longitudinal", "lateral"), slip_stiffnesses, carcass_stiffness(tyre, c), sources_of_lengths, strict=True
     ):
         if any(c[k] for k in sources):
             nonzero = {prefix + k: c[k] for k in sources if c[k]}
@@ -310,7 +316,7 @@ def _curve_values(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[s
             to_deg, peak = 1.0 / DEG if axis == "y" else 1.0, float(np.max(curve.force))
             peaks.append(peak)
             k, compared_force = (
-                int(np.argmax(curve.force >= PEAK_SHARE * peak)),
+                int(np.argmax(curve.force >= PEAK_FRACTION * peak)),
                 float(np.interp(COMPARED_SLIP, SLIPS, curve.force)),
             )
             values = {

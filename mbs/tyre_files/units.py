@@ -47,7 +47,7 @@ PRESSURES = ("INFLPRES", "NOMPRES", "PRESMIN", "PRESMAX")
 def to_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
     """Convert the numbers of a file to SI units.
 
-    Raises `TyreFileError`: a unit of length, force or time is missing, a unit is not known, or angles are not in
+    Raises `TyreFileError` if a unit of length, force or time is missing, a unit is not known, or angles are not in
     radians, for which the coefficients of the Magic Formula hold.
     """
     scales = {}

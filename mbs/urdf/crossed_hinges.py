@@ -23,8 +23,9 @@ class CrossedHinges:
 
     hinges: tuple[Any, ...]
     parent: str
+    """Name of the first link."""
     child: str
-    """`parent`, `child`: names of the first and the last link."""
+    """Name of the last link."""
     point: Array
     """Intersection of the axes, earth axes, m, shape (3,)."""
     axes: Array

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mbs.urdf.source import INERTIA, Element
 
-LEAST_SECOND_MOMENT = 0.01
+MIN_SECOND_MOMENT = 0.01
 """Least second moment of mass of a link, relative to the largest: a plate has a thickness."""
 SOLID_DENSITY = 1000.0  # kg/m3
 
@@ -28,7 +28,7 @@ class Factors(NamedTuple):
     efforts: float = 1.0
     speeds: float = 1.0
     solid: bool = False
-    """Whether placeholder inertias of 1, 0.1, ... kg m2 about all axes are replaced by those of a ball of
+    """Whether placeholder inertias of 1, 0.1, ... kg m2 about all axes are replaced by the inertia of a ball of
     `SOLID_DENSITY`."""
     only: str = ""
     """Name of the only link to which the factors apply; empty: all links."""
@@ -59,7 +59,7 @@ class LinkMass(NamedTuple):
         second_moments = 0.5 * np.trace(self.inertia) - np.linalg.eigvalsh(self.inertia)
         if not max(second_moments) > 0.0:
             return 0.0
-        axes = np.sqrt(5.0 * np.maximum(second_moments, LEAST_SECOND_MOMENT * max(second_moments)) / self.mass)
+        axes = np.sqrt(5.0 * np.maximum(second_moments, MIN_SECOND_MOMENT * max(second_moments)) / self.mass)
         return float(self.mass / (4.0 / 3.0 * math.pi * np.prod(axes)))
 
 

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from ali3.plausibility import Value, quantities_of
 from mbs.urdf.link_mass import Factors, LinkMass
 
-LEAST_PAIRS = 3
+MIN_PAIRS = 3
 """Least number of pairs for which the symmetry is tested."""
-LEAST_SIZE = 1e-4  # m
+MIN_SIZE = 1e-4  # m
 SYMMETRY_TOLERANCE = 0.01
 """Distance of links from the mirror images of their counterparts, relative to the size, in a symmetric robot."""
 SIDE = re.compile(r"(left|Left|LEFT)|(?<![A-Za-z])([FHBRfhbr]?)([Ll])(?=(?:[FHBfhb]|leg|arm|LEG|ARM)?(?![A-Za-z]))")
@@ -32,7 +32,7 @@ def pair_values(
         values.append(Value(QUANTITIES["sides"], _ratio(left.mass, right.mass), keys, subject))
         keys = {f"inertia of '{n}' in line {parts[n].line}": parts[n].moment for n in (a, b)}
         values.append(Value(QUANTITIES["moments"], _ratio(left.moment, right.moment), keys, subject))
-    if len(pairs) < LEAST_PAIRS or scale <= LEAST_SIZE:
+    if len(pairs) < MIN_PAIRS or scale <= MIN_SIZE:
         return values
     centres = {
         n: factors.lengths * poses[n][:3, 3] + poses[n][:3, :3] @ parts[n].centre for pair in pairs for n in pair

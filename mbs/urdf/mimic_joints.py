@@ -1,4 +1,4 @@
-"""Mimic joints of a URDF file, whose value is a linear function of that of another joint."""
+"""Mimic joints of a URDF file, whose value is a linear function of the value of another joint."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from mbs.common.errors import ModelError
 
 @dataclass(frozen=True)
 class MimicJoint:
-    """A joint whose value is `multiplier` times that of its leader plus `offset`; rad or m."""
+    """A joint whose value is `multiplier` times its leader's plus `offset`; rad or m."""
 
     name: str
     leader: str
@@ -17,11 +17,11 @@ class MimicJoint:
     offset: float
 
 
-def mimic_joints_of(joints: Mapping[str, Any], prescribed: Collection[str], file_name: str) -> dict[str, MimicJoint]:
+def read_mimic_joints(joints: Mapping[str, Any], prescribed: Collection[str], file_name: str) -> dict[str, MimicJoint]:
     """Mimic joints by name, each after its leader.
 
     `joints`: moving joints by name; `prescribed`: joints with a value or a motion of the user; `file_name`: for
-    messages. Raises `ModelError`: a leader is missing or does not move, joints follow each other in a cycle, a
+    messages. Raises `ModelError` if a leader is missing or does not move, joints follow each other in a cycle, a
     multiplier is zero, or a mimic joint is prescribed.
     """
     pending: dict[str, MimicJoint] = {}

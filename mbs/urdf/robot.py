@@ -28,15 +28,16 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
 from mbs.model.perpendicular_vectors import perpendicular
 from mbs.urdf.crossed_hinges import CrossedHinges, crossed_hinges
-from mbs.urdf.inertias import UrdfWarning, corrected_inertia, mass_of, pose_of
-from mbs.urdf.mimic_joints import MimicJoint, mimic_joints_of, mimic_values
+from mbs.urdf.inertias import UrdfWarning, combined_mass, corrected_inertia, origin_pose
+from mbs.urdf.mimic_joints import MimicJoint, mimic_values, read_mimic_joints
 from mbs.urdf.robot_plausibility import robot_plausibility
 from mbs.urdf.source import Element, read_source
 
 Pose = NDArray[np.float64]
-_MOST_BYTES = 100_000_000
-TURNING, UNLIMITED = ("revolute", "continuous"), 1e9  # N m or N: largest torque or force of a joint without a limit
-_MOST_NAMES = 4  # of joints in a sentence
+_MAX_BYTES = 100_000_000
+TURNING = ("revolute", "continuous")
+UNLIMITED = 1e9  # N m or N: largest torque or force of a joint without a limit
+_MAX_NAMES = 4  # of joints in a sentence
 
 
 @dataclass
@@ -80,7 +81,7 @@ def read_urdf(
     guides : mapping of str to PPoly, optional
         Motions of turning joints over time, rad, of degree five or less; their torques are then sensors, not inputs.
     floating : bool
-        Whether the root is free; else it is fixed to the ground.
+        Whether the root is free; otherwise it is fixed to the ground.
 
     Returns
     -------
@@ -92,7 +93,7 @@ def read_urdf(
     ------
     ModelError
         The file cannot be read, the package is missing, a joint is planar or floating, follows one that is not there or
-        has a motion of its own besides, a moving link has no mass, a name is not that of a joint.
+        has a motion of its own besides, a moving link has no mass, a name is not the name of a joint.
 
     Warns
     -----
@@ -119,7 +120,7 @@ def read_urdf(
         if name in guides and joint.type == "prismatic":
             raise ModelError(f"{file.name}: the joint '{name}' is prismatic; guides move turning joints.")
     at |= {name: float(motion(0.0)) for name, motion in guides.items()}
-    followers = mimic_joints_of(joints, at, file.name)
+    followers = read_mimic_joints(joints, at, file.name)
     at |= mimic_values(followers, at)
     robot = Robot(Model(urdf.name or file.stem))
     robot.model.floating = floating
@@ -163,7 +164,7 @@ def _read_file(file: Path) -> tuple[Any, Element]:
     except ModuleNotFoundError as error:
         raise ModelError(f"URDF files are read with yourdfpy. {missing_module(error, 'urdf')}") from error
 
-    source = read_source(read_bytes(file, _MOST_BYTES, ModelError, file.name), file.name)
+    source = read_source(read_bytes(file, _MAX_BYTES, ModelError, file.name), file.name)
     robot = read_foreign(file, reader)
     if not robot.links:
         raise ModelError(f"{file.name} has no links; it is not a URDF file.")
@@ -188,7 +189,7 @@ def _joint_tree(urdf: Any, file_name: str) -> dict[str, Any]:
         above[joint.child] = joint
     roots = [name for name in links if above[name] is None]
     if len(roots) != 1:
-        raise ModelError(f"{file_name}: {len(roots)} links are no child of a joint; a robot has one root.")
+        raise ModelError(f"{file_name}: {len(roots)} links are not the child of a joint; a robot has one root.")
     ordered: dict[str, Any] = {roots[0]: None}
     while len(ordered) < len(links):
         following = {n: j for n, j in above.items() if n not in ordered and j is not None and j.parent in ordered}
@@ -209,7 +210,7 @@ def _set_poses(robot: Robot, joint_above: Mapping[str, Any], at: Mapping[str, fl
             displacement[:3, :3] = Rotation.from_rotvec(value * _axis_in_link(joint)).as_matrix()
         elif joint.type == "prismatic":
             displacement[:3, 3] = value * _axis_in_link(joint)
-        robot.poses[name] = robot.poses[joint.parent] @ pose_of(joint.origin) @ displacement
+        robot.poses[name] = robot.poses[joint.parent] @ origin_pose(joint.origin) @ displacement
 
 
 def _turning_links(joint_above: Mapping[str, Any], floating: bool) -> frozenset[str]:
@@ -232,7 +233,7 @@ def _remove_floating_joint(
     is_single = [joint.name for joint in joint_above.values() if joint is not None and joint.parent == root] == [
         floating_joint.name
     ]
-    if not is_single or mass_of([(link, np.eye(4)) for link in urdf.links if link.name == root])[0] > 0.0:
+    if not is_single or combined_mass([(link, np.eye(4)) for link in urdf.links if link.name == root])[0] > 0.0:
         return
     if not floating:
         raise ModelError(f"{file_name}: the joint '{floating_joint.name}' is floating; floating=True takes it so.")
@@ -256,7 +257,7 @@ def _add_bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str 
         members = [n for n, g in groups.items() if g == group]
         body = robot.model.ground
         if group != ground:
-            mass, com, inertia = mass_of([(links[n], robot.poses[n]) for n in members])
+            mass, com, inertia = combined_mass([(links[n], robot.poses[n]) for n in members])
             if mass < 0.0 or (mass == 0.0 and inertia.any()):
                 raise ModelError(
                     f"{file_name}: the link '{group}', and what is fixed to it, moves with a mass of {mass:g} kg and "
@@ -283,7 +284,7 @@ def _add_crossed_hinges(
     followers: Mapping[str, MimicJoint],
     file_name: str,
 ) -> None:
-    """Add a universal or ball joint in place of hinges with massless links between them."""
+    """Add a universal or ball joint instead of hinges with massless links between them."""
     names = {joint.name for joint in crossed.hinges}
     if prescribed := names & (set(guides) | {f.leader for f in followers.values()}):
         raise ModelError(
@@ -299,7 +300,8 @@ def _add_crossed_hinges(
 
 
 def _add_joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, driven: bool) -> None:
-    """Add a joint with its drive and its sensors. `value`: rad or m, as drawn; `driven`: by a torque or force."""
+    """Add a joint with its drive and its sensors. `value`: rad or m, as drawn; `driven`: whether a torque or force
+    drives it."""
     m, name, frame = robot.model, joint.name, robot.poses[joint.child]
     first, second = robot.bodies[joint.parent], robot.bodies[joint.child]
     point, axis = frame[:3, 3], frame[:3, :3] @ _axis_in_link(joint)
@@ -308,7 +310,7 @@ def _add_joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, d
     if joint.type == "prismatic":
         m.prismatic(name, second, first, axis=axis, point=point)
         slide_axis = first.vector(axis)
-        base = robot.poses[joint.parent] @ pose_of(joint.origin)
+        base = robot.poses[joint.parent] @ origin_pose(joint.origin)
         offset = second.point(point) - first.point(base[:3, 3])
         if driven:
             _add_force(robot, joint, axis, point, limit)
@@ -390,13 +392,13 @@ def _warn_of_omissions(joints: Collection[Any], crossed: Iterable[CrossedHinges]
     unlimited = [j.name for j in joints if j.type in ("revolute", "prismatic") and not (j.limit and j.limit.effort)]
     if unlimited:
         warning = (
-            f"{file_name}: the limit of {some_of(map(repr, unlimited), _MOST_NAMES)} has no effort, or 0; "
+            f"{file_name}: the limit of {some_of(map(repr, unlimited), _MAX_NAMES)} has no effort, or 0; "
             f"{UNLIMITED:g} N m or N is taken."
         )
         warnings.warn(warning, UrdfWarning, stacklevel=3)
     if omissions:
         text = (
-            f"{file_name}: the model is without {some_of(omissions, _MOST_NAMES, '; ')}. Add elements of mbs.elements "
+            f"{file_name}: the model is without {some_of(omissions, _MAX_NAMES, '; ')}. Add elements of mbs.elements "
             "for them."
         )
         warnings.warn(text, UrdfWarning, stacklevel=3)

@@ -13,18 +13,18 @@ from numpy.typing import NDArray
 
 from ali3.plausibility import Mistake, Plausibility, Value
 from mbs.urdf.link_mass import Factors, LinkMass, link_mass
-from mbs.urdf.link_pairs import LEAST_SIZE, QUANTITIES, pair_values
+from mbs.urdf.link_pairs import MIN_SIZE, QUANTITIES, pair_values
 from mbs.urdf.source import Element
 
 GRAVITY = 9.81  # m/s2
 DEG = math.pi / 180.0
 
 UNLIMITED_RANGE = 1e4  # rad, m: a larger range means no limit
-LEAST_MASS_SHARE = 0.02
+MIN_MASS_FRACTION = 0.02
 """Share of the mass below which a link is ignored, as a frame with a placeholder mass."""
-LEAST_MOMENT_SHARE = 0.1
+MIN_MOMENT_FRACTION = 0.1
 """Share of the moments of inertia from which it is not ignored."""
-MOST_LINKS = 3
+MAX_LINKS = 3
 """Largest number of links to which a mistake is confined."""
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "inches": 0.0254}
 MOMENTS = {"kg mm2": 1e-6, "g mm2": 1e-9, "g cm2": 1e-7, "kg cm2": 1e-4, "lb in2": 2.9264e-4}
@@ -33,20 +33,20 @@ Pose: TypeAlias = NDArray[np.float64]
 
 
 MISTAKES = (  # words, first words of keys, factors that undo the mistake
-    ("degrees in place of radians in the limits", ("limit",), Factors(limits=DEG)),
-    ("degrees in place of radians in rpy", ("rpy",), Factors(angles=DEG)),
-    ("degrees per second in place of rad/s in velocities", ("velocity",), Factors(speeds=DEG)),
-    ("1/min in place of rad/s in velocities", ("velocity",), Factors(speeds=math.pi / 30.0)),
-    ("N mm in place of N m in efforts", ("effort",), Factors(efforts=1e-3)),
-    ("kN m in place of N m in efforts", ("effort",), Factors(efforts=1e3)),
-    *((f"{unit} in place of kilograms in masses", ("mass",), Factors(masses=size)) for unit, size in MASSES.items()),
-    *((f"{unit} in place of m in all lengths", ("xyz",), Factors(lengths=size)) for unit, size in LENGTHS.items()),
+    ("degrees instead of radians in the limits", ("limit",), Factors(limits=DEG)),
+    ("degrees instead of radians in rpy", ("rpy",), Factors(angles=DEG)),
+    ("degrees per second instead of rad/s in velocities", ("velocity",), Factors(speeds=DEG)),
+    ("1/min instead of rad/s in velocities", ("velocity",), Factors(speeds=math.pi / 30.0)),
+    ("N mm instead of N m in efforts", ("effort",), Factors(efforts=1e-3)),
+    ("kN m instead of N m in efforts", ("effort",), Factors(efforts=1e3)),
+    *((f"{unit} instead of kilograms in masses", ("mass",), Factors(masses=size)) for unit, size in MASSES.items()),
+    *((f"{unit} instead of m in all lengths", ("xyz",), Factors(lengths=size)) for unit, size in LENGTHS.items()),
     *(
-        (f"{unit} in place of m in centres of mass", ("centre",), Factors(centres=size))
+        (f"{unit} instead of m in centres of mass", ("centre",), Factors(centres=size))
         for unit, size in LENGTHS.items()
     ),
-    ("moments of 1, 0.1, ... kg m2 in place of those of the parts", ("inertia",), Factors(solid=True)),
-    *((f"inertias in {unit} in place of kg m2", ("inertia",), Factors(inertias=of)) for unit, of in MOMENTS.items()),
+    ("moments of 1, 0.1, ... kg m2 instead of those of the parts", ("inertia",), Factors(solid=True)),
+    *((f"inertias in {unit} instead of kg m2", ("inertia",), Factors(inertias=of)) for unit, of in MOMENTS.items()),
     ("grams in masses and g mm2 in inertias", ("mass", "inertia"), Factors(masses=1e-3, inertias=1e-9)),
     ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Factors(lengths=1e-3, inertias=1e-6)),
 )
@@ -75,7 +75,7 @@ def robot_plausibility(
     for words, names, factors in MISTAKES:
         affected = {key for key in keys if key.split(" of ")[0] in names and (factors not in UNIFORM or "'" not in key)}
         single = {match[1] for key in affected if (match := re.search("'(.*)'", key))}
-        confined = names[0] in CONFINED and 0 < len(single) <= min(MOST_LINKS, len(poses) // 2)
+        confined = names[0] in CONFINED and 0 < len(single) <= min(MAX_LINKS, len(poses) // 2)
         if not confined or len(single) > 1:
             mistakes.append(Mistake(words, frozenset(affected), partial(values, factors), guessed=confined))
         for name in sorted(single) if confined else ():
@@ -104,7 +104,7 @@ def _values(
         return list(_joint_values(root, at, factors))
     masses: dict[str, Any] = {"mass of links": total}
     values = [Value(QUANTITIES["mass"], total, masses)]
-    if size > LEAST_SIZE:
+    if size > MIN_SIZE:
         lengths = {"xyz of origins": scale, "centre of links": max(distances)}
         values.append(Value(QUANTITIES["size"], size, lengths))
         values.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
@@ -112,7 +112,7 @@ def _values(
         name = max(link_masses, key=lambda n: link_masses[n].mass)
         heaviest, rest_mass = link_masses[name].mass, sum(p.mass for n, p in link_masses.items() if n != name)
         values.append(Value(QUANTITIES["heaviest"], heaviest / rest_mass, {f"mass of '{name}'": heaviest}))
-    least, most = LEAST_MASS_SHARE * total, LEAST_MOMENT_SHARE * sum(p.moment for p in link_masses.values())
+    least, most = MIN_MASS_FRACTION * total, MIN_MOMENT_FRACTION * sum(p.moment for p in link_masses.values())
     considered = {n: p for n, p in link_masses.items() if (p.mass >= least or p.moment >= most) and p.density > 0.0}
     values += _density_values({n: p for n, p in considered.items() if n in turning}, masses)
     values += _centre_values(root, considered, factors) + pair_values(considered, poses, scale, factors)
@@ -122,7 +122,7 @@ def _values(
         if (limit := joint.first("limit")) is not None and joint.attributes.get("type") == "revolute"
         if _is_meaningful(limit.numbers("effort")[0])
     }
-    if efforts and scale > LEAST_SIZE and all(v.inside() for v in values[:3]) and max(efforts.values()) > 0.0:
+    if efforts and scale > MIN_SIZE and all(v.inside() for v in values[:3]) and max(efforts.values()) > 0.0:
         name, line = max(efforts, key=efforts.__getitem__)
         most = efforts[name, line]
         keys = {f"effort of '{name}' in line {line}": most}
@@ -132,7 +132,7 @@ def _values(
 
 def _is_meaningful(limit: float) -> bool:
     """Whether a limit is meaningful: 100, 1000, ... are placeholders."""
-    return limit < 100.0 or abs(math.log10(limit) % 1.0) > LEAST_SIZE
+    return limit < 100.0 or abs(math.log10(limit) % 1.0) > MIN_SIZE
 
 
 def _density_values(parts: Mapping[str, LinkMass], masses: Mapping[str, Any]) -> list[Value]:
@@ -164,7 +164,7 @@ def _centre_values(root: Element, parts: Mapping[str, LinkMass], factors: Factor
         keys: dict[str, Any] = {f"centre of '{name}' in line {p.line}": p.centre.tolist()}
         keys[f"inertia of '{name}' in line {p.line}"] = p.moment
         values.append(Value(QUANTITIES["centre"], float(np.linalg.norm(p.centre)) / reach, keys, f"link '{name}',"))
-    if len(offsets) > MOST_LINKS and (remainder := sum(offsets.values()) - max(offsets.values())) > LEAST_SIZE:
+    if len(offsets) > MAX_LINKS and (remainder := sum(offsets.values()) - max(offsets.values())) > MIN_SIZE:
         key = max(offsets, key=offsets.__getitem__)
         values.append(Value(QUANTITIES["longest"], offsets[key] / remainder, {key: offsets[key]}))
     return values

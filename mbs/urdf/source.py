@@ -64,7 +64,7 @@ class Element:
 def read_source(data: bytes, file_name: str) -> Element:
     """Read and check the root element. `file_name`: name of the file, for messages.
 
-    Raises `ModelError`: the data are not XML, or they have a macro, a repeated element that may occur once, text in
+    Raises `ModelError` if the data are not XML, or they have a macro, a repeated element that may occur once, text in
     place of a number, or an incomplete inertia.
     """
     parser, document = expat.ParserCreate(), Element("", 0, {})

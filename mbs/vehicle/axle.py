@@ -18,7 +18,7 @@ from mbs.vehicle.suspensions import Suspension
 from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
 from mbs.vehicle.tyres import Tyre
 
-LARGEST_CAMBER = 0.2  # rad, the end of the range of `AlignmentAngle`
+MAX_CAMBER = 0.2  # rad, the end of the range of `AlignmentAngle`
 
 
 class Wheel(Section):
@@ -62,7 +62,7 @@ class Axle(Section):
     def open(self, folder: Path) -> None:
         """Read the files of the tyres and the suspension.
 
-        Raises `CarFileError`: a file is missing or not valid.
+        Raises `CarFileError` if a file is missing or not valid.
         """
         self.tyre.open(folder)
         self.suspension.open(folder, self.wheel.centre)
@@ -120,7 +120,7 @@ class Axle(Section):
             diametral_inertia=self.wheel.diametral_inertia,
         )
         # stretch of the centre height in the wheel plane; a secant, as most tyres are linear in it
-        stretch = 1.0 / math.cos(LARGEST_CAMBER) - 1.0
+        stretch = 1.0 / math.cos(MAX_CAMBER) - 1.0
         upright, inclined = (self.tyre.rolling_radius(self.wheel.centre[2] * (1.0 + ratio)) for ratio in (0.0, stretch))
         written = b.m.written_axis(spin, leaning=(inclined - upright) / stretch)
         for name, real in (("toe", "azimuth"), ("camber", "elevation")):

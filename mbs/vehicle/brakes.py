@@ -27,7 +27,8 @@ class Brakes(Section):
     hand_torque: HandBrakeTorque = 0.0
     """Torque on each rear wheel at full hand brake."""
     side: BrakeSide = 0.0
-    """Half of the difference of the pedal's torques left and right over their mean; above 0 braking turns left."""
+    """Half of the difference of the pedal's torques left and right, relative to their mean; above 0 braking turns
+    left."""
     front: AxleBrakes
     """Brakes of the front wheels."""
     rear: AxleBrakes
@@ -39,7 +40,7 @@ class Brakes(Section):
         return share, 1.0 + (self.side if wheel.endswith("L") else -self.side)
 
     def build(self, b: CarBuilder, corner: Corner, spin: Spin, spin_inertia: float) -> None:
-        """Add the brake of a wheel. `spin_inertia`: of the wheel, kg m2."""
+        """Add the brake of a wheel. `spin_inertia`: moment of inertia of the wheel, kg m2."""
         is_rear = corner.side.axle == "rear"
         stiffness = (self.rear if is_rear else self.front).stick_stiffness
         damping = 2.0 * math.sqrt(stiffness * spin_inertia)

@@ -31,7 +31,7 @@ class _TiedNumber:
     value: float
     """Value in the model."""
     part: str = ""
-    """Component of a field with several numbers, else empty."""
+    """Component of a field with several numbers, otherwise empty."""
     targets: list[Target] = field(default_factory=list)
     """Numbers of the model that the parameter sets."""
 
@@ -84,7 +84,7 @@ class CarBuilder:
     ) -> None:
         """Make a number of the file a parameter of the model that sets a number of an element, guide or road.
 
-        Name, unit, range and description of the parameter are those of the field in the file. Several calls for one
+        Name, unit, range and description of the parameter are as in the field of the file. Several calls for one
         number are allowed, for instance for both sides of the car.
 
         Parameters
@@ -96,7 +96,7 @@ class CarBuilder:
         scale, offset : float
             The number is set to the value times `scale` plus `offset`.
         value : float, optional
-            Value in the model, if it differs from that of the file.
+            Value in the model, if it differs from the file.
         part : str
             Component of a field with several numbers, such as "x", appended to the name of the parameter.
         inverse : bool
@@ -120,7 +120,7 @@ class CarBuilder:
     def parameters(self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]]) -> None:
         """Add the tied numbers to the model as parameters.
 
-        `order`: position of a key path in the type of the file; `works`: by key path, range of values for which the
+        `order`: position of a key path in the type of the file; `works`: range of values by key path for which the
         car can be assembled.
         """
         for path, tied in sorted(self._tied.items(), key=lambda item: order(item[1].section.key(item[1].name))):

@@ -20,20 +20,20 @@ from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, frame_of
+from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, make_frame
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.ground_contact import ground_contact
 from mbs.vehicle.chassis.mass_parameters import write_inertia
 from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
-from mbs.vehicle.checks.equilibrium import Rest, rest_outputs, settled
+from mbs.vehicle.checks.equilibrium import Rest, find_equilibrium, rest_outputs
 from mbs.vehicle.checks.working_ranges import working_ranges
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.driver_inputs import driver_inputs
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
-from mbs.vehicle.names import FORMS, NAME_WORDS
+from mbs.vehicle.names import NAME_WORDS, PATTERN_WORDS
 from mbs.vehicle.outputs import car_outputs
 from mbs.vehicle.plausibility.car_plausibility import car_plausibility
 from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
@@ -46,7 +46,7 @@ from mbs.vehicle.steep_road import warn_of_steep_face
 from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.tabled_axle import tabled_axle
 
-MOST_FAULTS = 8
+MAX_FAULTS = 8
 
 
 C = TypeVar("C", bound="BuiltCar")
@@ -66,7 +66,7 @@ class BuiltCar(Summarised, CarContent):
         ModelError
             The car has no flexible frame, or its files do not describe one that fits the car.
         """
-        return frame_of(self, self._builder(self.empty(), None), self.mechanism)
+        return make_frame(self, self._builder(self.empty(), None), self.mechanism)
 
     @cached_property
     def misfit(self) -> str:
@@ -93,7 +93,7 @@ class BuiltCar(Summarised, CarContent):
         car = self
         if self.ports.tyre is not None:
             car = checked_car(type(self), _without_tyre_port(self._data), self.folder, self.name, at_rest=False)
-        return settled(car.build(car.empty(), rest_outputs).m, car)
+        return find_equilibrium(car.build(car.empty(), rest_outputs).m, car)
 
     @property
     def has_frame(self) -> bool:
@@ -108,7 +108,7 @@ class BuiltCar(Summarised, CarContent):
         fidelity: Fidelity = Fidelity.RIGID,
         drive: Callable[[Affine], object] | None = None,
     ) -> CarBuilder:
-        """Add the car to a model from `empty`; `road` and `fidelity` are those of `Car.model`.
+        """Add the car to a model from `empty`; `road`, `fidelity`: as in `Car.model`.
 
         `outputs`: adds the outputs of the car; `drive`: prescribes the x coordinate of the chassis' reference point, m;
         the selector is then in neutral.
@@ -198,7 +198,7 @@ class BuiltCar(Summarised, CarContent):
     def plausibility(self, what: str = "") -> list[Plausibility]:
         """Plausibility of the car, then of the tyres of each axle, then of its flexible frame.
 
-        `what`: name of the file. Raises `ModelError`: the car has no equilibrium.
+        `what`: name of the file. Raises `ModelError` if the car has no equilibrium.
         """
         plausibilities = car_plausibility(what or str(self.folder), self, self.rest, self._data, self._changed_car)
         titles = ["car", *(f"{name} tyres" for name in self.axles)]
@@ -241,7 +241,7 @@ class BuiltCar(Summarised, CarContent):
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
     def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
-        """Add the steering, and both axles with tables in place of links."""
+        """Add the steering, and both axles with tables instead of links."""
         steered = self.steering.build(b, self.rack_direction)
         if steered.travel is None:
             raise ModelError(
@@ -283,15 +283,15 @@ def checked_car(
 ) -> C:
     """Make a car from the content of a file and check it.
 
-    `kind`: class of the car; `folder`: of its tables; `what`: name of the file; `at_rest`: whether the equilibrium is
-    checked; `warn`: whether to warn of unusual properties; `stacklevel`: of the warnings, by default for the caller of
-    `mbs.vehicle.load`. Raises `CarFileError`: the content does not describe a car.
+    `kind`: class of the car; `folder`: folder of its tables; `what`: name of the file; `at_rest`: whether the
+    equilibrium is checked; `warn`: whether to warn of unusual properties; `stacklevel`: stack level of the warnings, by
+    default for the caller of `mbs.vehicle.load`. Raises `CarFileError` if the content does not describe a car.
     """
     check_version(data, what)
     try:
         car = kind.model_validate(data)
     except ValidationError as error:
-        raise CarFileError(_fault_text(what, Sentences(kind, data, FORMS, NAME_WORDS).of(error))) from None
+        raise CarFileError(_fault_text(what, Sentences(kind, data, PATTERN_WORDS, NAME_WORDS).of(error))) from None
     car.locate("")
     car._folder = folder
     car._data = dict(data)
@@ -303,11 +303,19 @@ def checked_car(
     faults = car_faults(car)
     if faults:
         raise CarFileError(_fault_text(what, faults))
-    if at_rest and car.ports.tyre is not None:  # the equilibrium is that on its own tyres
-        checked_car(kind, _without_tyre_port(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
-        return car
     if not at_rest:
         return car
+    if car.ports.tyre is not None:  # the equilibrium is that on its own tyres
+        checked_car(kind, _without_tyre_port(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
+        return car
+    rest = _check_at_rest(car, what)
+    for sentence in _unusual_properties(car, rest) if warn else ():
+        warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
+    return car
+
+
+def _check_at_rest(car: BuiltCar, what: str) -> Rest:
+    """Check the frame of a car and the car as drawn; return its equilibrium. Raises `CarFileError` if there is none."""
     if car.has_frame:
         try:
             frame = car.flexible_frame
@@ -319,19 +327,18 @@ def checked_car(
         model = car.empty()
         car.reported(model)
         model.look()
-        rest = settled(model, car)
+        return find_equilibrium(model, car)
     except ValueError as error:
         raise CarFileError(_fault_text(what, [f"as drawn it is not a valid car. {error}"])) from error
-    if warn:
-        misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
-        lines = [
-            sentence
-            for plausibility in car_plausibility("", car, rest, car._data, car._changed_car)
-            for sentence in plausibility.warnings()
-        ]
-        for sentence in (*misfit, *car_oddities(car, rest), *lines):
-            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
-    return car
+
+
+def _unusual_properties(car: BuiltCar, rest: Rest) -> Iterator[str]:
+    """Yield a sentence for each unusual property of a car."""
+    if car.misfit:
+        yield f"fidelity 0 only, the frame does not fit the car. {car.misfit}"
+    yield from car_oddities(car, rest)
+    for plausibility in car_plausibility("", car, rest, car._data, car._changed_car):
+        yield from plausibility.warnings()
 
 
 def _without_tyre_port(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -340,8 +347,8 @@ def _without_tyre_port(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _fault_text(what: str, faults: Sequence[str]) -> str:
-    """Lines of a message with the first `MOST_FAULTS` faults."""
-    lines = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
-    if len(faults) > MOST_FAULTS:
-        lines.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
+    """Lines of a message with the first `MAX_FAULTS` faults."""
+    lines = [f"{what}: {one_line(fault)}" for fault in faults[:MAX_FAULTS]]
+    if len(faults) > MAX_FAULTS:
+        lines.append(f"{what}: {len(faults) - MAX_FAULTS} more faults.")
     return "\n".join(lines)

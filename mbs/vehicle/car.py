@@ -24,7 +24,7 @@ class Car(BuiltCar):
     """Content of a car file, and the models of that car.
 
     SI units. Drawing axes after ISO 8855: x forward, y left, z up; the origin on level ground under the centre of the
-    front axle, the car in static equilibrium. Points are those of the left side; the right side mirrors y.
+    front axle, the car in static equilibrium. Points are on the left side; the right side mirrors y.
     """
 
     def model(

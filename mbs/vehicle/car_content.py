@@ -67,7 +67,7 @@ class CarContent(Section):
     aerodynamics: Aerodynamics
     """Forces of the air."""
     road: RoadSection
-    """Road under the car where no other is given."""
+    """Road under the car if no other is given."""
     ports: Ports = Field(default_factory=Ports)
     """Parts that other programs replace."""
 
@@ -115,7 +115,7 @@ class CarContent(Section):
             yield f"{self.chassis.key('frame')} needs links; with an axle by its curves the chassis is rigid."
         if self.ports.tyre is not None and self.ports.road is not None:
             yield (
-                "ports.tyre and ports.road are both given; the road under a tyre at a port is that of the program that "
+                "ports.tyre and ports.road are both given; the road under a tyre at a port belongs to the program that "
                 "has the tyre, so leave one of them out."
             )
         for port, effect in (("gear", "asks for a gear"), ("clutch", "opens the clutch")):
@@ -162,7 +162,7 @@ class CarContent(Section):
 
     @property
     def rack_direction(self) -> float:
-        """1 if a rack that moves to the left steers to the left, else -1."""
+        """1 if a rack that moves to the left steers to the left, otherwise -1."""
         return 1.0 if self.front.suspension.steers_left(self.front.wheel.centre) else -1.0
 
     @property

@@ -17,7 +17,7 @@ INDICES = {part: str(k) for parts in (AXES, PRODUCTS) for k, part in enumerate(p
 def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: str) -> dict[str, Any]:
     """Copy the content of a car file with other values.
 
-    `data`: tables of the file; `values`: by key path; missing keys are added. Raises `CarFileError`: a
+    `data`: tables of the file; `values`: values by key path; missing keys are added. Raises `CarFileError` if a
     key path is malformed, or leads through a value.
     """
     if not isinstance(values, Mapping):

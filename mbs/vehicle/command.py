@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         help="range of wheel travel, mm, positive in bump; default: -80 80",
     )
     curves.add_argument("--points", type=int, metavar="N", help="of each curve; default: 81")
-    add_option(curves, "--fidelity", "with a flexible frame, where there is one")
+    add_option(curves, "--fidelity", "with a flexible frame, if there is one")
     add_option(curves, "--out", "out/kinematics/CAR")
     curves.add_argument(
         "--cheapest",

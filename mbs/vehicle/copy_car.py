@@ -14,7 +14,8 @@ from mbs.vehicle.schema import SCHEMA_FILE
 def copy_car(name: str, folder: Path) -> list[Path]:
     """Copy the folder of a car, completely or not at all.
 
-    Raises `CarFileError`: there is no such car, or the folder exists; `FileError`: it cannot be written.
+    Raises `CarFileError` if there is no such car, or the folder exists, and `FileError` if it
+    cannot be written.
     """
     if name not in car_names():
         suggestion = did_you_mean(name, car_names(), f"the cars of the package are {', '.join(car_names())}", 1)

@@ -6,7 +6,7 @@ from mbs.vehicle.ports import Ports
 
 
 def driver_inputs(m: Model, ports: Ports) -> dict[str, Input]:
-    """Add the inputs of the driver, without those of parts that ports replace; return them by name."""
+    """Add the inputs of the driver, except for parts that ports replace; return them by name."""
     inputs = {}
     if ports.steering != "rack_position":
         inputs["steering"] = m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left")

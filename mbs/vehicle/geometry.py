@@ -7,38 +7,41 @@ import numpy as np
 
 from mbs.vehicle.section import Section
 
-LEAST_LENGTH = 0.02  # m, of links, arms and levers
+MIN_LENGTH = 0.02  # m, of links, arms and levers
 
 
-def apart(points: Section, first: str, second: str, what: str, least: float = LEAST_LENGTH) -> Iterator[str]:
+def apart(points: Section, first: str, second: str, what: str, min_distance: float = MIN_LENGTH) -> Iterator[str]:
     """Fault of two points at one place.
 
-    `what`: part between them, such as "the tie rod"; `least`: distance, m.
+    `what`: part between them, such as "the tie rod"; `min_distance`: m.
     """
     distance = math.dist(getattr(points, first), getattr(points, second))
-    if distance < least:
-        yield f"{points.key(first)} is {distance:.3g} m from {points.key(second)}; {what} is {least:g} m long or more."
+    if distance < min_distance:
+        yield (
+            f"{points.key(first)} is {distance:.3g} m from {points.key(second)}; {what} is {min_distance:g} m long or "
+            "more."
+        )
 
 
 def off_line(
-    points: Section, name: str, ends: tuple[str, str], what: str, line: str, least: float = LEAST_LENGTH
+    points: Section, name: str, ends: tuple[str, str], what: str, line: str, min_distance: float = MIN_LENGTH
 ) -> Iterator[str]:
     """Fault of a point on the line through two others.
 
     `what`: part between point and line, such as "the steering arm"; `line`: name of the line, such as "the steering
-    axis"; `least`: distance, m.
+    axis"; `min_distance`: m.
     """
     point, a, b = (np.array(getattr(points, n)) for n in (name, *ends))
     length = float(np.linalg.norm(b - a))
     if length < 1e-6:
         return  # a fault of `apart`
     distance = float(np.linalg.norm(np.cross(point - a, (b - a) / length)))
-    if distance < least:
-        yield f"{points.key(name)} is {distance:.3g} m from {line}; {what} is {least:g} m long or more."
+    if distance < min_distance:
+        yield f"{points.key(name)} is {distance:.3g} m from {line}; {what} is {min_distance:g} m long or more."
 
 
 def farther(
-    points: Section, axis: str, first: str, second: str, way: str, what: str, least: float = 0.0
+    points: Section, axis: str, first: str, second: str, way: str, what: str, min_difference: float = 0.0
 ) -> Iterator[str]:
     """Fault of a point that does not lie farther along an axis than another.
 
@@ -50,13 +53,13 @@ def farther(
         Required position of the first point, such as "above".
     what : str
         Reason, such as "the spring carries the car".
-    least : float
-        Least difference, m.
+    min_difference : float
+        Smallest difference, m.
     """
     k = "xyz".index(axis)
     a, b = getattr(points, first)[k], getattr(points, second)[k]
-    if a - b <= least:
-        by = f" by more than {least:g} m" if least else ""
+    if a - b <= min_difference:
+        by = f" by more than {min_difference:g} m" if min_difference else ""
         yield (
             f"{points.key(first)} has {axis} = {a:g} m and {points.key(second)} {b:g} m; "
             f"the first must be {way} the second{by}: {what}."
@@ -80,7 +83,7 @@ def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
 def arm(points: Section, part: str, what: str) -> Iterator[str]:
     """Faults of an arm with two pivots and a ball joint: no axis, no length, or ends not where their names say.
 
-    `points`: table of the points, with those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
+    `points`: table of the points, those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
     ``{part}_ball_joint``; `part`: "lower" or "upper"; `what`: kind of the arm, such as "wishbone".
     """
     pivots, ball = (f"{part}_pivot_front", f"{part}_pivot_rear"), f"{part}_ball_joint"
@@ -97,7 +100,7 @@ def steering_rod(points: Section, rod: str, axis: tuple[str, str], line: str) ->
     Parameters
     ----------
     points : Section
-        Table of the points, with those of the rod as its name with underscores, `_inner` and `_outer`.
+        Table of the points, those of the rod as its name with underscores, `_inner` and `_outer`.
     rod : str
         Name of the rod, such as "tie rod".
     axis : (str, str)

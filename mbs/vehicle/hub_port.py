@@ -1,4 +1,4 @@
-"""Port for forces and moments of another program on the hub of a wheel, in place of its tyre."""
+"""Port for forces and moments of another program on the hub of a wheel, instead of its tyre."""
 
 from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried_parts import Spin
@@ -15,7 +15,7 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
     """Add the inputs, their element and the outputs for a tyre model of another program.
 
     `wheel`: its name, such as "FL"; `tyre`: the replaced one, which determines numbers for the check of the inputs;
-    `inertia`: of the wheel about its axis, kg m2.
+    `inertia`: moment of inertia of the wheel about its axis, kg m2.
     """
     slip_stiffness, stiffness, settling, fading = tyre.carcass
     inverse_inertia = tyre.radius**2 / inertia

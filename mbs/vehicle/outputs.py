@@ -30,7 +30,9 @@ def car_outputs(
     spins: Mapping[str, Spin],
 ) -> None:
     """Add all outputs and constants of a car. `m`: model of `b`; `frame`: None without a flexible frame."""
-    _add_chassis(m, b, car)
+    _add_chassis_pose(m, b, car)
+    _add_chassis_motion(m, b, car)
+    _add_accelerometers(m, b, car)
     steered.outputs()
     if car.ports.torque is None:
         car.drive.outputs(b)
@@ -55,8 +57,8 @@ def car_outputs(
     m.book_of_added = "energy.added", "work of elements that are not the car's since the start, without what is stored"
 
 
-def _add_chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
-    """Add pose, velocity and acceleration of the chassis at the reference point, and the accelerometers."""
+def _add_chassis_pose(m: Model, b: CarBuilder, car: CarContent) -> None:
+    """Add position of the reference point, and angles and orientation of the chassis."""
     chassis, origin = b.chassis.frame, car.vehicle.reference_point
     for c in "xyz":
         m.sense_position(
@@ -76,6 +78,11 @@ def _add_chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
             c,
             description=f"q{c} of the orientation, scalar first (qw), from vehicle to earth axes",
         )
+
+
+def _add_chassis_motion(m: Model, b: CarBuilder, car: CarContent) -> None:
+    """Add velocity and acceleration of the reference point in vehicle axes, angular velocity, speed and sideslip."""
+    chassis, origin = b.chassis.frame, car.vehicle.reference_point
     for c, direction in zip("xyz", ("forward", "left", "up"), strict=True):
         m.sense_position(
             f"chassis.v{c}",
@@ -110,6 +117,10 @@ def _add_chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
         order=1,
         description="direction of travel from the heading, positive to the left; 0 below 0.1 m/s",
     )
+
+
+def _add_accelerometers(m: Model, b: CarBuilder, car: CarContent) -> None:
+    """Add the accelerations at the corners of the chassis base."""
     for corner, point in car.chassis.accelerometers.items():
         for c in "xyz":
             m.sense_position(
@@ -117,7 +128,7 @@ def _add_chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
                 b.chassis.accelerated,
                 point,
                 c,
-                chassis,
+                b.chassis.frame,
                 order=2,
                 description=f"acceleration of the {corner} corner of the chassis base along the vehicle's {c} axis, "
                 "without gravity",

@@ -5,7 +5,7 @@ from mbs.vehicle.section import Section
 
 
 class Part(Section):
-    """A rigid part of the left side; its principal axes are those of the drawing."""
+    """A rigid part of the left side; its principal axes are parallel to the axes of the drawing."""
 
     mass: PartMass
     """Mass."""

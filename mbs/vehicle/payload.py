@@ -20,7 +20,7 @@ class Payload(Section):
     def build(self, b: CarBuilder, name: str, fidelity: Fidelity) -> None:
         """Add the payload.
 
-        `fidelity`: of the chassis: a frame that may bend takes the force of the payload at several joints.
+        `fidelity`: fidelity of the chassis: a frame that may bend takes the force of the payload at several joints.
         """
         body, point = b.chassis.frame, None
         if not fidelity.rigid:

@@ -13,7 +13,7 @@ WORDS = ("x, m (ahead)", "y, m (left)", "z, m (up)")
 LABEL = {"facecolor": "white", "alpha": 0.7, "linewidth": 0.0, "pad": 0.3}
 
 
-def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
+def named_points(car: CarContent) -> dict[str, tuple[float, ...]]:
     """All points and centres of mass of a car file by key path, m."""
     points: dict[str, tuple[float, ...]] = {
         section.key(field): value
@@ -37,7 +37,7 @@ def draw_car(car: CarContent, file: Path) -> None:
     from matplotlib.figure import Figure
     from matplotlib.patches import Circle, Rectangle
 
-    points = points_of(car)
+    points = named_points(car)
     columns = -(-len(points) // ROWS)
     figure = Figure(figsize=(17.0 + 2.4 * columns, 9.0), layout="constrained")
     FigureCanvasAgg(figure)

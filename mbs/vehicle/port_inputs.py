@@ -1,20 +1,20 @@
-"""Inputs at the ports of a car: demands that other programs set in place of the driver or of parts of the car."""
+"""Inputs at the ports of a car: demands that other programs set instead of the driver or of parts of the car."""
 
 from mbs.model.inputs import new_input
 from mbs.model.records import Input, Role
 from mbs.vehicle.builder import CarBuilder
 
-LARGEST_TORQUE = 1e4
+MAX_TORQUE = 1e4
 """End of the range of the torque demand of a brake, N m."""
-LARGEST_PRESSURE = 4e7
+MAX_PRESSURE = 4e7
 """End of the range of the pressure of a brake, Pa."""
 
 
 def new_port(
     b: CarBuilder,
     name: str,
-    least: float,
-    largest: float,
+    minimum: float,
+    maximum: float,
     unit: str,
     description: str,
     role: Role = Role.NONE,
@@ -25,10 +25,10 @@ def new_port(
 ) -> Input:
     """Add an input that another program sets; it is 0 until then.
 
-    `least`, `largest`: ends of its range in `unit`, to which values are clamped; `role`, `near`, `figures`: check of
+    `minimum`, `maximum`: ends of its range in `unit`, to which values are clamped; `role`, `near`, `figures`: check of
     the input in an FMU, the sensor it is compared with, and numbers for the check; `whole`: whether it is an integer.
     """
-    limits = 0.0, least, largest, unit, description
+    limits = 0.0, minimum, maximum, unit, description
     channel = new_input(b.m, name, *limits, whole, True, role, near, figures=figures)
     b.port_inputs.append(channel)
     return channel
@@ -38,9 +38,9 @@ def brake_port(b: CarBuilder, wheel: str) -> Input:
     """Add the input of the brake of a wheel: its torque or its pressure, by the kind of the port."""
     if b.ports.brakes == "torque":
         text = "largest torque that the brake of the wheel can hold, which turns neither way by itself"
-        return new_port(b, f"wheel_{wheel}.brake_torque_demand", 0.0, LARGEST_TORQUE, "N.m", text)
+        return new_port(b, f"wheel_{wheel}.brake_torque_demand", 0.0, MAX_TORQUE, "N.m", text)
     text = "pressure in the brake of the wheel"
-    return new_port(b, f"wheel_{wheel}.brake_pressure", 0.0, LARGEST_PRESSURE, "Pa", text)
+    return new_port(b, f"wheel_{wheel}.brake_pressure", 0.0, MAX_PRESSURE, "Pa", text)
 
 
 def gear_port(b: CarBuilder, gears: int) -> int:

@@ -8,7 +8,7 @@ from mbs.vehicle.ports import PORTS, Ports
 def chosen_ports(text: str) -> dict[str, str]:
     """Parse a list of ports such as ``torque,brakes=pressure``; return kinds by port, by default the first kind.
 
-    Raises `ValueError`: the text is not such a list; the message names the ports and their kinds.
+    Raises `ValueError` if the text is not such a list; the message names the ports and their kinds.
     """
     kinds_of = {name: _kinds(name) for name in PORTS}
     chosen: dict[str, str] = {}

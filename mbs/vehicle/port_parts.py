@@ -1,4 +1,4 @@
-"""Inputs and outputs of ports in place of parts of the car."""
+"""Inputs and outputs of ports instead of parts of the car."""
 
 from collections.abc import Mapping
 from functools import partial
@@ -24,24 +24,25 @@ from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")
-LARGEST_TORQUE = 1e4  # N m, on a wheel
-LARGEST_FORCE, LARGEST_MOMENT = 1e5, 1e5  # N, N m, on the chassis
+MAX_TORQUE = 1e4  # N m, on a wheel
+MAX_FORCE = 1e5  # N, on the chassis
+MAX_MOMENT = 1e5  # N m, on the chassis
 FASTEST_WIND = 100.0  # m/s
 
 
 def torque_ports(
     b: CarBuilder, spins: Mapping[str, Spin], drive: Drive, kind: Literal["half_shafts", "hub_motors"]
 ) -> None:
-    """Add torques on the wheels in place of a drive.
+    """Add torques on the wheels instead of a drive.
 
-    `spins`: of the wheels by name; `drive`: the replaced one, whose parts that turn with the wheels remain with half
-    shafts; `kind`: with "half_shafts" the reaction is about the lateral axis of the chassis, with "hub_motors" about
-    the axis of the wheel on its carrier.
+    `spins`: spins of the wheels by name; `drive`: the replaced one, whose parts that turn with the wheels remain with
+    half shafts; `kind`: axis of the reaction, "half_shafts": the lateral axis of the chassis, "hub_motors": the axis of
+    the wheel on its carrier.
     """
     reaction_body = "chassis" if kind == "half_shafts" else "carrier of the wheel"
     text = f"torque on the wheel about its axis, positive forward, with its reaction on the {reaction_body}"
     for w, spin in spins.items():
-        channel = new_port(b, f"wheel_{w}.drive_torque", -LARGEST_TORQUE, LARGEST_TORQUE, "N.m", text)
+        channel = new_port(b, f"wheel_{w}.drive_torque", -MAX_TORQUE, MAX_TORQUE, "N.m", text)
         axes = b.chassis.drive_axes if kind == "half_shafts" else (spin.f, spin.g)
         b.m.add(SpinTorque(channel.index).record(f"port drive {w}", *axes, spin.coordinate))
     if kind == "half_shafts":
@@ -51,14 +52,14 @@ def torque_ports(
 def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"]) -> None:
     """Add forces and torques of another program on the chassis, and the motion of their points as outputs.
 
-    `axes`: of forces and torques, "earth" or "vehicle".
+    `axes`: axes of forces and torques.
     """
     m = b.m
     frame = [AffineVector.constant(v) for v in np.eye(3)] if axes == "earth" else b.chassis.contact_frame[1]
     for name, position in (car.ports.force_points or {"reference": car.vehicle.reference_point}).items():
         point = b.chassis.place(position)
         channels = []
-        for letter, unit, largest, kind in (("F", "N", LARGEST_FORCE, "force"), ("M", "N.m", LARGEST_MOMENT, "torque")):
+        for letter, unit, largest, kind in (("F", "N", MAX_FORCE, "force"), ("M", "N.m", MAX_MOMENT, "torque")):
             for c in "xyz":
                 text = f"{kind} on the chassis along the {c} axis of the {axes}, acting at the point '{name}'"
                 channels.append(new_port(b, f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)
@@ -114,7 +115,7 @@ def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
 
 
 def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
-    """Add the outputs for co-simulation through ports. `spins`: of the wheels by name."""
+    """Add the outputs for co-simulation through ports. `spins`: spins of the wheels by name."""
     for channel in b.port_inputs:
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
     reference = b.chassis.frame.point(car.vehicle.reference_point)
@@ -153,7 +154,7 @@ def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, S
         standing = [e for e in m.elements if e.name.startswith("tyre ") or e.name == GROUND_CONTACT]
         text = "what answers on the road have added to the energy stored in tyres and ground since the start"
         m.sense_energy("energy.road", "by inputs", standing, description=text)
-    text = "work of the ports since the start; that of the brakes is in energy.brakes"
+    text = "work of the ports since the start; the work of the brakes is in energy.brakes"
     guided = car.ports.steering == "rack_position"
     if elements or guided:
         kind = "with guides" if guided else "nonconservative"

@@ -19,21 +19,21 @@ class Ports(Section):
     """
 
     torque: Literal["half_shafts", "hub_motors"] | None = None
-    """Torques on the wheels in place of the drive: their reaction is on the chassis, or on the wheels' carriers."""
+    """Torques on the wheels instead of the drive: their reaction is on the chassis, or on the wheels' carriers."""
     brakes: Literal["torque", "pressure"] | None = None
-    """Torques, or pressures of brakes in the wheels, in place of the brake pedal; the hand brake stays."""
+    """Torques, or pressures of brakes in the wheels, instead of the brake pedal; the hand brake stays."""
     steering: Literal["rack_position", "rack_force"] | None = None
-    """Travel of a `rack_by_angle` in place of the driver's demands, or force on the rack of a `column` beside them."""
+    """Travel of a `rack_by_angle` instead of the driver's demands, or force on the rack of a `column` beside them."""
     road: Literal["planes"] | None = None
-    """Height, normal and friction of the road at points that other programs were asked for, in place of the road."""
+    """Height, normal and friction of the road at points that other programs were asked for, instead of the road."""
     tyre: Literal["hub"] | None = None
-    """Forces and moments on the hubs of the wheels, earth axes, in place of the tyres."""
+    """Forces and moments on the hubs of the wheels, earth axes, instead of the tyres."""
     forces: Literal["earth", "vehicle"] | None = None
     """Forces and torques on the chassis at `force_points`, along these axes."""
     wind: Literal["speed"] | None = None
     """Speed and heading of air that moves over the ground."""
     gear: Literal["request"] | None = None
-    """A forward gear that is asked for, beside an `automatic` drive, which shifts by itself where none is."""
+    """A forward gear that is asked for, beside an `automatic` drive, which shifts by itself if none is."""
     clutch: Literal["pedal"] | None = None
     """A clutch behind the converter of an `automatic` drive: the part 1 - pedal of its largest torque in a gear."""
     outputs: Literal["loops"] | None = None

@@ -20,17 +20,17 @@ class Quantity:
     unit: str
     """SI unit; "1" for a number without one."""
     low: float
+    """Least value."""
     high: float
-    """`low`, `high`: least and largest value. Where `low` is positive they are less than a factor of 1000
-    apart, so that a value in a unit 1000 times too large or too small is always outside; of inertias the radius of
-    gyration and the two other moments show it."""
+    """Largest value. It is less than 1000 `low` if that is positive, so that a value in a unit 1000 times too large or
+    too small is always outside; of inertias the radius of gyration and the two other moments show it."""
     zero: bool = False
     """Whether 0 is allowed too; a parameter may then be anywhere between 0 and `high`."""
     change: Change | None = None
     """Whether the FMU has it as a parameter: one that may change while driving, or before the start only."""
 
     def check(self, value: float) -> float:
-        """The value, if it is in the range. `value`: in `unit`."""
+        """The value, if it is in the range. `value`: number in `unit`."""
         if math.isfinite(value) and (self.low <= value <= self.high or (self.zero and value == 0.0)):
             return value
         raise PydanticCustomError("quantity", "must be {range}", {"range": self.range})

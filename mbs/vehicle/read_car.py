@@ -27,7 +27,7 @@ def read_car(kind: type[C], car: str | Path) -> C:
         return package_car
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
-    path = file_of(car)
+    path = find_car_file(car)
     if path.suffix.lower() == ".fmu":
         raise CarFileError(f"{path} is an FMU; a car is the name of one, a folder with a file {FILE}, or such a file.")
     loaded_car = checked_car(kind, read_toml(path, CarFileError), path.parent, str(path), warn=True)
@@ -37,8 +37,8 @@ def read_car(kind: type[C], car: str | Path) -> C:
     return loaded_car
 
 
-def file_of(car: str | Path) -> Path:
-    """Path of the file of a car from its folder or file. Raises `CarFileError`: there is none."""
+def find_car_file(car: str | Path) -> Path:
+    """Path of the file of a car from its folder or file. Raises `CarFileError` if there is none."""
     path = Path(car)
     try:
         if path.is_dir():

@@ -21,7 +21,7 @@ class RoadSection(Section):
     """Road under the car."""
 
     friction: RoadFriction
-    """Friction of the road: the forces of each tyre are those of its curves times it over `reference_friction`."""
+    """Friction of the road: the forces of each tyre are its curves times friction / `reference_friction`."""
     friction_factor: Factor = 1.0
     """Factor on `friction`, and on the frictions of a road from a file."""
 
@@ -43,7 +43,7 @@ class RoadSection(Section):
     ) -> None:
         """Add the parameters of the road.
 
-        `road`: of the model; None: `default`; `hold_at`: frictions at which the curves of the tyres hold, for the
+        `road`: road of the model; None: `default`; `hold_at`: frictions at which the curves of the tyres hold, for the
         description; `works`: ranges in which the car works, by key path.
         """
         base_road = self.default() if road is None else road.road if isinstance(road, RoadOfFile) else road

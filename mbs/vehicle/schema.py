@@ -26,9 +26,9 @@ def json_schema() -> dict[str, Any]:
     """
     schema = Car.model_json_schema(ref_template="#/definitions/{model}", schema_generator=_Generator)
     schema["definitions"] = dict(sorted(schema.pop("$defs").items()))
-    schema["definitions"] = {name: _simplified(table) for name, table in schema["definitions"].items()}
+    schema["definitions"] = {name: _simplify(table) for name, table in schema["definitions"].items()}
     head: dict[str, Any] = {"$schema": DRAFT, "title": "Car file of ALi3"}
-    head.update(_simplified({key: value for key, value in schema.items() if key != "title"}))
+    head.update(_simplify({key: value for key, value in schema.items() if key != "title"}))
     return head
 
 
@@ -52,10 +52,10 @@ class _Generator(GenerateJsonSchema):
         return array_schema | {key: value for key, value in limits.items() if value is not None}
 
 
-def _simplified(schema: Any) -> Any:
+def _simplify(schema: Any) -> Any:
     """Schema without null, which TOML does not have, titles, and discriminators."""
     if isinstance(schema, list):
-        return [_simplified(item) for item in schema]
+        return [_simplify(item) for item in schema]
     if not isinstance(schema, dict):
         return schema
     plain = {key: value for key, value in schema.items() if key not in ("title", "discriminator", "definitions")}
@@ -68,9 +68,9 @@ def _simplified(schema: Any) -> Any:
     if "patternProperties" in plain:
         plain["additionalProperties"] = False
     converted = {
-        key: {name: _with_unit(_simplified(value)) for name, value in inner.items()}
+        key: {name: _with_unit(_simplify(value)) for name, value in inner.items()}
         if key == "properties"
-        else _simplified(inner)
+        else _simplify(inner)
         for key, inner in plain.items()
     }
     return converted | ({"definitions": schema["definitions"]} if "definitions" in schema else {})

@@ -21,7 +21,7 @@ class Section(BaseModel):
     """Base of all tables of a car file: no other keys than its own, and it cannot be changed.
 
     The strings under the attributes are the descriptions of the file's reference and of the FMU's parameters. An
-    attribute without one has that of the same name in the element `of`, less the unit.
+    attribute without one has the text of the same name in the element `of`, without its unit.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, allow_inf_nan=False)
@@ -43,7 +43,7 @@ class Section(BaseModel):
     def element(self, kind: type[Element], **more: Any) -> Element:
         """Make an element with the numbers of this table in its fields of the same names.
 
-        `kind`: class of the element; `more`: further fields, which override those of the table.
+        `kind`: class of the element; `more`: further fields, which override fields of the table.
         """
         fields = {name: getattr(self, name) for name in signature(kind).parameters if name in type(self).model_fields}
         return kind(**(fields | more))
@@ -67,7 +67,7 @@ class Section(BaseModel):
 
     @classmethod
     def quantity(cls, field: str) -> Quantity | None:
-        """Unit and range of a field, None where it is not a single number."""
+        """Unit and range of a field, None if it is not a single number."""
         info = cls.model_fields[field]
         for metadata in (info.metadata, *(getattr(a, "__metadata__", ()) for a in get_args(info.annotation))):
             for item in metadata:
@@ -76,9 +76,9 @@ class Section(BaseModel):
         return None
 
     def numbers(self, field: str) -> dict[str, float]:
-        """Numbers of a field by the names of parameters; those of a list have the name of the component as a suffix.
+        """Numbers of a field by the names of parameters; the numbers of a list end with the name of the component.
 
-        `field`: with a quantity and a value that is not None.
+        `field`: field with a quantity and a value that is not None.
         """
         value, path = getattr(self, field), self.key(field)
         if not isinstance(value, tuple):

@@ -24,13 +24,13 @@ class Side:
         return self.axle[0].upper() + self.name[0].upper()
 
     def point(self, left: Sequence[float]) -> Point:
-        """Point of this side from that of the left side. `left`: as drawn, m."""
+        """Point of this side for a point of the left side. `left`: position as drawn, m."""
         return (left[0], self.sign * left[1], left[2])
 
     def body(self, model: Model, name: str, part: Part) -> Body:
         """Add a part of this side as a body with principal axes along the earth axes.
 
-        `name`: before the name of the wheel; `part`: mass, centre and inertia of the left part.
+        `name`: its first part, before the name of the wheel; `part`: mass, centre and inertia of the left part.
         """
         return model.body(f"{name} {self.wheel}", mass=part.mass, com=self.point(part.com), inertia=part.inertia)
 

@@ -67,7 +67,7 @@ def law_faults(
     number : float or None
         Stiffness or damping coefficient.
     table : rows of (float, float) or None
-        Table given in place of the number.
+        Table given instead of the number.
     plausible : _Plausible
         Plausible range of the table.
     """
@@ -136,7 +136,7 @@ class Spring(Section, of=SpringDamper):
 
 
 class Damper(Section, of=SpringDamper):
-    """Damper of one wheel, along the spring where the suspension has no points of its own for it."""
+    """Damper of one wheel, along the spring if the suspension has no points of its own for it."""
 
     damping: Damping | None = Field(None, description="Damping coefficient; or there is a table.")
     table: tuple[tuple[DamperSpeed, DamperForce], ...] | None = None
@@ -245,7 +245,7 @@ def spring_of_length(
     damper: tuple[Affine, float] | None,
     springs: AxleSprings,
 ) -> None:
-    """Add the spring of a wheel with damper and stops by their lengths in place of their ends.
+    """Add the spring of a wheel with damper and stops by their lengths instead of their ends.
 
     `spring`, `damper`: length, and length as drawn, m; `damper`: None if it acts along the spring.
     """

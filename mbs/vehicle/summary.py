@@ -1,4 +1,4 @@
-"""Summary of a car as tables of text."""
+"""Tables of text that summarise a car."""
 
 from ali3.columns import in_columns
 from mbs.vehicle.built_car import BuiltCar
@@ -8,8 +8,8 @@ from mbs.vehicle.section import sections_of
 def summary(car: BuiltCar) -> str:
     """Table of loads, dimensions and parts of a car, with its equilibrium."""
     rest = car.rest
-    load = {axle: 2.0 * rest.load[axle] for axle in ("front", "rear")}
-    total = load["front"] + load["rear"]
+    loads = {axle: 2.0 * rest.load[axle] for axle in ("front", "rear")}
+    total = loads["front"] + loads["rear"]
     rows = [
         ("car", f"{car.name}: {car.description}"),
         ("file", str(car.folder)),
@@ -24,7 +24,7 @@ def summary(car: BuiltCar) -> str:
         (
             name,
             axle.suspension.kind,
-            f"{load[name]:.0f} N, {load[name] / (total or 1.0):.1%}",
+            f"{loads[name]:.0f} N, {loads[name] / (total or 1.0):.1%}",
             f"{abs(rest.spring_force[name]):.0f} N over {rest.spring_length[name]:.4f} m",
             f"{1e3 * rest.travel[name]:+.1f} mm",
             f"{axle.tyre.kind}, {axle.tyre.radius:g} m, pressed in by {1e3 * rest.deflection[name]:.1f} mm",
@@ -57,10 +57,10 @@ def parameter_table(car: BuiltCar) -> str:
     values = car.values()
     for section in sections_of(car):
         for field in type(section).model_fields:
-            q = section.quantity(field)
-            if q is None or getattr(section, field) is None:
+            quantity = section.quantity(field)
+            if quantity is None or quantity.change is None or getattr(section, field) is None:
                 continue
-            when = "while driving" if q.change == "tunable" else "before the start"
-            for path in section.numbers(field) if q.change is not None else ():
-                rows.append((path, f"{values[path]:g}", q.unit, f"{q.least:g}", f"{q.high:g}", when))
+            when = "while driving" if quantity.change == "tunable" else "before the start"
+            limits = f"{quantity.least:g}", f"{quantity.high:g}"
+            rows += [(path, f"{values[path]:g}", quantity.unit, *limits, when) for path in section.numbers(field)]
     return "\n".join(in_columns(rows))

@@ -8,7 +8,7 @@ from pathlib import Path
 from ali3.message_text import brief
 from ali3.tables import TextTable, number_of
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Row:
     def number(self, column: str, low: float, high: float, unit: str) -> float:
         """A cell as a number. `low`, `high`: least and largest value.
 
-        Raises `CarFileError`: it is not a number or not in the range.
+        Raises `CarFileError` if it is not a number or not in the range.
         """
         try:
             value = number_of(self[column], self.decimal)
@@ -39,11 +39,11 @@ class Row:
             raise CarFileError(f"{self.where}: {column} is {brief(self[column])}; {must}.")
         return value
 
-    def count(self, column: str, most: int) -> int:
-        """A cell as a whole number from 1 on. `most`: largest plausible value."""
+    def count(self, column: str, maximum: int) -> int:
+        """A cell as a positive integer. `maximum`: largest plausible value."""
         text = self[column]
-        if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= most):
-            must = f"it must be a whole number between 1 and {most}"
+        if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= maximum):
+            must = f"it must be a whole number between 1 and {maximum}"
             raise CarFileError(f"{self.where}: {column} is {brief(text)}; {must}.")
         return int(text)
 
@@ -52,10 +52,10 @@ def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> lis
     """Lines of a table.
 
     `key`: key path of the name in the car's file, for messages; `columns`: titles that it must have; others may be
-    there too. Raises `CarFileError`: there is no such file, it is not text, or a column or a cell is missing.
+    there too. Raises `CarFileError` if there is no such file, it is not text, or a column or a cell is missing.
     """
     what = f"{key} ({name})"
-    table = TextTable(beside(folder, name, key), CarFileError, what, known=columns)
+    table = TextTable(car_file_path(folder, name, key), CarFileError, what, known=columns)
     missing = [column for column in columns if column not in table.names]
     if missing:
         raise CarFileError(f"{what} has no column {missing[0]}; its titles are {', '.join(table.names)}.")

@@ -1,6 +1,6 @@
 """Axle whose parts are lookup-table bodies, with tables computed from its links.
 
-The templates of suspensions build it as an axle with links, with `TabledParts` in place of the model: each part becomes
+The templates of suspensions build it as an axle with links, with `TabledParts` instead of the model: each part becomes
 a lookup-table body, each angle a lookup-table number, and joints are dropped since the tables contain the links.
 """
 
@@ -34,7 +34,7 @@ class TabledParts:
     """Substitute for the model in templates of suspensions, which adds parts as lookup-table bodies and no joints.
 
     `m`: the model, which receives the bodies and all other calls; `base`: the chassis; `grid`: poses of the parts;
-    `compressions`: of the springs by wheel, m; `rack`: travel of the rack of a steered axle, m.
+    `compressions`: compressions of the springs by wheel, m; `rack`: travel of the rack of a steered axle, m.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class TabledParts:
     def body(self, name: str, *, mass: float, com: ArrayLike, inertia: ArrayLike) -> Body:
         """Add a part of the axle as a lookup-table body.
 
-        `name`: of the part, which ends with the name of the wheel; `mass`, `com`, `inertia`: as in `Model.body`.
+        `name`: name of the part, which ends with the name of the wheel; `mass`, `com`, `inertia`: as in `Model.body`.
         """
         (linkage_body,) = (b for b in self._grid.linkage.model.bodies if b.name == name)
         poses = self._grid.full(linkage_body.start, 12)

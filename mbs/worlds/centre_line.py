@@ -16,9 +16,11 @@ STEP = 1.0
 """Approximate distance of the points of the spline, m."""
 ITERATIONS = 3
 """Number of iterations of Newton's method for the nearest station."""
-LEAST_SLOPE, LARGEST_CORRECTION = 0.3, 5.0
-"""Bounds of its derivative, which is 0 at the centre of curvature, and of its correction, m, for distant points."""
-LARGEST_GAP = 0.05
+MIN_SLOPE = 0.3
+"""Lower bound of its derivative, which is 0 at the centre of curvature."""
+MAX_CORRECTION = 5.0
+"""Upper bound of its correction for distant points, m."""
+MAX_GAP = 0.05
 """Largest distance between the ends of a closed course, m."""
 
 
@@ -67,17 +69,15 @@ class CentreLine:
         for _ in range(ITERATIONS):
             p, tangent, tangent_rate = self.at(s)
             difference = p - np.stack([x, y])
-            slope = np.maximum((tangent * tangent).sum(axis=0) + (difference * tangent_rate).sum(axis=0), LEAST_SLOPE)
-            s = self._within(
-                s - np.clip((difference * tangent).sum(axis=0) / slope, -LARGEST_CORRECTION, LARGEST_CORRECTION)
-            )
+            slope = np.maximum((tangent * tangent).sum(axis=0) + (difference * tangent_rate).sum(axis=0), MIN_SLOPE)
+            s = self._within(s - np.clip((difference * tangent).sum(axis=0) / slope, -MAX_CORRECTION, MAX_CORRECTION))
         p, tangent, _ = self.at(s)
         dx, dy = x - p[0], y - p[1]
         norm = np.hypot(tangent[0], tangent[1])
         return s, (tangent[0] * dy - tangent[1] * dx) / norm, np.hypot(dx, dy)
 
     def _within(self, s: Float) -> Float:
-        """Stations on the line: periodic on a closed line, else clipped."""
+        """Stations on the line: periodic on a closed line, otherwise clipped."""
         return np.asarray(np.mod(s, self.length) if self.closed else np.clip(s, 0.0, self.length))
 
     def pose(self, s: float, offset: float = 0.0) -> tuple[float, float, float]:
@@ -94,7 +94,7 @@ class CentreLine:
 def curve_through(points: Float, closed: bool, name: str) -> tuple[CubicSpline, Float]:
     """Spline through two or more points, and their parameters on it; a closed one repeats the first point at its end.
 
-    `name`: of the course, for messages. Raises `RoadFileError`: points coincide.
+    `name`: name of the course, for messages. Raises `RoadFileError` if points coincide.
     """
     if closed and np.hypot(*(points[0] - points[-1])) > 1e-9:
         points = np.vstack([points, points[:1]])
@@ -107,7 +107,7 @@ def curve_through(points: Float, closed: bool, name: str) -> tuple[CubicSpline, 
 
 
 def line_through(points: Float, closed: bool, name: str) -> CentreLine:
-    """Line through two or more points (n, 2), m. Raises `RoadFileError`: points coincide."""
+    """Line through two or more points (n, 2), m. Raises `RoadFileError` if points coincide."""
     curve, u = curve_through(points, closed, name)
     if len(u) == 2:
         return _line_through_equidistant(points, closed)
@@ -123,7 +123,7 @@ def line_of_segments(
 ) -> CentreLine:
     """Line of straights and arcs.
 
-    `start`: x, y, m, and yaw, degrees. Raises `RoadFileError`: a segment is neither, or a closed line has a gap.
+    `start`: x, y, m, and yaw, degrees. Raises `RoadFileError` if a segment is neither, or a closed line has a gap.
     """
     lengths, curvatures = [], []
     for k, segment in enumerate(segments):
@@ -148,7 +148,7 @@ def line_of_segments(
         (x,), (y,) = _arc(x, y, yaw, curvature, np.array([length]))
         yaw += curvature * length
     gap = float(np.hypot(*(points[-1] - points[0])))
-    if closed and gap > LARGEST_GAP:
+    if closed and gap > MAX_GAP:
         raise RoadFileError(
             f"The course '{name}' is closed, but its end misses its start by {gap:.3g} m; change its segments."
         )
@@ -166,7 +166,8 @@ def _arc(x: float, y: float, yaw: float, curvature: float, s: Float) -> tuple[Fl
 
 
 def _line_through_equidistant(points: Float, closed: bool, length: float | None = None) -> CentreLine:
-    """Line through points at equal distances. `length`: m, along the line; by default that of the chord."""
+    """Line through points at equal distances. `length`: length along the line, m; by default the length of the
+    chord."""
     chord = points[-1] - points[0]
     chord_length = float(np.hypot(*chord))
     deviations = np.abs(chord[0] * (points[:, 1] - points[0, 1]) - chord[1] * (points[:, 0] - points[0, 0]))

@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     parser.add_argument(
         "--frictions",
         metavar="NUMBER|FILE",
-        help="of a grid: one number, or a file of its shape; default: as INPUT says, else 0.9",
+        help="of a grid: one number, or a file of its shape; default: as INPUT says, otherwise 0.9",
     )
     parser.add_argument(
         "--origin", type=_length, nargs=2, metavar=("X", "Y"), help="of a grid: its first point, m; default: 0 0"

@@ -42,16 +42,19 @@ KNOWN_COLUMNS = (
     "x, y, z, width, or right and left (widths from the line to each edge, as w_tr_right_m and w_tr_left_m), all in "
     "metres, and bank (a slope)"
 )
-LARGEST_GRADE = 0.3
+MAX_GRADE = 0.3
 """Grade above which a warning is given: the steepest streets have 0.35."""
 GAP_RATIO = 25.0
-"""Distance of two points over the median distance from which it is a gap, if it is 10 m or more."""
+"""Distance of two points, relative to the median distance, from which it is a gap, if it is 10 m or more."""
 
 
 def course_layer(
     course: Course, folder: Path, bounds: tuple[float, float, float, float], ground: HeightOf
 ) -> CourseLayer:
-    """Make the layer of a course on the ground. `bounds`: of the world, m. Raises `RoadFileError`: it is not valid."""
+    """Make the layer of a course on the ground.
+
+    `bounds`: bounds of the world, m. Raises `RoadFileError` if the course is not valid.
+    """
     sources = [name for name in ("segments", "points") if getattr(course, name) is not None]
     if len(sources) != 1:
         raise RoadFileError(f"The course '{course.name}' must have segments or points, one of them.")
@@ -151,18 +154,18 @@ def _move_to_middle(table: dict[str, Float], closed: bool, name: str) -> None:
 
 
 def _grade_warning(layer: CourseLayer) -> str:
-    """Sentence on the steepest point of a course that is steeper than `LARGEST_GRADE`, else empty."""
+    """Sentence on the steepest point of a course that is steeper than `MAX_GRADE`, otherwise empty."""
     s = np.linspace(0.0, layer.line.length, len(layer.line.points))
     height = layer.height(s)
     grades = np.abs(np.diff(height)) / np.diff(s)
     k = int(np.argmax(grades))
-    if grades[k] <= LARGEST_GRADE:
+    if grades[k] <= MAX_GRADE:
         return ""
     x, y, _ = layer.line.pose(s[k])
     return (
         f"The course '{layer.name}' climbs by {100.0 * grades[k]:.0f} % at station {s[k]:.0f} m, x = {x:.5g}, y = "
         f"{y:.5g}; it lies between {height.min():.4g} and {height.max():.4g} m. Roads have at most "
-        f"{100.0 * LARGEST_GRADE:.0f} %: z must be heights in metres, not a width."
+        f"{100.0 * MAX_GRADE:.0f} %: z must be heights in metres, not a width."
     )
 
 
@@ -170,7 +173,7 @@ def read_course(file: Path) -> dict[str, Float]:
     """Read the columns of a course file by name.
 
     `file`: CSV; its first line or a comment above it may name the columns by `COLUMNS`, by default they are the first
-    of `DEFAULT_COLUMNS`. Raises `RoadFileError`: it is not such a file.
+    of `DEFAULT_COLUMNS`. Raises `RoadFileError` if it is not such a file.
     """
     headings = {f"{name}{unit}" for name in COLUMNS for unit in ("", "_m")}
     table = TextTable(file, RoadFileError, headed=None, known=headings)
@@ -210,7 +213,7 @@ def _check_bounds(line: CentreLine, course: Course, bounds: tuple[float, float, 
 
 
 def _check_crossings(line: CentreLine, course: Course, width: Float) -> None:
-    """Raise `RoadFileError` if a course crosses itself. `width`: at each point of the line, m."""
+    """Raise `RoadFileError` if a course crosses itself. `width`: width at each point of the line, m."""
     s = line.stations[:-1] if line.closed else line.stations
     points = line.points[: len(s)]
     pairs = cKDTree(points).query_pairs(0.9 * width.max(), output_type="ndarray")

@@ -9,9 +9,9 @@ from scipy.ndimage import map_coordinates, spline_filter
 
 from ali3.named_files import NamedFiles
 from mbs.roads.description import grid_road
-from mbs.roads.grid_files import MOST_BYTES
+from mbs.roads.grid_files import MAX_BYTES
 from mbs.roads.road_header import RoadFileError
-from mbs.worlds.profiles import spaced
+from mbs.worlds.profiles import equidistant
 from mbs.worlds.world_types import WorldDescription
 
 Float = NDArray[np.float64]
@@ -66,10 +66,10 @@ class Surface:
         return np.asarray(map_coordinates(self._weights, clipped, order=3, mode="mirror", prefilter=False))
 
 
-def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
+def make_ground(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
     """Make the ground of a world; return it with the spacing of its height map, m, or infinity without one.
 
-    Raises `RoadFileError`: the height map cannot be read, or does not cover the world.
+    Raises `RoadFileError` if the height map cannot be read, or does not cover the world.
     """
     ground, (x0, y0, x1, y1) = world.ground, world.bounds
     if ground.heights is not None and ground.variation is not None:
@@ -77,8 +77,8 @@ def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
     if ground.heights is not None:
         return _height_map(world, folder)
     step = ground.variation.length if ground.variation is not None else max(x1 - x0, y1 - y0)
-    x = spaced(x0 - 2.0 * step, step, math.ceil((x1 - x0) / step) + 5)
-    y = spaced(y0 - 2.0 * step, step, math.ceil((y1 - y0) / step) + 5)
+    x = equidistant(x0 - 2.0 * step, step, math.ceil((x1 - x0) / step) + 5)
+    y = equidistant(y0 - 2.0 * step, step, math.ceil((y1 - y0) / step) + 5)
     heights = np.full((len(x), len(y)), ground.height)
     if ground.variation is not None:
         random = np.random.default_rng(ground.variation.seed)
@@ -90,10 +90,10 @@ def _height_map(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
     """Read the ground from a height map; return it with the least spacing of the map, m."""
     ground = world.ground
     assert ground.heights is not None
-    file = NamedFiles(folder, MOST_BYTES, RoadFileError).file(ground.heights, folder, "The heights of the ground")
+    file = NamedFiles(folder, MAX_BYTES, RoadFileError).file(ground.heights, folder, "The heights of the ground")
     grid = grid_road(file, None, ground.origin, ground.spacing, ground.height_range, None)
     heights = np.asarray(grid.heights, float) + ground.height
-    x, y = (spaced(grid.origin[k], grid.spacing[k], heights.shape[k]) for k in range(2))
+    x, y = (equidistant(grid.origin[k], grid.spacing[k], heights.shape[k]) for k in range(2))
     for axis, low, high, first, last in zip(
         "xy", world.bounds[:2], world.bounds[2:], (x[0], y[0]), (x[-1], y[-1]), strict=True
     ):

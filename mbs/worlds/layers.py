@@ -57,8 +57,8 @@ def weight(layer: Layer, excess: Float) -> Float:
 class CourseLayer:
     """A course on the ground.
 
-    `ground`: heights of the ground, which a course without heights follows; `heights`, `widths`, `banks`: of a course
-    from a file at the points of the line, shape (n,).
+    `ground`: heights of the ground, which a course without heights follows; `heights`, `widths`, `banks`: profiles of a
+    course from a file at the points of the line, shape (n,).
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class CourseLayer:
         else:
             if heights is None:
                 heights = ground(*line.points.T)
-            self.height = _smoothed(heights, line, 0.25 * course.smoothing / line.step)
+            self.height = _smooth_heights(heights, line, 0.25 * course.smoothing / line.step)
         self.tree = cKDTree(line.points)
 
     def half(self, s: Float) -> Float:
@@ -115,7 +115,7 @@ class CourseLayer:
         return LayerPoints(distance - half, height, s, offset)
 
 
-def _smoothed(heights: Float, line: CentreLine, width: float) -> Callable[[Float], Float]:
+def _smooth_heights(heights: Float, line: CentreLine, width: float) -> Callable[[Float], Float]:
     """Spline through heights at the points of a line, smoothed by a Gaussian; `width`: its deviation in points."""
     if not line.closed:
         spline = CubicSpline(line.stations, gaussian_filter1d(heights, width, mode="nearest"), bc_type="natural")

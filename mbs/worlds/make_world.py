@@ -17,23 +17,23 @@ from mbs.roads.scene_part import read_thinned, scene_part
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
 from mbs.worlds.terrain import Terrain
-from mbs.worlds.thinned_world import STEP, deviation_of, thinned_spacing
+from mbs.worlds.thinned_world import STEP, measure_thinning, thinned_spacing
 from mbs.worlds.world_file import is_world
 from mbs.worlds.world_plausibility import world_plausibility
-from mbs.worlds.world_record import record_of, world_record
+from mbs.worlds.world_record import make_record, world_record
 from mbs.worlds.world_road_file import grid_shape, write_world_road
 from mbs.worlds.world_types import WorldDescription
 
 PLANE_HALF_WIDTH = 250.0
 """Distance from the origin to the bounds of a world that is a plane or a kerb, m."""
-MOST_POINTS = 1.2e9
+MAX_POINTS = 1.2e9
 """Largest number of points of the road file."""
-LARGEST_AREA = 1e8
+MAX_AREA = 1e8
 """Largest area, m2: a smooth drawing has 3 kB per 64 m x 64 m, so 77 MB, and readers accept 100 MB."""
 
 
 def read_world(file: Path) -> WorldDescription:
-    """Read and check the description of a world. Raises `RoadFileError`: the description is not valid."""
+    """Read and check the description of a world. Raises `RoadFileError` if the description is not valid."""
     table = read_toml(file, RoadFileError)
     try:
         world = WorldDescription.model_validate(table)
@@ -51,7 +51,7 @@ def read_world(file: Path) -> WorldDescription:
     return world
 
 
-def description_of(file: Path) -> WorldDescription | None:
+def read_description(file: Path) -> WorldDescription | None:
     """Read and check the description of a world; None if the file describes a road."""
     describes_world = file.suffix.lower() == ".toml" and is_world(read_toml(file, RoadFileError))
     return read_world(file) if describes_world else None
@@ -63,10 +63,10 @@ def make_world(
     """Write the road file of a world to `road` and return its record.
 
     `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with the name of a stage and its completed
-    share, 0 to 1; `thin`: whether points and digits are reduced for a page; the key ``thin`` of the record has the
-    deviation. Raises `RoadFileError`: the world cannot be made.
+    fraction, 0 to 1; `thin`: whether points and digits are reduced for a page; the key ``thin`` of the record has the
+    deviation. Raises `RoadFileError` if the world cannot be made.
     """
-    if (world := description_of(file)) is not None:
+    if (world := read_description(file)) is not None:
         if thin:
             world = world.model_copy(update={"spacing": thinned_spacing(world.spacing)})
         _check_size(world, file)
@@ -74,33 +74,33 @@ def make_world(
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)
-            record = world_record(terrain, lambda share: tell("drawing", share), STEP if thin else 0.0)
+            record = world_record(terrain, lambda fraction: tell("drawing", fraction), STEP if thin else 0.0)
         except RoadFileError as error:
             raise RoadFileError(str(error) if str(file) in str(error) else f"{file}: {error}") from None
-        write_world_road(terrain, road, lambda share: tell("road", share), thin)
-        deviation = {"thin": deviation_of(terrain, road).sentence} if thin else {}
-        return record | {"checksum": checksum_of(road)} | deviation
+        write_world_road(terrain, road, lambda fraction: tell("road", fraction), thin)
+        deviation = {"thin": measure_thinning(terrain, road).sentence} if thin else {}
+        return record | {"checksum": header_checksum(road)} | deviation
     return _road_record(file, name, road)
 
 
 def _check_size(world: WorldDescription, file: Path) -> None:
     """Raise `RoadFileError` if the area or the number of points is too large."""
     x0, y0, x1, y1 = world.bounds
-    if (x1 - x0) * (y1 - y0) > LARGEST_AREA:
+    if (x1 - x0) * (y1 - y0) > MAX_AREA:
         raise RoadFileError(
-            f"{file}: the world is {x1 - x0:g} m x {y1 - y0:g} m; at most {LARGEST_AREA / 1e6:g} km2 can be drawn, as "
+            f"{file}: the world is {x1 - x0:g} m x {y1 - y0:g} m; at most {MAX_AREA / 1e6:g} km2 can be drawn, as "
             "10 km x 10 km: make its bounds smaller."
         )
     n = grid_shape(world)
-    if n[0] * n[1] > MOST_POINTS:
+    if n[0] * n[1] > MAX_POINTS:
         raise RoadFileError(
-            f"{file}: the world has {n[0]} x {n[1]} points, more than {MOST_POINTS:g}; make its bounds smaller or its "
+            f"{file}: the world has {n[0]} x {n[1]} points, more than {MAX_POINTS:g}; make its bounds smaller or its "
             "spacing larger."
         )
 
 
-def checksum_of(road: Path) -> int:
-    """CRC-32 of the header of a road file, which contains that of its tiles; a record belongs to one checksum."""
+def header_checksum(road: Path) -> int:
+    """CRC-32 of the header of a road file, which contains the CRC-32 of its tiles; a record belongs to one checksum."""
     with open_file(road, LARGEST_IN_PARTS) as file:
         return zlib.crc32(file.read(HEADER.size)[CHECKED_FROM:])
 
@@ -115,7 +115,11 @@ def record_of_road(road: Path) -> dict[str, Any] | None:
     """Read the record of a world beside a road file; None if there is none of this road."""
     try:
         record: dict[str, Any] = read_json(road.with_suffix(".json"))
-        if record["format"] == "ALi3 world" and record["road"] == road.name and record["checksum"] == checksum_of(road):
+        if (
+            record["format"] == "ALi3 world"
+            and record["road"] == road.name
+            and record["checksum"] == header_checksum(road)
+        ):
             return record
     except (OSError, ValueError, KeyError, TypeError, IndexError):
         return None
@@ -133,4 +137,4 @@ def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
     if entry["kind"] == "grid":  # beyond a level strip of frictions the grid continues
         (x, y), (dx, dy), (nx, ny) = entry["origin"], entry["spacing"], entry["shape"]
         bounds = (x, y, x + dx * (nx - 1), y + dy * (ny - 1))
-    return record_of(name, bounds, [], [entry], []) | {"checksum": checksum_of(target)}
+    return make_record(name, bounds, [], [entry], []) | {"checksum": header_checksum(target)}

@@ -17,13 +17,17 @@ class Footprint:
     """A rectangle on the ground: u from 0 to `length` along its frame, v from `right` to `left` across."""
 
     x: float
+    """x of the origin of its frame, m."""
     y: float
+    """y of the origin of its frame, m."""
     yaw: float
-    """`x`, `y`, `yaw`: origin, m, and yaw, rad, of its frame."""
+    """Yaw of its frame, rad."""
     length: float
+    """Length along the x axis of its frame, m."""
     right: float
+    """y of the right edge in its frame, m."""
     left: float
-    """`length`, `right`, `left`: m."""
+    """y of the left edge in its frame, m."""
 
     def local(self, x: Float, y: Float) -> tuple[Float, Float]:
         """Coordinates u, v of points in its frame, m."""

@@ -12,9 +12,9 @@ from mbs.worlds.terrain import Terrain
 Float = NDArray[np.float64]
 CELLS = 16
 """Number of cells along each side of a patch."""
-LARGEST_SPACING = 4.0
+MAX_SPACING = 4.0
 """Distance of the points on smooth ground, m."""
-LEAST_SPACING = 1.0 / 64.0  # m
+MIN_SPACING = 1.0 / 64.0  # m
 TOLERANCE = 4e-3
 """Largest deviation of the linear interpolation at the sampled points, m."""
 BOUND = 5e-3
@@ -27,29 +27,31 @@ class DrawnPatch:
     """A rectangular patch of 17 x 17 points."""
 
     x: float
+    """x of the first point, m."""
     y: float
-    """`x`, `y`: first point, m."""
+    """y of the first point, m."""
     dx: float
+    """Distance of the points along x, m."""
     dy: float
-    """`dx`, `dy`: distances of the points, m."""
+    """Distance of the points along y, m."""
     heights: Float
     """Shape (17, 17): m."""
 
 
-def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
-    """Patches that cover a world; the edges of fine patches lie on those of their coarser neighbours.
+def make_patches(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
+    """Patches that cover a world; the edges of fine patches lie on the edges of their coarser neighbours.
 
-    `tell`: called with the completed share, 0 to 1.
+    `tell`: called with the completed fraction, 0 to 1.
     """
     x0, y0, x1, y1 = terrain.world.bounds
-    nx, ny = (max(1, round(side / (CELLS * LARGEST_SPACING))) for side in (x1 - x0, y1 - y0))
+    nx, ny = (max(1, round(side / (CELLS * MAX_SPACING))) for side in (x1 - x0, y1 - y0))
     sx, sy = (x1 - x0) / nx, (y1 - y0) / ny
     pending = [(x0 + i * sx, y0 + j * sy, sx, sy) for i in range(nx) for j in range(ny)]
     area, completed_area = (x1 - x0) * (y1 - y0), 0.0
     patches: list[DrawnPatch] = []
     while pending:
         batch, pending = pending[-BATCH:], pending[:-BATCH]
-        fine = _sampled(terrain, np.array(batch))
+        fine = _sample_heights(terrain, np.array(batch))
         for (x, y, a, b), z in zip(batch, fine, strict=True):
             axis = _axis_to_split(terrain, (x, y, a, b), z)
             if axis == "x":
@@ -65,7 +67,7 @@ def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: No
     return patches
 
 
-def _sampled(terrain: Terrain, rectangles: Float) -> Float:
+def _sample_heights(terrain: Terrain, rectangles: Float) -> Float:
     """Heights at the points of patches and in the middle between them, shape (n, 33, 33)."""
     t = np.arange(2 * CELLS + 1) / (2 * CELLS)
     x = (rectangles[:, 0, None] + rectangles[:, 2, None] * t)[:, :, None] + 0.0 * t
@@ -79,12 +81,12 @@ def _axis_to_split(terrain: Terrain, rectangle: tuple[float, float, float, float
     dx, dy = a / CELLS, b / CELLS
     if (axis := _axis_to_split_at_obstacles(terrain, rectangle, dx, dy)) != "":
         return axis
-    along_x = np.abs(z[1::2, :] - 0.5 * (z[:-1:2, :] + z[2::2, :])).max() if dx > LEAST_SPACING else 0.0
-    along_y = np.abs(z[:, 1::2] - 0.5 * (z[:, :-1:2] + z[:, 2::2])).max() if dy > LEAST_SPACING else 0.0
+    along_x = np.abs(z[1::2, :] - 0.5 * (z[:-1:2, :] + z[2::2, :])).max() if dx > MIN_SPACING else 0.0
+    along_y = np.abs(z[:, 1::2] - 0.5 * (z[:, :-1:2] + z[:, 2::2])).max() if dy > MIN_SPACING else 0.0
     middle = z[1::2, 1::2]
     rising = 0.5 * (z[:-1:2, :-1:2] + z[2::2, 2::2])
     falling = 0.5 * (z[:-1:2, 2::2] + z[2::2, :-1:2])
-    across = np.maximum(np.abs(middle - rising), np.abs(middle - falling)).max() if max(dx, dy) > LEAST_SPACING else 0.0
+    across = np.maximum(np.abs(middle - rising), np.abs(middle - falling)).max() if max(dx, dy) > MIN_SPACING else 0.0
     if max(along_x, along_y, across) <= TOLERANCE:
         return ""
     if max(along_x, along_y) > TOLERANCE:
@@ -128,8 +130,8 @@ def _close_gaps(patches: list[DrawnPatch]) -> None:
     for k, p in enumerate(patches):
         for last in (False, True):
             at_x, at_y = p.x + (CELLS * p.dx if last else 0.0), p.y + (CELLS * p.dy if last else 0.0)
-            edges.setdefault(("x", _rounded(at_x)), []).append((p.dy, p.y, p.y + CELLS * p.dy, k, last))
-            edges.setdefault(("y", _rounded(at_y)), []).append((p.dx, p.x, p.x + CELLS * p.dx, k, last))
+            edges.setdefault(("x", _round(at_x)), []).append((p.dy, p.y, p.y + CELLS * p.dy, k, last))
+            edges.setdefault(("y", _round(at_y)), []).append((p.dx, p.x, p.x + CELLS * p.dx, k, last))
     for _ in range(4):
         largest_shift = 0.0
         for (side, _at), neighbours in edges.items():
@@ -149,7 +151,7 @@ def _close_gaps(patches: list[DrawnPatch]) -> None:
             return
 
 
-def _rounded(value: float) -> float:
+def _round(value: float) -> float:
     """A coordinate rounded to 1/1024 m, by which edges are matched."""
     return round(value * 1024.0) / 1024.0
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 Float = NDArray[np.float64]
 
 
-def spaced(first: float, step: float, count: int) -> Float:
+def equidistant(first: float, step: float, count: int) -> Float:
     """Return `count` equidistant numbers."""
     return np.asarray(first + step * np.arange(count), np.float64)
 

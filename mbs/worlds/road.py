@@ -15,7 +15,7 @@ from mbs.elements.road import GridRoad, PlaneRoad
 from mbs.roads.picture import draw_road
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
-from mbs.roads.road_plausibility import file_plausibility, place_of, road_plausibility
+from mbs.roads.road_plausibility import file_plausibility, grid_location, road_plausibility
 from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.scene_part import scene_part
 from mbs.roads.steep_faces import RoadWarning
@@ -39,13 +39,7 @@ def make_road(options: argparse.Namespace) -> int:
         return 0
     outputs = (output, options.picture, options.part)
     if options.start is not None and options.input.suffix.lower() == ".road" and not any(outputs):
-        (plausibility,) = file_plausibility(
-            RoadFile(options.input), tuple(options.start), most=0
-        )  # a large road is not read for it
-        with warning_lines():
-            plausibility.warn(RoadWarning)
-        print(plausibility.text())
-        _write_table(options.json, plausibility)
+        _check_start(options)
         return 0
     with warning_lines():
         road = read_road(options.input, **arguments)
@@ -53,21 +47,35 @@ def make_road(options: argparse.Namespace) -> int:
         start = tuple(options.start or (0.0, 0.0)) if output is None or options.start is not None else None
         plausibility = road_plausibility(str(options.input), road, start)
         plausibility.warn(RoadWarning)
-    if output is not None:
+    _write_outputs(options, road)
+    print("\n".join([*_description_lines(road), plausibility.text()]))
+    _write_table(options.json, plausibility)
+    for file in (*outputs, options.json):
+        if file is not None:
+            print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
+    return 0
+
+
+def _check_start(options: argparse.Namespace) -> None:
+    """Check a start on a road file by its header alone: a large road is not read for it."""
+    (plausibility,) = file_plausibility(RoadFile(options.input), tuple(options.start), max_points=0)
+    with warning_lines():
+        plausibility.warn(RoadWarning)
+    print(plausibility.text())
+    _write_table(options.json, plausibility)
+
+
+def _write_outputs(options: argparse.Namespace, road: PlaneRoad | KerbRoad | GridRoad) -> None:
+    """Write the road file, the picture and the scene entry that the options ask for."""
+    if options.output is not None:
         with warning_lines():
-            write_road(road, output)
-        RoadFile(output).read()  # checks the written file
+            write_road(road, options.output)
+        RoadFile(options.output).read()  # checks the written file
     if options.picture is not None:
         with atomic_file(options.picture) as target:
             draw_road(road, target, options.input.name, _start_positions(options))
     if options.part is not None:
         write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
-    print("\n".join([*_description_lines(road), plausibility.text()]))
-    _write_table(options.json, plausibility)
-    for file in (output, options.picture, options.part, options.json):
-        if file is not None:
-            print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
-    return 0
 
 
 def _write_table(file: Path | None, plausibility: Plausibility) -> None:
@@ -77,7 +85,7 @@ def _write_table(file: Path | None, plausibility: Plausibility) -> None:
 
 
 def _start_positions(options: argparse.Namespace) -> dict[str, tuple[float, float]]:
-    """Start positions by name, x and y in m: of the options, else of the road's world, else (0, 0)."""
+    """Start positions by name, x and y in m: of the options, otherwise of the road's world, otherwise (0, 0)."""
     if options.start is not None:
         return {"start": tuple(options.start)}
     record = record_of_road(options.input) or {}
@@ -85,7 +93,7 @@ def _start_positions(options: argparse.Namespace) -> dict[str, tuple[float, floa
 
 
 def _grid_arguments(options: argparse.Namespace) -> dict[str, Any]:
-    """Arguments of `read_road` for a grid. Raises `UserError`: the input defines its whole road."""
+    """Arguments of `read_road` for a grid. Raises `UserError` if the input defines its whole road."""
     arguments: dict[str, Any] = {
         "origin": options.origin,
         "spacing": options.spacing,
@@ -110,7 +118,7 @@ def _description_lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"
         numbers = (f"{name} {value:g}" for name, value in zip(road.real_names[:-1], road.real, strict=False))
         return [f"{kind}: {', '.join(numbers)}"]
-    position = place_of(road)
+    position = grid_location(road)
     lines = [f"grid of {position.shape[0]} x {position.shape[1]} points"]
     for name, first, side, step in zip("xy", position.origin, position.extent, position.spacing, strict=True):
         lines.append(f"{name}: {first:.9g} to {first + side:.9g} m, every {step:g} m")

@@ -53,7 +53,7 @@ def scenery_of(terrain: Terrain) -> list[dict[str, Any]]:
 
 
 def cone_positions(cones: Cones) -> list[tuple[float, float]]:
-    """Positions x, y of cones, m. Raises `RoadFileError`: the description has no position of them, or several."""
+    """Positions x, y of cones, m. Raises `RoadFileError` if the description has no position of them, or several."""
     definitions = [cones.at is not None, cones.lane_change is not None, cones.slalom is not None]
     if sum(definitions) != 1 or (cones.at is None and cones.start is None):
         raise RoadFileError("Cones must have `at`, or `start` and one of `lane_change` and `slalom`.")
@@ -90,8 +90,8 @@ def _needed_indices(points: Float) -> list[int]:
         chord = points[b] - points[a]
         squared_length = float(chord @ chord)
         inner = points[a + 1 : b] - points[a]
-        share = np.clip(inner @ chord / squared_length, 0.0, 1.0) if squared_length > 0.0 else np.zeros(len(inner))
-        distance: Float = np.linalg.norm(inner - share[:, None] * chord, axis=1)
+        fraction = np.clip(inner @ chord / squared_length, 0.0, 1.0) if squared_length > 0.0 else np.zeros(len(inner))
+        distance: Float = np.linalg.norm(inner - fraction[:, None] * chord, axis=1)
         return distance
 
     return needed_points(len(points), distances, LINE_TOLERANCE)
@@ -153,7 +153,7 @@ def _posts(terrain: Terrain, layer: CourseLayer) -> Iterator[dict[str, Any]]:
 
 
 def _painted_lines(terrain: Terrain, line: Line) -> Iterator[dict[str, Any]]:
-    """Yield a painted line and its repetitions. Raises `RoadFileError`: it is not defined."""
+    """Yield a painted line and its repetitions. Raises `RoadFileError` if it is not defined."""
     if (line.points is None) == (line.centre is None or line.radius is None):
         raise RoadFileError("A line must have points, or a centre and a radius.")
     for k in range(line.repeat):
@@ -172,7 +172,7 @@ def _painted_lines(terrain: Terrain, line: Line) -> Iterator[dict[str, Any]]:
 
 
 def _barrier_points(terrain: Terrain, barrier: Any, courses: Sequence[CourseLayer]) -> list[list[float]]:
-    """Points of a barrier, m. Raises `RoadFileError`: it is not defined, or its course or stations do not exist."""
+    """Points of a barrier, m. Raises `RoadFileError` if it is not defined, or its course or stations do not exist."""
     if (barrier.points is None) == (barrier.course is None):
         raise RoadFileError("A barrier must have points or a course.")
     if barrier.points is not None:

@@ -8,37 +8,37 @@ from numpy.typing import NDArray
 
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.course_file import course_layer
-from mbs.worlds.ground import Surface, ground_of
+from mbs.worlds.ground import Surface, make_ground
 from mbs.worlds.layers import OUT_OF_REACH, AreaLayer, Layer, weight
 from mbs.worlds.obstacles import Footprint, added_height, footprint
-from mbs.worlds.profiles import soft_rise, spaced
+from mbs.worlds.profiles import equidistant, soft_rise
 from mbs.worlds.world_types import FRICTIONS, Area, WorldDescription
 
 Float = NDArray[np.float64]
-MOST_NODES = 1_500_000
+MAX_NODES = 1_500_000
 """Largest number of points of the lattice of the ground with its layers."""
-LARGEST_SLOPE = 3.0
+MAX_SLOPE = 3.0
 """Slope of a layer times its weight above which it has a step."""
 TRANSITION = 1.0
-"""Width of the transition from the heights of a layer with its shoulder to those of the lattice, m."""
+"""Width of the transition from the heights of a layer with its shoulder to the lattice's, m."""
 
 
 class Terrain:
     """The ground of a world with its layers and obstacles.
 
-    Heights on courses, areas and their shoulders are computed at each point; elsewhere they are those of a C2 spline
+    Heights on courses, areas and their shoulders are computed at each point; elsewhere they are taken from a C2 spline
     through the points of a lattice with a spacing of about 1 m.
 
-    `folder`: of the files that the description names.
+    `folder`: folder of the files that the description names.
     """
 
     def __init__(self, world: WorldDescription, folder: Path) -> None:
         self.world = world
-        self.ground, map_step = ground_of(world, folder)
+        self.ground, map_step = make_ground(world, folder)
         self.layers: list[Layer] = []
         for course in world.courses:
             self.layers.append(course_layer(course, folder, world.bounds, self.ground.at))
-        self.layers += [AreaLayer(_checked(area)) for area in world.areas]
+        self.layers += [AreaLayer(_check_area(area)) for area in world.areas]
         names = [world.ground.surface, *(layer.surface for layer in self.layers)]
         names += [part.surface for part in (*world.bands, *world.obstacles)]
         self.names = list(dict.fromkeys(names))
@@ -51,10 +51,10 @@ class Terrain:
     def _build_lattice(self, map_step: float) -> None:
         """Compute heights, layers and stations at the points of the lattice. `map_step`: spacing of a height map, m."""
         x0, y0, x1, y1 = self.world.bounds
-        step = max(min(1.0, map_step), math.sqrt((x1 - x0) * (y1 - y0) / MOST_NODES))
+        step = max(min(1.0, map_step), math.sqrt((x1 - x0) * (y1 - y0) / MAX_NODES))
         self.step = step
-        self.x = spaced(x0 - 4.0 * step, step, math.ceil((x1 - x0) / step) + 9)
-        self.y = spaced(y0 - 4.0 * step, step, math.ceil((y1 - y0) / step) + 9)
+        self.x = equidistant(x0 - 4.0 * step, step, math.ceil((x1 - x0) / step) + 9)
+        self.y = equidistant(y0 - 4.0 * step, step, math.ceil((y1 - y0) / step) + 9)
         z = self.ground.on_grid(
             np.clip(self.x, self.ground.x[0], self.ground.x[-1]), np.clip(self.y, self.ground.y[0], self.ground.y[-1])
         )
@@ -68,20 +68,20 @@ class Terrain:
             self.nearest = np.minimum(self.nearest, self.excess[k] - np.float32(layer.shoulder))
             mask = excess < layer.shoulder + layer.blend + step
             points = layer.at(x[mask], y[mask], station[mask])
-            share = weight(layer, points.excess)
-            z[mask] += share * (points.height - z[mask])
-            self._check_steps(layer, mask, share, points.height)
+            fraction = weight(layer, points.excess)
+            z[mask] += fraction * (points.height - z[mask])
+            self._check_steps(layer, mask, fraction, points.height)
         self.carved = Surface(self.x, self.y, z)
 
-    def _check_steps(self, layer: Layer, mask: NDArray[np.bool_], share: Float, height: Float) -> None:
+    def _check_steps(self, layer: Layer, mask: NDArray[np.bool_], fraction: Float, height: Float) -> None:
         """Raise `RoadFileError` if a course comes so near to itself that one part cuts into the other."""
-        level, shares = np.zeros(mask.shape), np.zeros(mask.shape)
-        level[mask], shares[mask] = height, share
+        level, fractions = np.zeros(mask.shape), np.zeros(mask.shape)
+        level[mask], fractions[mask] = height, fraction
         for axis in (0, 1):
             rise = np.abs(np.diff(level, axis=axis))
-            smaller_share = np.minimum(*(np.delete(shares, k, axis=axis) for k in (0, -1)))
-            step = rise * smaller_share
-            if step.size and step.max() > LARGEST_SLOPE * self.step:
+            smaller_fraction = np.minimum(*(np.delete(fractions, k, axis=axis) for k in (0, -1)))
+            step = rise * smaller_fraction
+            if step.size and step.max() > MAX_SLOPE * self.step:
                 i, j = np.unravel_index(int(np.argmax(step)), step.shape)
                 neighbour = (i + 1, j) if axis == 0 else (i, j + 1)
                 raise RoadFileError(
@@ -185,8 +185,8 @@ def _block(base: Footprint, x: Float, y: Float) -> tuple[slice, slice] | None:
     return None if rows.start >= rows.stop or columns.start >= columns.stop else (rows, columns)
 
 
-def _checked(area: Area) -> Area:
-    """The area itself. Raises `RoadFileError`: it has no radius and no size, or both."""
+def _check_area(area: Area) -> Area:
+    """The area itself. Raises `RoadFileError` if it has no radius and no size, or both."""
     if (area.radius is None) == (area.size is None):
         raise RoadFileError(f"The area '{area.name}' must have a radius or a size.")
     return area

@@ -43,7 +43,7 @@ def thinned_spacing(spacing: tuple[float, float]) -> tuple[float, float]:
     return max(spacing[0], SPACING[0]), max(spacing[1], SPACING[1])
 
 
-def deviation_of(terrain: Terrain, road: Path) -> Deviation:
+def measure_thinning(terrain: Terrain, road: Path) -> Deviation:
     """Compare a road file with the terrain in the middle of `SAMPLES` cells of every tile."""
     generator = np.random.default_rng(1)
     differences = []

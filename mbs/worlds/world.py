@@ -19,10 +19,10 @@ from ali3.reading import is_file
 from ali3.warning_lines import warning_lines
 from mbs.roads import RoadFile
 from mbs.roads.kinds import CRG, MESHES
-from mbs.worlds.make_world import description_of, make_world
+from mbs.worlds.make_world import make_world, read_description
 from mbs.worlds.map_picture import draw_map
 from mbs.worlds.package_worlds import ROADS, WORLDS, world_names
-from mbs.worlds.world_cache import add_file, key_of, world_files
+from mbs.worlds.world_cache import add_file, cache_key, world_files
 from mbs.worlds.world_file import named_files
 
 
@@ -30,7 +30,7 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     """Write the files of a world into a folder and return the exit code.
 
     `name_or_file`: world of the package, or a file; `picture`: image file of its map; `thin`: whether points and digits
-    are reduced for a page; `table`: JSON file of its plausibility. Raises `UserError`: it is not a world.
+    are reduced for a page; `table`: JSON file of its plausibility. Raises `UserError` if it is not a world.
     """
     begin = time.perf_counter()
     file = _world_file(name_or_file)
@@ -39,7 +39,7 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     if file.suffix.lower() == ".toml":
         name, source_files = named_files(file)
         files += source_files
-    key = key_of(files) + ("-thin" if thin else "")
+    key = cache_key(files) + ("-thin" if thin else "")
     paths, cached = world_files(key, lambda folder: _make_files(file, name, folder, thin), out)
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw_record(out / f"{name}.json", target), picture)
@@ -62,12 +62,12 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
 
 def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
     """Plausibility of the description of a world, and of its road file."""
-    description = description_of(file)
+    description = read_description(file)
     return [*(plausibility_of(description) if description is not None else []), *plausibility_of(RoadFile(road))]
 
 
 def _world_file(name_or_file: str) -> Path:
-    """Path of a world by its name in the package or its file. Raises `UserError`: there is none."""
+    """Path of a world by its name in the package or its file. Raises `UserError` if there is none."""
     path = Path(name_or_file)
     if is_file(path):
         if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
@@ -100,18 +100,18 @@ def _draw_record(record: Path, target: Path) -> None:
 
 
 class _ProgressLine:
-    """Progress on standard error: on a terminal one line that is overwritten, else a line per stage."""
+    """Progress on standard error: on a terminal one line that is overwritten, otherwise a line per stage."""
 
     def __init__(self, name: str) -> None:
         self.name, self.printed, self.stage = name, 0.0, ""
 
-    def __call__(self, stage: str, share: float) -> None:
+    def __call__(self, stage: str, fraction: float) -> None:
         now = time.perf_counter()
         if sys.stderr.isatty():
-            if now - self.printed > 0.2 or share >= 1.0:
+            if now - self.printed > 0.2 or fraction >= 1.0:
                 self.printed = now
-                end = "\n" if share >= 1.0 else ""
-                print(f"\r{self.name}: {stage} {100.0 * share:3.0f} %", end=end, file=sys.stderr, flush=True)
+                end = "\n" if fraction >= 1.0 else ""
+                print(f"\r{self.name}: {stage} {100.0 * fraction:3.0f} %", end=end, file=sys.stderr, flush=True)
         elif stage != self.stage:
             self.stage = stage
             print(f"{self.name}: {stage} ...", file=sys.stderr, flush=True)

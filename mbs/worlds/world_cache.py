@@ -13,7 +13,7 @@ from ali3.files import atomic_file, make_folder
 from ali3.folders import atomic_folder, forget_oldest
 from ali3.reading import read_bytes
 from ali3.temporary_folder import temporary_folder
-from mbs.roads.grid_files import MOST_BYTES
+from mbs.roads.grid_files import MAX_BYTES
 from mbs.roads.road_header import RoadFileError
 
 ROOT = Path(__file__).parents[2]
@@ -22,16 +22,16 @@ CODE = (
     *("ali3/scene/road_types.py", "ali3/scene/base64_numbers.py", "ali3/iso_3888.py", "ali3/cones.py"),
 )
 """Code that determines the files of worlds."""
-MOST_ENTRIES = 12
+MAX_ENTRIES = 12
 COMPLETE_MARK = "made"
 
 
-def key_of(files: Iterable[Path]) -> str:
+def cache_key(files: Iterable[Path]) -> str:
     """Key of the world made from files; it changes with their content and with the code."""
     digest = hashlib.sha256()
     sources = [path for entry in CODE for path in _source_files(ROOT / entry)]
     for path in (*sources, *files):
-        data = read_bytes(path, MOST_BYTES, RoadFileError)
+        data = read_bytes(path, MAX_BYTES, RoadFileError)
         digest.update(f"{path.name} {len(data)} ".encode())
         digest.update(data)
     return digest.hexdigest()[:32]
@@ -45,7 +45,7 @@ def _source_files(entry: Path) -> list[Path]:
 def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:
     """Copy the files of a world into a folder, from the cache or newly made.
 
-    `key`: from `key_of`; `make`: writes the files into an empty folder.
+    `key`: result of `cache_key`; `make`: writes the files into an empty folder.
 
     Returns
     -------
@@ -85,7 +85,7 @@ def _store(folder: Path, cache: Path, entry: Path) -> None:
             for path in folder.iterdir():
                 shutil.copyfile(path, target / path.name)
             (target / COMPLETE_MARK).touch()
-        forget_oldest(cache, MOST_ENTRIES)
+        forget_oldest(cache, MAX_ENTRIES)
     except OSError as error:
         print(f"The world is not kept for the next time: {str(error).rstrip('.')}.", file=sys.stderr)
 

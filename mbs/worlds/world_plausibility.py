@@ -14,11 +14,14 @@ from mbs.worlds.layers import AreaLayer
 from mbs.worlds.obstacles import added_height, footprint
 from mbs.worlds.world_types import FRICTIONS, Area, Band, Course, Kerb, Ramp, Washboard, WorldDescription
 
-MOST_POINTS = 400
+MAX_POINTS = 400
 """Largest number of points along a side of a feature; a longer one is sampled."""
-LEAST_HEIGHT = 1e-6  # m, of an obstacle that wheels feel
-LEAST_MM, MM = 0.5, 1e-3
-"""Least distance from 0, m, of coordinates that may have been in mm, and their unit, m."""
+MIN_HEIGHT = 1e-6  # m, of an obstacle that wheels feel
+MIN_SQUARED_LENGTH = 1e-6  # m2, of a segment of a line: points may coincide
+MIN_MM = 0.5
+"""Least distance from 0, m, of coordinates that may have been in mm."""
+MM = 1e-3
+"""Millimetre, m."""
 Places: TypeAlias = list[tuple[float, float]]
 OBJECTS_BY_ROADS = {"obstacles": "beside", "bands": "beside", "arrows": "beside", "buildings": "clear"}
 """Quantities of objects on roads or beside them, by key."""
@@ -27,7 +30,7 @@ Feature: TypeAlias = Kerb | Ramp | Washboard | Band | Area
 QUANTITIES = quantities_of("world")
 POSITION_MISTAKES: dict[str, Callable[[float, float], tuple[float, float]]] = {
     "x and y exchanged": lambda x, y: (y, x),
-    "mm in place of m": lambda x, y: (MM * x, MM * y) if MM * min(abs(c) or 1e9 for c in (x, y)) > LEAST_MM else (x, y),
+    "mm instead of m": lambda x, y: (MM * x, MM * y) if MM * min(abs(c) or 1e9 for c in (x, y)) > MIN_MM else (x, y),
     "the sign of x": lambda x, y: (-x, y),
     "the sign of y": lambda x, y: (x, -y),
 }
@@ -50,9 +53,9 @@ def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
     for key, places in _scenery_points(world):
         for words, moved in POSITION_MISTAKES.items() if key in outside else ():
             elsewhere = _outside_value(world, key, [moved(x, y) for x, y in places])
-            mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replaced, values, elsewhere)))
+            mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replace_value, values, elsewhere)))
     finer = world.model_copy(update={"spacing": (0.01 * world.spacing[0], 0.01 * world.spacing[1])})
-    mistakes.append(Mistake("cm in place of m in spacing", frozenset({"spacing"}), partial(_world_values, finer)))
+    mistakes.append(Mistake("cm instead of m in spacing", frozenset({"spacing"}), partial(_world_values, finer)))
     return Plausibility(what, values, mistakes, title="world")
 
 
@@ -85,7 +88,7 @@ def _ground_values(world: WorldDescription) -> Iterator[Value]:
                     yield Value(QUANTITIES["stretch"], (barrier.end - barrier.begin) / length, keys, f"barriers.{j}")
         if course.heights:
             s, z = np.array(course.heights, float).T
-            grade = float(np.abs(np.diff(z) / np.maximum(np.diff(s), LEAST_HEIGHT)).max(initial=0.0))
+            grade = float(np.abs(np.diff(z) / np.maximum(np.diff(s), MIN_HEIGHT)).max(initial=0.0))
             yield Value(QUANTITIES["grade"], grade, {f"{key}.heights": course.heights}, key)
 
 
@@ -150,7 +153,9 @@ def _object_values(world: WorldDescription) -> Iterator[Value]:
 def _distance_from_line(line: NDArray[np.float64], point: NDArray[np.float64]) -> float:
     """Distance of a point from a polyline, m. `line`: shape (n, 2)."""
     first, step = line[:-1], np.diff(line, axis=0)
-    along = np.clip(((point - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), LEAST_HEIGHT), 0.0, 1.0)
+    along = np.clip(
+        ((point - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), MIN_SQUARED_LENGTH), 0.0, 1.0
+    )
     return float(np.linalg.norm(first + along[:, None] * step - point, axis=1).min(initial=np.inf))
 
 
@@ -168,7 +173,7 @@ def _altered_values(world: WorldDescription, key: str, feature: Feature) -> list
     return _world_values(world.model_copy(update={name: features}))
 
 
-def _replaced(values: list[Value], changed: Value) -> list[Value]:
+def _replace_value(values: list[Value], changed: Value) -> list[Value]:
     """Values with one replaced by name."""
     return [changed if v.name == changed.name else v for v in values]
 
@@ -207,7 +212,7 @@ def changed_points(world: WorldDescription, feature: Feature) -> int:
         first, step, last = world.bounds[k], world.spacing[k], world.bounds[k + 2]
         low, high = (max(box[k], first) - first) / step, (min(box[k + 2], last) - first) / step
         numbers = np.arange(np.ceil(low - 1e-9), np.floor(high + 1e-9) + 1.0)
-        axes.append(first + step * numbers[:: max(1, len(numbers) // MOST_POINTS)])
+        axes.append(first + step * numbers[:: max(1, len(numbers) // MAX_POINTS)])
     x, y = np.meshgrid(*axes, indexing="ij")
     if isinstance(feature, Area):
         (cx, cy), r = feature.at, feature.radius
@@ -216,7 +221,7 @@ def changed_points(world: WorldDescription, feature: Feature) -> int:
     return int(
         inside.sum()
         if isinstance(feature, Band)
-        else (inside & (np.abs(added_height(feature, x, y)) > LEAST_HEIGHT)).sum()
+        else (inside & (np.abs(added_height(feature, x, y)) > MIN_HEIGHT)).sum()
     )
 
 
@@ -233,7 +238,7 @@ def _corrected_features(feature: Feature) -> Iterator[tuple[str, Feature]]:
             for name in ("length", "width", "left", "right")
             if hasattr(feature, name)
         }
-        yield "km in place of m", feature.model_copy(update=smaller)
+        yield "km instead of m", feature.model_copy(update=smaller)
 
 
 def _scenery_points(world: WorldDescription) -> Iterator[tuple[str, Places]]:

@@ -7,34 +7,34 @@ from typing import Any
 import numpy as np
 
 from ali3.scene.base64_numbers import encoded, encoded_octets
-from mbs.worlds.patches import BOUND, DrawnPatch, patches_of
-from mbs.worlds.profiles import spaced
+from mbs.worlds.patches import BOUND, DrawnPatch, make_patches
+from mbs.worlds.profiles import equidistant
 from mbs.worlds.scenery import scenery_of
 from mbs.worlds.terrain import Terrain
 
 FORMAT, VERSION = "ALi3 world", 1
-MOST_CELLS = 1_500_000
+MAX_CELLS = 1_500_000
 """Largest number of cells of the map of surfaces."""
-FINEST_CELL = 0.25
+MIN_CELL = 0.25
 
 
 def world_record(
-    terrain: Terrain, tell: Callable[[float], None] = lambda share: None, step: float = 0.0
+    terrain: Terrain, tell: Callable[[float], None] = lambda fraction: None, step: float = 0.0
 ) -> dict[str, Any]:
     """Content of the JSON file of a world.
 
-    `tell`: called with the completed share, 0 to 1; `step`: of which drawn heights are integer multiples, m; 0: they
+    `tell`: function of the completed fraction, 0 to 1; `step`: step of the drawn heights, m; 0: they
     are not rounded.
     """
     world = terrain.world
-    patches = patches_of(terrain, lambda share: tell(0.9 * share))
+    patches = make_patches(terrain, lambda fraction: tell(0.9 * fraction))
     road = {
         "kind": "terrain",
         "patches": [_patch_entry(patch, step) for patch in patches],
         "surface": _surface_entry(terrain),
         "note": f"Drawn within {1e3 * BOUND:g} mm of what the wheels feel; scenery is only seen.",
     }
-    return record_of(
+    return make_record(
         world.name,
         world.bounds,
         [place.model_dump(exclude={"at"}) | _pose(place.at) for place in world.places],
@@ -44,7 +44,7 @@ def world_record(
     )
 
 
-def record_of(
+def make_record(
     name: str,
     bounds: tuple[float, float, float, float],
     places: list[dict[str, Any]],
@@ -86,10 +86,10 @@ def _patch_entry(patch: DrawnPatch, step: float) -> dict[str, Any]:
 def _surface_entry(terrain: Terrain) -> dict[str, Any]:
     """Scene entry of the surfaces: their indices on a grid of cells, their names and frictions."""
     x0, y0, x1, y1 = terrain.world.bounds
-    step = max(FINEST_CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
+    step = max(MIN_CELL, math.sqrt((x1 - x0) * (y1 - y0) / MAX_CELLS))
     n = [max(2, math.ceil(side / step)) for side in (x1 - x0, y1 - y0)]
     cell = [(x1 - x0) / n[0], (y1 - y0) / n[1]]
-    x, y = spaced(x0 + 0.5 * cell[0], cell[0], n[0]), spaced(y0 + 0.5 * cell[1], cell[1], n[1])
+    x, y = equidistant(x0 + 0.5 * cell[0], cell[0], n[0]), equidistant(y0 + 0.5 * cell[1], cell[1], n[1])
     _, classes, _ = terrain.on_grid(x, y)
     return {
         "origin": [float(x[0]), float(y[0])],

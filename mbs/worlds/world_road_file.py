@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ali3.files import atomic_file
 from mbs.kernel.header.limits import ROAD_TILE
 from mbs.roads.road_header import check_grid
-from mbs.roads.shared_tiles import TILE_COORDINATES, TOLERANCE, SharedWriter, polynomials_of
+from mbs.roads.shared_tiles import TILE_COORDINATES, TOLERANCE, SharedWriter, fit_polynomials
 from mbs.worlds import thinned_world as thin_world
-from mbs.worlds.profiles import spaced
+from mbs.worlds.profiles import equidistant
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.world_types import WorldDescription
 
@@ -34,7 +34,7 @@ def write_world_road(
 ) -> None:
     """Write the road file of a world.
 
-    `tell`: called with the completed share, 0 to 1; `thin`: whether heights are rounded as in `thinned_world`.
+    `tell`: called with the completed fraction, 0 to 1; `thin`: whether heights are rounded as in `thinned_world`.
     """
     x0, y0, _, _ = terrain.world.bounds
     dx, dy = terrain.world.spacing
@@ -44,9 +44,9 @@ def write_world_road(
     with atomic_file(file) as target, target.open("wb") as out:
         writer = SharedWriter(out, shape, (x0, y0), (dx, dy), uniform, file, tolerance)
         rows, columns = writer.head.tiles
-        y = spaced(y0, dy, columns * ROAD_TILE)
+        y = equidistant(y0, dy, columns * ROAD_TILE)
         for i in range(rows):
-            for heights, surfaces in _tiles(terrain, spaced(x0 + i * ROAD_TILE * dx, dx, ROAD_TILE), y, tolerance):
+            for heights, surfaces in _tiles(terrain, equidistant(x0 + i * ROAD_TILE * dx, dx, ROAD_TILE), y, tolerance):
                 if thin and heights.shape == (ROAD_TILE, ROAD_TILE):
                     heights = thin_world.STEP * np.round(heights / thin_world.STEP)
                 writer.tile(heights, None if uniform is not None else terrain.frictions[surfaces])
@@ -61,7 +61,7 @@ def _tiles(terrain: Terrain, x: Float, y: Float, tolerance: float) -> Iterator[t
     z, surfaces, same = terrain.on_grid(x[SAMPLES], y[sample_indices])
     check_grid(z, None, "the world")
     blocks = [_blocks(values, count) for values in (z, surfaces, same)]
-    forms = polynomials_of(blocks[0], TILE_COORDINATES[SAMPLES], 0.5 * tolerance)
+    forms = fit_polynomials(blocks[0], TILE_COORDINATES[SAMPLES], 0.5 * tolerance)
     step = 0.75 * math.hypot(x[1] - x[0], y[1] - y[0]) * (SAMPLES[1] - SAMPLES[0])
     is_uniform = (blocks[1] == blocks[1][:, :1, :1]).all(axis=(1, 2)) & (blocks[2].min(axis=(1, 2)) > step)
     needs_all_points = (
@@ -75,7 +75,7 @@ def _tiles(terrain: Terrain, x: Float, y: Float, tolerance: float) -> Iterator[t
         z, surfaces, _ = terrain.on_grid(x, (y.reshape(count, ROAD_TILE)[numbers]).ravel())
         check_grid(z, None, "the world")
         heights, classes = _blocks(z, len(numbers)), _blocks(surfaces, len(numbers))
-        exact_forms = polynomials_of(heights, TILE_COORDINATES, tolerance)
+        exact_forms = fit_polynomials(heights, TILE_COORDINATES, tolerance)
         for k, number in enumerate(numbers.tolist()):
             form = exact_forms[k]
             exact_tiles[number] = (

@@ -73,9 +73,9 @@ class Bank(_Table):
     """Superelevation of a course in its curves."""
 
     grades: Annotated[list[tuple[Distance, Annotated[float, Field(ge=-1.0, le=1.0)]]], Field(min_length=1)]
-    """Station, m, and slope across, positive where the right side is higher; smooth between."""
+    """Station, m, and slope across, positive if the right side is higher; smooth between."""
     pivot: Literal["left", "centre", "right"] = "centre"
-    """The line whose heights are those of the course."""
+    """The line that gives the heights of the course."""
 
 
 class Course(_Table):
@@ -126,8 +126,9 @@ class Band(_Table):
     at: Start
     length: Length
     right: Coordinate
+    """Right end across, m, left positive."""
     left: Coordinate
-    """`right`, `left`: ends across, m, left positive."""
+    """Left end across, m, left positive."""
     surface: SurfaceClass
 
 
@@ -141,8 +142,8 @@ class Kerb(_Table):
     left: Coordinate
     height: Annotated[float, Field(gt=0.0, le=0.3)] = 0.08
     face: Annotated[float, Field(ge=0.1, le=5.0)] = 0.32
-    """Length of the slope up and down, m: where 80 mm are parabolas with a radius of 0.32 m, a little more than that of
-    a wheel, so that its nearest point stays the only one."""
+    """Length of the slope up and down, m. For a height of 80 mm the default gives parabolas with a radius of 0.32 m,
+    a little more than a wheel's, so that its nearest point stays the only one."""
     flank: Annotated[float, Field(ge=0.1, le=5.0)] = 0.5
     surface: SurfaceClass = "concrete"
 
@@ -202,7 +203,7 @@ class Cones(_Table):
     """Start of the lane change or slalom, in the middle of the first lane."""
     vehicle_width: Annotated[float, Field(ge=0.5, le=4.0)] = 1.8
     slalom: Annotated[int, Field(ge=1, le=200)] | None = None
-    """Number of cones in a row from `start` on."""
+    """Number of cones in a row, which begins at `start`."""
     distance: Length = 18.0
 
 
@@ -227,8 +228,9 @@ class Barrier(_Table):
     points: list[Point] | None = None
     course: Text | None = None
     begin: Distance = 0.0
+    """First station, m."""
     end: Distance = 0.0
-    """`begin`, `end`: stations, m."""
+    """Last station, m."""
     side: Literal["left", "right"] = "right"
     offset: Distance = 1.5
     """Distance from the edge of the road, m."""

@@ -16,7 +16,7 @@ from mbs.tyre_files import read_tyre
 from mbs.urdf import read_urdf
 from mbs.vehicle import load
 from mbs.vehicle.command import main as car_command
-from mbs.vehicle.picture import points_of
+from mbs.vehicle.picture import named_points
 from mbs.worlds.command import main as road_command
 from mbs.worlds.make_world import read_world
 
@@ -94,7 +94,7 @@ def test_a_simulation_reports_a_start_beside_its_road(tmp_path: Path, of_file: b
 def test_the_picture_of_a_car_has_all_points_of_its_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert car_command(["saloon", "--picture", str(tmp_path / "saloon.png")]) == 0
     assert (tmp_path / "saloon.png").read_bytes().startswith(b"\x89PNG")
-    points = points_of(load("saloon"))
+    points = named_points(load("saloon"))
     assert points["front.wheel.centre"] == (0.0, 0.6934, 0.28602)
     contact = load("saloon").chassis.ground_contact
     assert contact is not None

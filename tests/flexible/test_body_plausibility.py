@@ -49,10 +49,10 @@ def in_units(K: Any, M: Any, length: float, mass: float, stiffness: float) -> tu
 
 BODIES = {"frame": of_portal, "bar": of_bar}
 UNITS = {
-    "g in place of kg in the mass": (1.0, 1e-3, 1.0),
-    "t in place of kg in the mass": (1.0, 1e3, 1.0),
-    "t, mm and N in place of kg, m and N": (1e-3, 1e3, 1e3),
-    "g, mm and ms in place of kg, m and s": (1e-3, 1e-3, 1e3),
+    "g instead of kg in the mass": (1.0, 1e-3, 1.0),
+    "t instead of kg in the mass": (1.0, 1e3, 1.0),
+    "t, mm and N instead of kg, m and N": (1e-3, 1e3, 1e3),
+    "g, mm and ms instead of kg, m and s": (1e-3, 1e-3, 1e3),
 }
 
 
@@ -73,8 +73,8 @@ def test_units_of_a_whole_model_are_reported(body: str) -> None:
 def test_a_given_mass_reveals_mistakes_that_matrices_do_not() -> None:
     model = straight(4).finite_element_model()
     for factor, message in (
-        (1e3, "g in place of kg"),
-        (1e-3, "t in place of kg"),
+        (1e3, "g instead of kg"),
+        (1e-3, "t instead of kg"),
         (1.0 / 0.45359237, "pounds"),
         (1.5, ""),
     ):
@@ -110,11 +110,11 @@ REFUSED: dict[str, tuple[Callable[[Any, Any, np.ndarray], Matrices], str]] = {
     "one triangle": (lambda K, M, x: (sp.triu(K), M, x), "stiffness matrix is not symmetric"),
     "y for z": (lambda K, M, x: (K, M, x[:, [0, 2, 1]]), "exchanged axes, z for y and y for z"),
     "left-handed": (lambda K, M, x: (K, M, x * [1.0, -1.0, 1.0]), "the sign of y in the places of the nodes"),
-    "mm": (lambda K, M, x: (K, M, 1e3 * x), "mm in place of m in the places of the nodes"),
+    "mm": (lambda K, M, x: (K, M, 1e3 * x), "mm instead of m in the places of the nodes"),
     "by axis": (lambda K, M, x: (K[BY_AXIS][:, BY_AXIS], M[BY_AXIS][:, BY_AXIS], x), "one axis after the other"),
     "nodes backwards": (lambda K, M, x: (K, M, x[::-1]), "backwards"),
     "nodes by chance": (lambda K, M, x: (K, M, x[[3, 1, 7, 0, 2, 8, 6, 5, 4]]), "positions of the nodes do not belong"),
-    "two freedoms": (lambda K, M, x: (swapped(K), M, x), "freedoms are not in the order of the nodes"),
+    "two freedoms": (lambda K, M, x: (swapped(K), M, x), "freedom are not in the order of the nodes"),
     "a support": (lambda K, M, x: (grounded(K), M, x), "at node '2': give the free model, without supports"),
 }  # fmt: skip
 
@@ -146,7 +146,7 @@ def test_a_mass_matrix_in_another_order_is_reported() -> None:
             except ModelError as error:
                 message = str(error)
         assert re.search(
-            "freedoms are not in the order of the nodes|mass node pairs that|mass rigid inertia off", message
+            "freedom are not in the order of the nodes|mass node pairs that|mass rigid inertia off", message
         )
 
 

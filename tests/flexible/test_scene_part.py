@@ -10,7 +10,7 @@ from mbs.common.errors import ModelError
 from mbs.flexible import Beam, Frame, Material, craig_bampton, external_model, rectangle, round_bar, tube
 from mbs.flexible.recovery import peak_tube_stress, section_force_field, stress_field
 from mbs.flexible.reduced_body import ReducedBody
-from mbs.flexible.scene_part import MOST_POINTS, flexible_parts
+from mbs.flexible.scene_part import MAX_POINTS, flexible_parts
 from mbs.flexible.section import Section
 from tests.scene_numbers import places, rows_of_stress, stress
 
@@ -103,7 +103,7 @@ def test_matrices_have_nodes_and_no_stresses_and_many_nodes_are_thinned() -> Non
     assert "stress" not in part
     assert len(part["nodes"]) == 5
     assert "stresses are not known" in part["note"]
-    count = 2 * MOST_POINTS + 1
+    count = 2 * MAX_POINTS + 1
     many = dataclasses.replace(
         body,
         node_names=tuple(map(str, range(count))),
@@ -111,7 +111,7 @@ def test_matrices_have_nodes_and_no_stresses_and_many_nodes_are_thinned() -> Non
         node_translations=np.zeros((count, 3, body.n_modes)),
     )
     (part,) = flexible_parts(many, "loop", names(body))
-    assert len(part["nodes"]) <= MOST_POINTS
+    assert len(part["nodes"]) <= MAX_POINTS
     assert part["names"][1] == "3"
     assert f"one of 3 of the {count} nodes" in part["note"]
 

@@ -17,7 +17,7 @@ import pytest
 
 from hosts.measures.log_plausibility import log_plausibility
 from mbs.elements.road import GridRoad
-from mbs.roads.road_plausibility import place_of, road_plausibility, start_plausibility
+from mbs.roads.road_plausibility import grid_location, road_plausibility, start_plausibility
 from mbs.tyre_files import read_tyre
 from mbs.tyre_files.tyre_plausibility import magic_plausibility
 from mbs.urdf import read_urdf
@@ -107,7 +107,10 @@ def road(heights: float = 1.0, spacing: float = 0.5, origin: tuple[float, float]
     grid = GridRoad(origin, (spacing, spacing), z, **more)
     return lambda _: [
         sentence
-        for plausibility in (road_plausibility("r.csv", grid), start_plausibility("r.csv", place_of(grid), (0.0, 0.0)))
+        for plausibility in (
+            road_plausibility("r.csv", grid),
+            start_plausibility("r.csv", grid_location(grid), (0.0, 0.0)),
+        )
         for sentence in plausibility.warnings()
     ]
 
@@ -127,24 +130,24 @@ LIMITS = r'(?:lower|upper)="([^"]*)"'
 PLANTED: dict[str, tuple[Told, str]] = {
     "wheel inertia of both": (
         car("saloon", front__wheel__spin_inertia=2.0, front__wheel__diametral_inertia=2.0),
-        "both wheels in place of one",
+        "both wheels instead of one",
     ),
     "half a wheel's inertia": (car("saloon", front__wheel__spin_inertia=0.5), "half of the wheel"),
     "final drive twice": (car("saloon", drive__ratios=4.0), "the final drive, of about 4, twice"),
-    "torque in kgf m": (car("commonroad_vanagon", drive__max_torque=0.102), "kilograms in place of newtons in drive"),
-    "damping in kgf s/m": (car("saloon", rear__damper__damping=0.102), "kilograms in place of newtons in rear.damper"),
-    "tyre diameter": (tyre(UNLOADED_RADIUS=2.0), "the diameter in place of the radius"),
-    "tyre stiffness in kgf/m": (tyre(VERTICAL_STIFFNESS=0.10197), "kilograms in place of newtons in VERTICAL"),
-    "tyre range in kg": (tyre(FZMAX=0.10197), "kilograms in place of newtons in FZMAX"),
+    "torque in kgf m": (car("commonroad_vanagon", drive__max_torque=0.102), "kilograms instead of newtons in drive"),
+    "damping in kgf s/m": (car("saloon", rear__damper__damping=0.102), "kilograms instead of newtons in rear.damper"),
+    "tyre diameter": (tyre(UNLOADED_RADIUS=2.0), "the diameter instead of the radius"),
+    "tyre stiffness in kgf/m": (tyre(VERTICAL_STIFFNESS=0.10197), "kilograms instead of newtons in VERTICAL"),
+    "tyre range in kg": (tyre(FZMAX=0.10197), "kilograms instead of newtons in FZMAX"),
     "trail of the other sign": (tyre(QDZ1=-1.0), "the sign of QDZ1"),
-    "limits in degrees": (robot(LIMITS, DEG), "degrees in place of radians in the limits"),
+    "limits in degrees": (robot(LIMITS, DEG), "degrees instead of radians in the limits"),
     "exchanged coordinates": (log(swapped("chassis.x", "chassis.y")), "'x' and 'y' exchanged"),
     "a late yaw rate": (log(late("chassis.wz", 0.6)), "s (within 0.02 s) of 'wz'"),
     "gravity in ax": (log(offset("chassis.ax", 9.81)), "an offset of 9.8"),
-    "heights in cm": (road(heights=1e2), "cm in place of m in heights"),
-    "coordinates in cm": (road(spacing=50.0), "cm in place of m in coordinates"),
-    "friction in percent": (road(frictions=90.0), "percent in place of a ratio in frictions"),
-    "an area in mm": (world("areas", 1, at=[553e3, -22e3]), "mm in place of m in areas.1"),
+    "heights in cm": (road(heights=1e2), "cm instead of m in heights"),
+    "coordinates in cm": (road(spacing=50.0), "cm instead of m in coordinates"),
+    "friction in percent": (road(frictions=90.0), "percent instead of a ratio in frictions"),
+    "an area in mm": (world("areas", 1, at=[553e3, -22e3]), "mm instead of m in areas.1"),
 }
 
 

@@ -36,8 +36,8 @@ def test_roads_of_the_package_have_nothing_odd() -> None:
 @pytest.mark.parametrize(
     ("road", "message"),
     [
-        (waves(factor=1000.0), "mm in place of m in heights"),
-        (waves(spacing=500.0), "mm in place of m in coordinates or"),
+        (waves(factor=1000.0), "mm instead of m in heights"),
+        (waves(spacing=500.0), "mm instead of m in coordinates or"),
         (waves(step=0.01), "step of the heights is 0.01 m"),
         (waves(step=0.25), "step of the heights is 0.25 m"),
         (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((9, 9)), 1.9), "friction is 1.9"),
@@ -85,7 +85,7 @@ def test_a_road_drawn_with_few_heights_has_no_coarse_number_type() -> None:
     [
         ((500.0, -5.0), 0.5, "distance of the start from the road is 500 m"),
         ((4.5e5, 5.4e6), 0.5, "coordinates of a map"),
-        ((2e4, -5e3), 500.0, "mm in place of m in coordinates"),
+        ((2e4, -5e3), 500.0, "mm instead of m in coordinates"),
         ((-5.0, 300.0), 0.5, "is 300 m"),
     ],
 )
@@ -115,7 +115,7 @@ THINGS = {
         {"obstacles": [KERB | {"left": -2.0, "right": 2.0}]},
         "left and right exchanged in obstacles.0",
     ),
-    "mm": ({"obstacles": [KERB | {"at": [1e4, 0.0, 0.0]}]}, "mm in place of m in obstacles.0"),
+    "mm": ({"obstacles": [KERB | {"at": [1e4, 0.0, 0.0]}]}, "mm instead of m in obstacles.0"),
     "x for y": ({"obstacles": [KERB | {"at": [2.0, 45.0, 0.0]}]}, "x and y exchanged in obstacles.0"),
     "a sign": ({"obstacles": [KERB | {"at": [-30.0, 0.0, 0.0]}]}, "the sign of x in obstacles.0"),
     "between points": (
@@ -158,7 +158,7 @@ ODD_THINGS = {
         {"kind": "washboard", "at": [10.0, 0.0, 0.0], "length": 9.0, "width": 4.0, "wavelength": 0.7, "height": 0.02}]},
         "points over the shortest slope or wave is 0.7"),
     "a spacing in cm": ({"spacing": [5.0, 10.0], "obstacles": [KERB | {"at": [21.0, 0.0, 0.0]}]},
-                        "cm in place of m in spacing"),
+                        "cm instead of m in spacing"),
 }  # fmt: skip
 
 

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from scipy.special import k1
 
 from mbs.roads import RoadFileError, read_road
-from mbs.roads.rough_road import HIGHEST_FREQUENCY, ISO_8608, rough_heights
+from mbs.roads.rough_road import ISO_8608, MAX_FREQUENCY, rough_heights
 
 Array = NDArray[np.float64]
 BOUNDS = {
@@ -61,7 +61,7 @@ def test_near_its_end_the_density_is_that_of_waves_in_all_directions() -> None:
     for low, high in ((0.05, 0.2), (0.2, 0.8), (0.9, 1.1), (1.9, 2.1), (2.4, 2.6)):
         band = (n > low) & (n < high)
         line = ISO_8608["B"] * (0.1 / n[band]) ** 2
-        share = np.sqrt(1.0 - (n[band] / HIGHEST_FREQUENCY) ** 2).mean()
+        share = np.sqrt(1.0 - (n[band] / MAX_FREQUENCY) ** 2).mean()
         assert (actual[band].mean(axis=1) / line).mean() == pytest.approx(share, rel=0.04), (low, high)
 
 

@@ -14,6 +14,7 @@ from mbs.tyre_files import read_tyre
 from mbs.tyre_files.fits import magic_of_tmeasy, tmeasy_of_magic
 from mbs.tyre_files.magic_file import asymmetric_coefficients
 from mbs.tyre_files.property_writer import write_tyre
+from mbs.tyre_files.pure_curves import magic_trail
 from tests.elements.harness import Element
 from tests.elements.test_magic_tyre import element_of, pose
 from tests.elements.tyre_data import TYRE, tyre_element
@@ -80,6 +81,11 @@ def test_tmeasy_of_a_file_has_its_forces_within_the_reported_errors(file: Path) 
     result, errors = tmeasy_of_magic(bare)
     c = {"QSY1": 0.0, "LMY": 1.0, "Q_RE0": 1.0} | bare.coefficients
     assert (result.radius, result.rolling_resistance) == (bare.radius * c["Q_RE0"], c["QSY1"] * c["LMY"])
+    c |= {"LONGITUDINAL_STIFFNESS": 0.0, "LATERAL_STIFFNESS": 0.0} | bare.coefficients
+    for stiffness, of_file in zip(
+        result.carcass_stiffness, ("LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS"), strict=True
+    ):
+        assert (stiffness == c[of_file]) == (c[of_file] > 0.0)
     assert errors["lateral"] < 0.12
     if file.stem == "HMMWV_Pac02Tire":  # its longitudinal slip stiffness fades to nothing by PKX2: no curve of TMeasy
         assert errors["longitudinal"] > 0.3
@@ -92,6 +98,21 @@ def test_tmeasy_of_a_file_has_its_forces_within_the_reported_errors(file: Path) 
     for tangent in (0.02, 0.1, 0.3):
         one, two = (force_of(tyre, load, 0.0, tangent)[1] for tyre in (bare, result))
         assert abs(one - two) < (errors["lateral"] + 0.02) * 1.3 * load
+
+
+@pytest.mark.parametrize("tangent", [0.05, 0.6])
+@pytest.mark.parametrize("version", ["MF52", "MF61", "MF62"])
+def test_the_trail_of_the_fit_is_that_of_the_kernel(version: str, tangent: float) -> None:
+    """At tan(alpha) = 0.6 the cosine of the slip angle, 0.857, is 4 % above that of its tangent."""
+    c = {**magic(FILES[0]).coefficients, "PDY1": 1.0, "PEY1": -1.0, "QBZ1": 3.0, "QCZ1": 1.1, "QDZ1": 0.1, "QEZ1": -1.0}
+    shifts = ("PHX", "PVX", "PHY", "PVY", "QHZ", "QDZ6", "QDZ7", "QEZ4", "QEZ5", "SSZ", "LMUV")
+    c |= {name: 0.0 for name in MAGIC_COEFFICIENTS if name.startswith(shifts)}
+    tyre, load = replace(magic(FILES[0]), version=version, coefficients=c, combination="none"), 3000.0
+    element, height, speed, omega, _ = _rolling(tyre, load, 0.0, 0.0)
+    out = steady(element, height, speed, omega, speed * tangent)
+    assert out["vertical_force"] == pytest.approx(load, rel=1e-9)
+    trail = magic_trail(c, tyre.nominal_load, tyre.radius, load, tangent, version)
+    assert -out["aligning_moment"] / out["lateral_force"] == pytest.approx(trail, rel=1e-6)
 
 
 @pytest.mark.parametrize("file", FILES[:4], ids=ids[:4])
@@ -133,15 +154,15 @@ def test_a_written_tyre_keeps_grip_and_progression(tmp_path: Path) -> None:
     again = replace(again, largest_load=tyre.largest_load)
     for kappa, tangent in ((0.1, 0.0), (0.0, 0.2)):
         first, second = (
-            steady(*_rolling(t, kappa, tangent))["longitudinal_force" if kappa else "lateral_force"]
+            steady(*_rolling(t, 3000.0, kappa, tangent))["longitudinal_force" if kappa else "lateral_force"]
             for t in (tyre, again)
         )
         assert first == pytest.approx(second, rel=1e-9)
 
 
-def _rolling(tyre: MagicTyre, kappa: float, tangent: float) -> tuple[Element, float, float, float, float]:
+def _rolling(tyre: MagicTyre, load: float, kappa: float, tangent: float) -> tuple[Element, float, float, float, float]:
     """What `steady` takes, on a road of friction 1."""
-    u, ud = pose(tyre, 3000.0, kappa, 0.0, 0.0, 20.0)
+    u, ud = pose(tyre, load, kappa, 0.0, 0.0, 20.0)
     return element_of(tyre, 1.0), u[2], 20.0, ud[6], 20.0 * tangent
 
 

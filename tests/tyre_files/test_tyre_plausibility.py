@@ -18,21 +18,21 @@ def lines_of(file: Path) -> list[str]:
 
 
 ODD: dict[str, tuple[Factors, str]] = {
-    "stiffness per degree": ({"PKY1": 1.0 / DEG}, "per degree in place of per radian in PKY1"),
-    "slip stiffness per percent": ({"PKX1": 0.01, "PKX2": 0.01}, "per percent in place of per slip in PKX1"),
+    "stiffness per degree": ({"PKY1": 1.0 / DEG}, "per degree instead of per radian in PKY1"),
+    "slip stiffness per percent": ({"PKX1": 0.01, "PKX2": 0.01}, "per percent instead of per slip in PKX1"),
     "the sign of PCX1": ({"PCX1": -1.0}, "the sign of PCX1"),
-    "a shift in degrees": ({"PHY1": DEG}, "degrees in place of radians in PHY1"),
+    "a shift in degrees": ({"PHY1": DEG}, "degrees instead of radians in PHY1"),
     "a lift in percent": ({"PVY1": 100.0}, "lateral force at no slip"),
-    "load in kg": ({"FNOMIN": 1.0 / 9.80665}, "kilograms in place of newtons in FNOMIN"),
-    "friction in percent": ({"PDY1": 100.0}, "percent in place of a ratio in PDY1"),
+    "load in kg": ({"FNOMIN": 1.0 / 9.80665}, "kilograms instead of newtons in FNOMIN"),
+    "friction in percent": ({"PDY1": 100.0}, "percent instead of a ratio in PDY1"),
     "ten times the stiffness": ({"PKY1": 10.0}, "cornering stiffness over load"),
     "aspect in percent": (
         {"ASPECT_RATIO": 100.0},
-        "percent in place of a ratio in ASPECT_RATIO would explain it: without that it is 1",
+        "percent instead of a ratio in ASPECT_RATIO would explain it: without that it is 1",
     ),
     "half the width": ({"WIDTH": 0.5}, "width of the rim over that of the tyre"),
-    "angles in degrees": ({"ALPMIN": DEG, "ALPMAX": DEG}, "degrees in place of radians in ALPMIN and ALPMAX"),
-    "speed in km/h": ({"LONGVL": 3.6}, "km/h in place of m/s in LONGVL"),
+    "angles in degrees": ({"ALPMIN": DEG, "ALPMAX": DEG}, "degrees instead of radians in ALPMIN and ALPMAX"),
+    "speed in km/h": ({"LONGVL": 3.6}, "km/h instead of m/s in LONGVL"),
     "a factor of ten": ({"LFZO": 10.0}, "LFZO scaling factor is 10.2"),
     "a range below the load of a wheel": ({"FZMAX": 0.2}, "largest load over nominal load is 0.8667"),
     "fall of friction per degree squared": (

@@ -42,13 +42,13 @@ def told(name: str, change: Change, folder: Path, **more: object) -> list[str]:
 
 MASS, INERTIA, XYZ = r'mass value="([^"]*)"', r'i[xyz][xyz]="([^"]*)"', r'xyz="([^"]*)"'
 ODD = {
-    "masses in g": (scaled(MASS, 1e3), "grams in place of kilograms in masses"),
+    "masses in g": (scaled(MASS, 1e3), "grams instead of kilograms in masses"),
     "lengths in mm": (
         lambda t: re.sub(r'<axis xyz="[^"]*"', '<axis xyz="0 0 1"', scaled(XYZ, 1e3)(t)),
-        "mm in place of m",
+        "mm instead of m",
     ),
     "inertias in kg mm2": (scaled(INERTIA, 1e6), "inertias in kg mm2"),
-    "a turn of 90 rad": (replaced(r'rpy="[^"]*"', 'rpy="0 90 0"'), "degrees in place of radians in rpy"),
+    "a turn of 90 rad": (replaced(r'rpy="[^"]*"', 'rpy="0 90 0"'), "degrees instead of radians in rpy"),
     "limits in degrees": (
         replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="-170" upper="170"'),
         "radians in the limits",
@@ -57,14 +57,14 @@ ODD = {
         replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="1" upper="2"'),
         "start beyond the limits",
     ),
-    "mass of one in g": (scaled(MASS, 1e3, count=1), "grams in place of kilograms in masses of 'link_1'"),
+    "mass of one in g": (scaled(MASS, 1e3, count=1), "grams instead of kilograms in masses of 'link_1'"),
     "a joint in mm": (
         scaled(r'<joint[^>]*>(?:(?!</joint>).)*?<origin xyz="([^"]*)"', 1e3, count=2),
         "over all others together",
     ),
     "velocities in degrees per second": (
         scaled(r'velocity="([^"]*)"', 57.29578),
-        "degrees per second in place of rad/s in velocities",
+        "degrees per second instead of rad/s in velocities",
     ),
     "an effort of 0": (replaced(r'effort="[^"]*"', 'effort="0"'), "has no effort, or 0"),
 }

@@ -129,7 +129,7 @@ def test_damping_acts_and_omitted_elements_are_reported(tmp_path: Path) -> None:
         (LINK.format("b", 1.0) + JOINT.format("j", "planar", "a", "b", ""), "the joint 'j' is planar"),
         (LINK.format("b", 0.0) + JOINT.format("j", "revolute", "a", "b", ""), "the link 'b', and what is fixed to it"),
         (LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "c", ""), "joins the link 'c', which is not"),
-        (LINK.format("b", 1.0), "2 links are no child of a joint"),
+        (LINK.format("b", 1.0), "2 links are not the child of a joint"),
         (
             "".join(LINK.format(n, 1.0) for n in "bc")
             + "".join(JOINT.format("j", "revolute", *n, "") for n in ("ab", "bc")),

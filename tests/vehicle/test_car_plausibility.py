@@ -16,7 +16,7 @@ from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changed_content import changed_content
-from mbs.vehicle.checks.equilibrium import Rest, settled
+from mbs.vehicle.checks.equilibrium import Rest, find_equilibrium
 from mbs.vehicle.command import main
 from mbs.vehicle.errors import CarWarning
 from mbs.vehicle.summary import summary
@@ -48,7 +48,7 @@ PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
     "camber in degrees": (
         "saloon",
         lambda: {"rear.alignment.camber_left": -0.18, "rear.alignment.camber_right": -0.18},
-        "degrees in place of radians in rear.alignment.camber",
+        "degrees instead of radians in rear.alignment.camber",
     ),
     "bump for rebound": ("hatchback", lambda: turned("hatchback", "front.damper.table"), "bump and rebound exchanged"),
     "no final drive": ("saloon", lambda: times("saloon", "drive.ratios", 0.27), "ratios without a final drive"),
@@ -109,9 +109,9 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
 
     def counted(model: Model, car: CarContent) -> Rest:
         results.append(car)
-        return settled(model, car)
+        return find_equilibrium(model, car)
 
-    monkeypatch.setattr(built_car, "settled", counted)
+    monkeypatch.setattr(built_car, "find_equilibrium", counted)
     messages = {}
     for ports in ({}, {"ports.tyre": "hub"}):
         car = load("hatchback").changed(ports)
@@ -128,9 +128,9 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
 @pytest.mark.parametrize(
     ("curve", "field", "factor", "message"),
     [
-        ("lateral", "slope", 1.0 / DEG, "per degree in place of per slip in lateral.slope"),
-        ("longitudinal", "slope", 0.01, "per percent in place of per slip in longitudinal.slope"),
-        ("lateral", "max_slip", DEG, "degrees in place of a ratio in lateral.max_slip"),
+        ("lateral", "slope", 1.0 / DEG, "per degree instead of per slip in lateral.slope"),
+        ("longitudinal", "slope", 0.01, "per percent instead of per slip in longitudinal.slope"),
+        ("lateral", "max_slip", DEG, "degrees instead of a ratio in lateral.max_slip"),
         ("lateral", "max_force", 0.2, "lateral.max_force = "),
     ],
 )
@@ -148,9 +148,9 @@ def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
 
     def plausibility(undone: list[float] | None) -> Plausibility:
         result = None if undone is None else [replace(v, value=x) for v, x in zip(values, undone, strict=True)]
-        return Plausibility("f", values, [Mistake("mm in place of m", frozenset({"a"}), lambda: result)], "")
+        return Plausibility("f", values, [Mistake("mm instead of m", frozenset({"a"}), lambda: result)], "")
 
-    assert "mm in place of m would explain it: without that it is 5 m" in plausibility([5.0, 2.0]).warnings()[0]
+    assert "mm instead of m would explain it: without that it is 5 m" in plausibility([5.0, 2.0]).warnings()[0]
     for undone in (None, [500.0, 2.0], [5.0, 200.0]):  # none, not enough, another one outside
         (sentence,) = plausibility(undone).warnings()
         assert sentence == "f: first length is 5000 m; usual is 0 to 10 m. It follows from a = 5000."

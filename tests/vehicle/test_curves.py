@@ -20,7 +20,7 @@ from mbs.vehicle.kinematics.axle_compliance import compliance
 from mbs.vehicle.kinematics.car_kinematics import kinematics
 from mbs.vehicle.side import Side
 from mbs.vehicle.suspensions.curve_poses import wheel_curves
-from mbs.vehicle.suspensions.curve_table import COLUMNS, MOST_INTERVALS, read_curves
+from mbs.vehicle.suspensions.curve_table import COLUMNS, MAX_INTERVALS, read_curves
 from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -331,7 +331,7 @@ def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content: dict,
     smooth, step = CubicSpline(rows[:, 0], rows), rows[-1, 0] / 2500
     written(copied, heading, smooth(step * np.arange(np.ceil(rows[0, 0] / step), 2501)))
     table = car_from(content["saloon"], copied, "x").rear.suspension.table
-    assert len(table.travel) <= MOST_INTERVALS + 1
+    assert len(table.travel) <= MAX_INTERVALS + 1
     np.testing.assert_allclose(
         table.columns["toe_angle"][:, 0], smooth(table.travel)[:, heading.index("toe_angle [rad]")]
     )

@@ -100,7 +100,7 @@ def test_an_invalid_table_is_refused(content, message, copied):
 
 @pytest.mark.parametrize("name", ["../joints.csv", "/etc/passwd", "a/../../b.csv", "..\\joints.csv", "", "a\\b"])
 def test_a_path_that_leaves_the_folder(name):
-    with pytest.raises(CarFileError, match=r"chassis\.frame\.joints is .*; it must be the name of a file in"):
+    with pytest.raises(CarFileError, match=r"chassis\.frame\.joints is .*; it must be the path of a file in"):
         load("prototype").changed({"chassis.frame.joints": name})
 
 

@@ -7,7 +7,7 @@ from benchmarks.car.measures import MEASURES, steady_turn
 from benchmarks.shared.figures import between, read, rows_of
 from mbs import Pose, Simulation, compile
 from mbs.elements.road import PlaneRoad
-from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.checks.places import rigid_parts
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics import kinematics
 from tests.vehicle.hatchback import WHEELS, car, drive, system
@@ -23,7 +23,7 @@ def masses():
     c = car()
     results = [(c.chassis.mass, np.array(c.chassis.com))]
     results += [(p.mass, np.array(p.point)) for p in c.payload.values()]
-    for part, axle in [*((p, None) for p in parts_of(c)), (None, c.front), (None, c.rear)]:
+    for part, axle in [*((p, None) for p in rigid_parts(c)), (None, c.front), (None, c.rear)]:
         mass, place = (part.mass, part.com) if axle is None else (axle.wheel.mass, axle.wheel.centre)
         results += [(mass, np.array(place) * (1.0, sign, 1.0)) for sign in (1.0, -1.0)]
     return results

@@ -14,12 +14,12 @@ from mbs.vehicle import Fidelity, load
 from mbs.vehicle.levels.drives import ACCELERATION, Drive, default_drives, read_drive
 from mbs.vehicle.levels.errors import error_of_change, load_error, path_error
 from mbs.vehicle.levels.level_choice import cheapest, levels
-from mbs.vehicle.levels.measure import measure, systems_of
+from mbs.vehicle.levels.measure import compile_fidelities, measure
 
 
 @pytest.fixture(scope="module")
 def saloon():
-    return systems_of(load("saloon"))
+    return compile_fidelities(load("saloon"))
 
 
 def test_a_car_by_links_has_tables_too(saloon):
@@ -106,7 +106,7 @@ def test_it_chooses_the_level_that_meets_all_tolerances_in_all_drives():
 
 def test_tyres_at_ports_are_refused():
     with pytest.raises(ModelError, match=r"ports\.tyre"):
-        systems_of(load("saloon").changed({"ports.tyre": "hub"}))
+        compile_fidelities(load("saloon").changed({"ports.tyre": "hub"}))
 
 
 def drive_file(tmp_path):

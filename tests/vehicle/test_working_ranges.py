@@ -10,8 +10,8 @@ from mbs import ParameterWarning, Pose, Simulation, compile, simulate
 from mbs.vehicle import car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
-from mbs.vehicle.checks.masses import LARGEST_LATERAL_OFFSET, LEAST_WEIGHT_SHARE
-from mbs.vehicle.checks.working_ranges import AIR_SPEED, LARGEST_TRAVEL, working_ranges
+from mbs.vehicle.checks.masses import MAX_LATERAL_OFFSET, MIN_WEIGHT_FRACTION
+from mbs.vehicle.checks.working_ranges import AIR_SPEED, MAX_TRAVEL, working_ranges
 
 BAD = {
     "front.tyre.stiffness": (1e4, 2e6),
@@ -71,10 +71,8 @@ def test_a_spring_by_a_table_has_the_ranges_of_its_law():
     # are 0.6 k of load; the softest factor lets c press it as far
     harder = working_ranges(with_spring([[0.0, 0.0], [0.05, 0.05 * k], [0.4, 0.75 * k]]))
     softest, hardest = plain["front.spring.factor"]
-    carried = LARGEST_TRAVEL * k / (1.0 / softest - 1.0)
-    assert harder["front.spring.factor"] == pytest.approx(
-        (carried / (carried + 2.0 * LARGEST_TRAVEL * k), hardest / 2.0)
-    )
+    carried = MAX_TRAVEL * k / (1.0 / softest - 1.0)
+    assert harder["front.spring.factor"] == pytest.approx((carried / (carried + 2.0 * MAX_TRAVEL * k), hardest / 2.0))
 
 
 def test_air_at_the_end_of_its_range_brakes_with_the_weight_and_lifts_an_axle():
@@ -98,7 +96,7 @@ def test_air_at_the_end_of_its_range_brakes_with_the_weight_and_lifts_an_axle():
 def test_a_centre_of_mass_at_the_end_of_its_range_leaves_each_axle_and_side_its_share():
     """Against the loads at rest."""
     ranges, result = working_ranges(load("saloon")), system("saloon")
-    for axis, left, share in (("x", "FL FR", 1.0 - LEAST_WEIGHT_SHARE), ("y", "FL RL", 0.5 + LARGEST_LATERAL_OFFSET)):
+    for axis, left, share in (("x", "FL FR", 1.0 - MIN_WEIGHT_FRACTION), ("y", "FL RL", 0.5 + MAX_LATERAL_OFFSET)):
         for end in (0, 1):
             at_rest = Simulation(result, parameters={f"chassis.com.{axis}": ranges[f"chassis.com.{axis}"][end]}).sensors
             part = sum(at_rest[f"wheel_{w}.Fz"] for w in left.split()) / sum(at_rest[f"wheel_{w}.Fz"] for w in WHEELS)

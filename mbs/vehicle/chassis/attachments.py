@@ -21,7 +21,7 @@ class Attachments:
     """Hard points on the chassis of the left side and of the centre plane, m."""
 
     axles: tuple[tuple[Point, ...], tuple[Point, ...]]
-    """Points of the front axle with the steering, then those of the rear axle, in the order in which they are built."""
+    """Points of the front axle with the steering, then of the rear axle, in the order in which they are built."""
     held: tuple[tuple[Point, Point], ...]
     """Pairs of points, or of a point and an image, at a constant distance, such as the pivots of a wishbone."""
 
@@ -35,7 +35,7 @@ class _RecordingChassis(Body):
         self.points: dict[Point, None] = {}
 
     def point(self, position: ArrayLike) -> AffineVector:
-        """Record a point and return it as that of the chassis."""
+        """Record a point and return it as a point of the chassis."""
         x, y, z = (float(v) for v in np.asarray(position))
         if np.linalg.norm(np.subtract((x, y, z), self.reference_point)) > POINT_TOLERANCE:
             self.points[x, y, z] = None
@@ -45,7 +45,8 @@ class _RecordingChassis(Body):
 def attachments(b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> Attachments:
     """Build the mechanism of a car and record its points on the chassis.
 
-    `b`: with a rigid chassis alone; `parts`: adds the parts of the mechanism: steering and front axle, then rear axle.
+    `b`: builder with a rigid chassis alone; `parts`: adds the parts of the mechanism: steering and front axle, then
+    rear axle.
     """
     chassis = _RecordingChassis(b.chassis.body, b.chassis.origin)
     b.chassis = replace(b.chassis, body=chassis)

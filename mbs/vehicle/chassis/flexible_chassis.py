@@ -23,10 +23,10 @@ from mbs.vehicle.side import Point
 COMPUTED_OUTPUT = "stress.computed"
 
 
-def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
+def make_frame(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
     """Make the frame of a car with the joints of its parts. `b`: an empty model; `parts`: as in `attachments`.
 
-    Raises `ModelError`: the car has no flexible frame, or its files do not describe one that fits the car.
+    Raises `ModelError` if the car has no flexible frame, or its files do not describe one that fits the car.
     """
     frame, chassis = car.frame_section, car.chassis
     structure = frame.structure(car.folder)
@@ -59,11 +59,11 @@ def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, Affi
     front, rear, top = ([body.point(flexible.place(joint)) for joint in pair] for pair in flexible.joints.drive)
     p_front, p_rear, p_top = (flexible.place(pair[0]) for pair in flexible.joints.drive)
     length = float(p_front[0] - p_rear[0])
-    share = float(p_top[0] - p_rear[0]) / length  # weight of the front joints in the point below the top ones
+    front_weight = float(p_top[0] - p_rear[0]) / length  # of the front joints in the point below the top ones
     x = (front[0] + front[1] - rear[0] - rear[1]) * (0.5 / length)
-    base = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
+    base = (front[0] + front[1]) * (0.5 * front_weight) + (rear[0] + rear[1]) * (0.5 * (1.0 - front_weight))
     slope = float(p_front[2] - p_rear[2])
-    height = float(p_top[2] - p_front[2]) + (1.0 - share) * slope
+    height = float(p_top[2] - p_front[2]) + (1.0 - front_weight) * slope
     z = ((top[0] + top[1]) * 0.5 - base) * (1.0 / height)
     return z, x - z * (slope / length) if slope else x
 
@@ -115,7 +115,7 @@ def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
     """Add the amplitudes of the modes of fidelity 3, by which `stress_scene` draws the chassis at any fidelity.
 
     For a flexible chassis with other modes they are the nearest ones in the energy norm, for a quasi-static chassis
-    those of the static deformation, for a rigid chassis 0.
+    as of the static deformation, for a rigid chassis 0.
     """
     drawn, body = flexible.drawn, mount.body
     rows = flexible.drawn_amplitudes(body.reduced) if isinstance(body, FlexibleBody) else None

@@ -28,15 +28,15 @@ MANY_MODES = 40
 """Number of dynamic modes of `Fidelity.MANY_MODES`."""
 LOAD_PATH_TOLERANCE = 5e-3
 """Deformation of a neglected load path, relative to the largest, in the energy norm."""
-MOST_FORCE = 1e6
+MAX_FORCE = 1e6
 """Largest force in a table of loads, N."""
 
 
 class FlexibleFrame:
     """A flexible frame as the chassis of a car.
 
-    `section`: of the car file; `folder`: of that file and its tables; `structure`: finite elements and gauges;
-    `joints`: of suspension, drive and ground.
+    `section`: section of the car file; `folder`: folder of the file and its tables; `structure`: finite elements and
+    gauges; `joints`: joints of suspension, drive and ground.
 
     Attributes
     ----------
@@ -124,7 +124,7 @@ class FlexibleFrame:
     def recorded_loads(self) -> np.ndarray:
         """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.
 
-        Raises `ModelError`: there is no table of loads, or it has other interfaces.
+        Raises `ModelError` if there is no table of loads, or it has other interfaces.
         """
         if self.section.loads is None:
             raise ModelError(
@@ -140,7 +140,7 @@ class FlexibleFrame:
                 names = ", ".join(self.interfaces)
                 name = f"{row['interface']} {row['axis']}"
                 raise ModelError(f"{row.where}: {name} is not an axis of a joint of the suspension; these are {names}.")
-            values = [row.number(column, -MOST_FORCE, MOST_FORCE, "N") for column in columns]
+            values = [row.number(column, -MAX_FORCE, MAX_FORCE, "N") for column in columns]
             loads[row["interface"], row["axis"]] = values
         for name in self.interfaces:
             for axis in "xyz":
@@ -151,7 +151,7 @@ class FlexibleFrame:
     def settled_loads(self, forces: np.ndarray) -> np.ndarray:
         """Interface forces with the axial forces of the wishbones that keep the distances of their pivots.
 
-        `forces`: in N, shape (3 n_interfaces, n).
+        `forces`: forces at the interfaces, N, shape (3 n_interfaces, n).
         """
         relief, pairs, n = self._relief_with_stretch
         return np.asarray(forces - pairs @ np.linalg.solve(relief.forces[n:] @ pairs, relief.balanced[n:] @ forces))
@@ -159,7 +159,7 @@ class FlexibleFrame:
     def deformation_energy(self, forces: np.ndarray) -> np.ndarray:
         """Inner products of deformations of the free frame under interface forces, in the energy norm, (n, n), J.
 
-        `forces`: in N, shape (3 n_interfaces, n).
+        `forces`: forces at the interfaces, N, shape (3 n_interfaces, n).
         """
         body = craig_bampton(self._unloaded_model, self.reference, self.interfaces, 0, inertia_modes=True)
         deformation = load_path_deformations(body, forces)
@@ -172,7 +172,7 @@ class FlexibleFrame:
         return self._relief_for(self.gauge_rows)
 
     def _relief_for(self, outputs: np.ndarray) -> tuple[InertiaRelief, np.ndarray, int]:
-        """As `_relief_with_stretch`, with the rows `outputs` over the nodal displacements in place of the gauges."""
+        """As `_relief_with_stretch`, with the rows `outputs` by nodal displacements instead of the gauges."""
         model = self.model
         stretch = np.zeros((len(self.stiff_pairs), outputs.shape[1]))
         pairs = np.zeros((3 * len(self.interfaces), len(self.stiff_pairs)))
@@ -194,7 +194,7 @@ class FlexibleFrame:
 
     @cached_property
     def drawn(self) -> ReducedBody:
-        """Modes by which the frame is drawn at every fidelity, those of DYNAMIC."""
+        """Modes by which the frame is drawn at every fidelity, as at DYNAMIC."""
         return self.reduced(Fidelity.DYNAMIC)
 
     @cached_property

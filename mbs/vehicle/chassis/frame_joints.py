@@ -56,8 +56,8 @@ class JointFinder:
     def joints(self, chassis: Chassis, driven: int) -> FrameJoints:
         """Find the joints of the frame for the car.
 
-        `chassis`: with floating frame and accelerometers; `driven`: index of the driven axle, 0 front, 1 rear. Raises
-        `ModelError`: a hard point is not a joint, a joint does not exist, or a joint must be given.
+        `chassis`: chassis with floating frame and accelerometers; `driven`: index of the driven axle, 0 front, 1 rear.
+        Raises `ModelError` if a hard point is not a joint, a joint does not exist, or a joint must be given.
         """
         interfaces, arms = {}, []
         for point in dict.fromkeys((*self._axles[0], *self._axles[1])):
@@ -127,7 +127,7 @@ class JointFinder:
         return self._nearest(position, key if point in (None, position) else f"The image of {key}")
 
     def _nearest(self, position: Point, subject: str) -> str:
-        """Joint at a position, m. `subject`: key path of the point. Raises `ModelError`: there is none."""
+        """Joint at a position, m. `subject`: key path of the point. Raises `ModelError` if there is none."""
         gaps = np.linalg.norm(self._places - position, axis=1)
         nearest = int(gaps.argmin())
         if gaps[nearest] > POINT_TOLERANCE:

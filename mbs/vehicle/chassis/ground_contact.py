@@ -18,7 +18,7 @@ NAME = "ground contact"
 def ground_contact(
     b: CarBuilder, data: GroundContact, mass: float, joints: Callable[[], Mapping[str, NDArray[np.float64]]]
 ) -> None:
-    """Add the points. `mass`: of the car, kg; `joints`: returns the positions of the frame's joints by name, m."""
+    """Add the points. `mass`: mass of the car, kg; `joints`: returns the positions of the frame's joints by name, m."""
     contact = ContactPoints.for_mass(
         0.25 * mass,
         data.depth,
@@ -36,7 +36,7 @@ def ground_contact(
 def _position(
     data: GroundContact, point: Point | str, joints: Callable[[], Mapping[str, NDArray[np.float64]]]
 ) -> Point:
-    """Position of a contact point, m. Raises `ModelError`: it names a joint that does not exist."""
+    """Position of a contact point, m. Raises `ModelError` if it names a joint that does not exist."""
     if not isinstance(point, str):
         return point
     positions = joints()

@@ -13,7 +13,7 @@ from mbs.vehicle.chassis.section import Chassis
 
 
 class LeverCarrier(Body):
-    """A flexible chassis for levers: its points are joints of the frame, its axes those of the mean frame.
+    """A flexible chassis for levers: its points are joints of the frame, its axes belong to the mean frame.
 
     A moment of a lever on the axes acts on the frame as forces at the joints of the suspension. At a single node it
     would act as a torque, which the bushes of the lever do not transmit.
@@ -55,7 +55,8 @@ class Mount:
     """Origin, axes, and position of the origin as drawn, m, on which forces of the ground and of payloads act."""
 
     def place(self, point: ArrayLike) -> AffineVector:
-        """Point of the contact frame, on which forces act at any fidelity. `point`: as drawn, m, shape (3,)."""
+        """Point of the contact frame, on which forces act at any fidelity. `point`: position as drawn, m, shape
+        (3,)."""
         origin, axes, position = self.contact_frame
         x, y, z = (float(v) for v in np.subtract(vector(point, 3, "a point of the chassis"), position))
         return origin + axes[0] * x + axes[1] * y + axes[2] * z

@@ -24,7 +24,7 @@ def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point)
     """Make the list `flexible` of a car's scene for the outputs of `amplitude_outputs`.
 
     `model`: the car with fidelity `Fidelity.DYNAMIC`; `reference_point`: origin of the frame "chassis" of the scene,
-    which has the axes of the car, m. Raises `ModelError`: the frame does not fit the car.
+    which has the axes of the car, m. Raises `ModelError` if the frame does not fit the car.
     """
     body, start, full_scale = flexible.drawn, _amplitudes_at_rest(flexible, model), None
     if body.frame is not None:

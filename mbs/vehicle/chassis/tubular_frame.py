@@ -17,7 +17,7 @@ from mbs.vehicle.chassis.tube_tables import TubeTables
 from mbs.vehicle.table import Row, read_table
 
 IMAGE = {"L": "R", "R": "L", "c": "c"}
-LARGEST_COORDINATE, MOST_ELEMENTS, LARGEST_MASS = 9.0, 50, 2000.0  # m, of a tube, kg
+MAX_COORDINATE, MAX_ELEMENTS, MAX_MASS = 9.0, 50, 2000.0  # m, of a tube, kg
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class TubularFrame:
         each tube to the second.
 
         `theory`: "euler_bernoulli" or "timoshenko"; `refinement`: factor on the number of elements of every tube;
-        `carried_masses`: whether the masses of joints are included, except those of `riding`. Raises `ModelError`: a
+        `carried_masses`: whether the masses of joints are included, except for `riding`. Raises `ModelError` if a
         table is missing or does not describe a frame.
         """
         material, sections = self.material, self.tube_sections
@@ -91,12 +91,12 @@ class TubularFrame:
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
         """Make the gauges on the elements of a frame of any refinement.
 
-        `tubes`: from `frame`. Raises `ModelError`: a gauge is on no tube, or its fibre is named by a direction in which
-        the tube runs.
+        `tubes`: result of `frame`. Raises `ModelError` if a gauge is on no tube, or its fibre is named by a direction
+        in which the tube runs.
         """
         joints, gauges = self.joint_places(), []
         for name, gauge in self.section.gauges.items():
-            frame_tube = _tube_of(gauge, tubes)
+            frame_tube = _gauge_tube(gauge, tubes)
             ends = joints[frame_tube.start], joints[frame_tube.end]
             radius = 0.5 * self.section.sections[frame_tube.section].diameter
             gauges.append(gauge.strain_gauge(name, ends, radius, frame_tube.elements))
@@ -108,10 +108,10 @@ class TubularFrame:
         names: set[str] = set()
         for row in read_table(self.folder, self.section.joints, self.section.key("joints"), ("joint", "x", "y", "z")):
             name = row["joint"]
-            position = np.array([row.number(axis, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m") for axis in "xyz"])
+            position = np.array([row.number(axis, -MAX_COORDINATE, MAX_COORDINATE, "m") for axis in "xyz"])
             _check_joint(row, name, float(position[1]), names)
             joints[name] = position
-            joints.setdefault(mirrored(name), position * [1.0, -1.0, 1.0])
+            joints.setdefault(image_name(name), position * [1.0, -1.0, 1.0])
         return joints
 
     def _tubes(self, joints: dict[str, np.ndarray]) -> list[tuple[str, str, str, int]]:
@@ -124,17 +124,17 @@ class TubularFrame:
             for name in (start, end):
                 _check_name(row, name, joints, "joint", self.section.key("joints"))
             _check_name(row, row["section"], sections, "section", self.section.key("sections"))
-            image = (mirrored(start), mirrored(end))
+            image = (image_name(start), image_name(end))
             pairs = [(start, end)] if set(image) == {start, end} else [(start, end), image]
             if start == end or not ends.isdisjoint(frozenset(pair) for pair in pairs):
                 why = "has one joint at both ends" if start == end else "occurs twice: images are added automatically"
                 raise ModelError(f"{row.where}: the tube from {start} to {end} {why}.")
             ends.update(frozenset(pair) for pair in pairs)
-            tubes += [(*pair, row["section"], row.count("elements", MOST_ELEMENTS)) for pair in pairs]
+            tubes += [(*pair, row["section"], row.count("elements", MAX_ELEMENTS)) for pair in pairs]
         return tubes
 
     def riding(self) -> dict[str, float]:
-        """Read the masses without an image by joint, kg. Raises `ModelError`: their table is missing or not valid."""
+        """Read the masses without an image by joint, kg. Raises `ModelError` if their table is missing or not valid."""
         return self._masses(self.joint_places(), "no")
 
     def _masses(self, joints: dict[str, np.ndarray], image: str) -> dict[str, float]:
@@ -145,11 +145,11 @@ class TubularFrame:
         for row in read_table(self.folder, self.section.masses, self.section.key("masses"), ("joint", "mass")):
             _check_name(row, row["joint"], joints, "joint", self.section.key("joints"))
             for joint in _loaded_joints(row, image):
-                masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, LARGEST_MASS, "kg")
+                masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, MAX_MASS, "kg")
         return masses
 
 
-def mirrored(name: str) -> str:
+def image_name(name: str) -> str:
     """Name of the image of a joint, whose last letter is its side."""
     return name[:-1] + IMAGE[name[-1]]
 
@@ -161,11 +161,11 @@ def _loaded_joints(row: Row, image_filter: str) -> tuple[str, ...]:
         raise ModelError(f"{row.where}: image is {image!r}; it must be yes or no, or left empty for yes.")
     if image != image_filter:
         return ()
-    return (joint,) if image == "no" else tuple(dict.fromkeys((joint, mirrored(joint))))
+    return (joint,) if image == "no" else tuple(dict.fromkeys((joint, image_name(joint))))
 
 
-def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
-    """Tube of a gauge. Raises `ModelError`: there is none between its joints."""
+def _gauge_tube(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
+    """Tube of a gauge. Raises `ModelError` if there is none between its joints."""
     tubes_by_ends = {(t.start, t.end): t for t in tubes}
     if gauge.tube in tubes_by_ends:
         return tubes_by_ends[gauge.tube]
@@ -191,6 +191,6 @@ def _check_joint(row: Row, name: str, y: float, names: set[str]) -> None:
 
 
 def _check_name(row: Row, name: str, names: Container[str], kind: str, key: str) -> None:
-    """Raise `ModelError` if a name is not among those of another table. `key`: key path of that table."""
+    """Raise `ModelError` if a name is not in another table. `key`: key path of that table."""
     if name not in names:
         raise ModelError(f"{row.where}: {kind} {name!r} is not in {key}.")

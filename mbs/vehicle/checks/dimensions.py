@@ -23,5 +23,5 @@ def dimension_faults(car: CarContent) -> Iterator[str]:
         if not axle.track > 0.0:
             yield (
                 f"{axle.wheel.key('centre')} has y = {axle.wheel.centre[1]:g} m; "
-                "the points are those of the left side, where y is above 0."
+                "the points are on the left side, where y is above 0."
             )

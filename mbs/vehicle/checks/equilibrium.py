@@ -17,11 +17,11 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.steering.steering_interface import Steered
 
-LARGEST_TRAVEL = 0.02  # m, of a wheel from the drawing to rest
-LARGEST_DEFLECTION_ERROR = 0.005  # m, of a tyre at rest against the drawing
+MAX_TRAVEL = 0.02  # m, of a wheel from the drawing to rest
+MAX_DEFLECTION_ERROR = 0.005  # m, of a tyre at rest against the drawing
 LENGTH_TOLERANCE = 1e-6  # m, of fitted free lengths
-MOST_DOUBLINGS = 5  # of the range in which they are sought
-LARGEST_LEAN = math.radians(0.5)
+MAX_DOUBLINGS = 5  # of the range in which they are sought
+MAX_LEAN = math.radians(0.5)
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,11 @@ class Rest:
     travel: dict[str, float]
     """Wheel travel from the drawing by axle, mean of both sides, m, positive in bump."""
     load: dict[str, float]
+    """Load of a wheel by axle, mean of both sides, N."""
     spring_force: dict[str, float]
+    """Force of a spring by axle, mean of both sides, N."""
     deflection: dict[str, float]
-    """`load`, `spring_force`, `deflection`: of a wheel, N, of its spring, N, and of its tyre, m, by axle; means of both
-    sides."""
+    """Deflection of a tyre by axle, mean of both sides, m."""
     spring_length: dict[str, float]
     """Length of the springs by axle, m."""
     lean: float
@@ -47,13 +48,13 @@ class Rest:
         yield from self._travel_oddities(car)
         for name, axle in car.axles.items():
             drawn, deflection = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
-            if abs(deflection - drawn) > LARGEST_DEFLECTION_ERROR:
+            if abs(deflection - drawn) > MAX_DEFLECTION_ERROR:
                 yield (
                     f"{axle.tyre.key('stiffness')} is {axle.tyre.stiffness:g} N/m: at rest the load of "
                     f"{self.load[name]:.0f} N compresses the tyre by {deflection:.3g} m, but {axle.tyre.key('radius')} "
-                    f"less the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
+                    f"minus the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
                 )
-        if abs(self.lean) > LARGEST_LEAN:
+        if abs(self.lean) > MAX_LEAN:
             yield (
                 f"at rest the car leans by {math.degrees(abs(self.lean)):.2g} deg to the "
                 f"{'right' if self.lean > 0.0 else 'left'}: its masses are not balanced sideways, or "
@@ -62,11 +63,11 @@ class Rest:
 
     def _travel_oddities(self, car: CarContent) -> Iterator[str]:
         """Yield a sentence for each axle whose wheels are not at the drawn height, with the free length that fits."""
-        displaced = [name for name, travel in self.travel.items() if abs(travel) > LARGEST_TRAVEL]
+        displaced = [name for name, travel in self.travel.items() if abs(travel) > MAX_TRAVEL]
         fitted_lengths = _fitted_lengths(self, car, displaced) if displaced else {}
         for name, axle in car.axles.items():
             travel = self.travel[name]
-            if abs(travel) > LARGEST_TRAVEL:
+            if abs(travel) > MAX_TRAVEL:
                 remedy = (
                     f": with {axle.spring.key('free_length')} = {fitted_lengths[name]:.6g} it is"
                     if fitted_lengths
@@ -92,7 +93,7 @@ def travel_output(m: Model, chassis: Body, spin: Spin, w: str) -> None:
 
 
 def rest_outputs(b: CarBuilder, steered: Steered, spins: Mapping[str, Spin]) -> None:
-    """Add the sensors that `settled` needs."""
+    """Add the sensors that `find_equilibrium` needs."""
     chassis = b.chassis.frame
     for w, spin in spins.items():
         travel_output(b.m, chassis, spin, w)
@@ -121,7 +122,7 @@ def _fitted_lengths(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[s
         for name in (*axles, *(axles if len(axles) > 1 else ())):  # a second time: the axles influence each other
             begin = lengths[keys[name]]
             offset = travel(begin, name)
-            candidates = [begin + 2.0**k * offset for k in range(MOST_DOUBLINGS)]  # a low car needs longer springs
+            candidates = [begin + 2.0**k * offset for k in range(MAX_DOUBLINGS)]  # a low car needs longer springs
             bound = next((x for x in candidates if travel(x, name) * offset < 0.0), None)
             if bound is None:
                 return {}
@@ -132,14 +133,14 @@ def _fitted_lengths(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[s
 
 
 def _mean(sensors: Mapping[str, float], name: str, axle: str) -> float:
-    """Mean of a sensor over both wheels of an axle. `name`: of the sensor, with {} for the wheel."""
+    """Mean of a sensor over both wheels of an axle. `name`: name of the sensor, with {} for the wheel."""
     return 0.5 * sum(sensors[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
 
 
-def settled(model: Model, car: CarContent) -> Rest:
-    """Compile the car and find its equilibrium. `model`: with the sensors of `rest_outputs`.
+def find_equilibrium(model: Model, car: CarContent) -> Rest:
+    """Compile the car and find its equilibrium. `model`: model with the sensors of `rest_outputs`.
 
-    Raises `ModelError`: a number is not valid, or there is no equilibrium.
+    Raises `ModelError` if a number is not valid, or there is no equilibrium.
     """
     system = compiled(model)
     at_rest = StandingSystem(system).sensors

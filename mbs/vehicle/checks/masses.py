@@ -6,19 +6,19 @@ from collections.abc import Iterator
 import numpy as np
 
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.checks.places import rigid_parts
 
 MASS_TOLERANCE = 0.005  # of the car's mass
 REFERENCE_TOLERANCE = 0.1  # m, between reference point and centre of mass
-LEAST_WEIGHT_SHARE = 0.15  # of an axle
-LEAST_HEIGHT = 0.1  # of the centre of mass, over the track
-LARGEST_LATERAL_OFFSET = 0.1  # of the centre of mass, over the track
+MIN_WEIGHT_FRACTION = 0.15  # of an axle
+MIN_HEIGHT = 0.1  # of the centre of mass, relative to the track
+MAX_LATERAL_OFFSET = 0.1  # of the centre of mass, relative to the track
 
 
 def mass_faults(car: CarContent) -> Iterator[str]:
     """Yield a sentence for each fault."""
     yield from _total_mass_faults(car)
-    for part in parts_of(car):
+    for part in rigid_parts(car):
         yield from _inertia_faults(part.key("inertia"), part.inertia)
     yield from _chassis_faults(car)
 
@@ -30,7 +30,7 @@ def weighed_points(car: CarContent, payloads: bool) -> list[tuple[float, tuple[f
     points = car.front.suspension.points
     x, _, z = getattr(points, "tie_rod_inner", car.front.wheel.centre)
     weighed.append((car.steering.moving_mass, (x, 0.0, z)))
-    left_masses = [(part.mass, part.com) for part in parts_of(car)]
+    left_masses = [(part.mass, part.com) for part in rigid_parts(car)]
     left_masses += [(axle.wheel.mass, axle.wheel.centre) for axle in (car.front, car.rear)]
     return weighed + [(mass, (x, side * y, z)) for mass, (x, y, z) in left_masses for side in (1.0, -1.0)]
 
@@ -42,7 +42,7 @@ def _total_mass_faults(car: CarContent) -> Iterator[str]:
     if abs(total - declared) > MASS_TOLERANCE * declared:
         yield f"{car.vehicle.key('mass')} is {declared:g} kg, but the masses of all parts add up to {total:g} kg."
         return
-    centre, loaded = centre_of(car, payloads=False), centre_of(car, payloads=True)
+    centre, loaded = centre_of_mass(car, payloads=False), centre_of_mass(car, payloads=True)
     offset = math.dist(centre, car.vehicle.reference_point)
     if min(offset, math.dist(loaded, car.vehicle.reference_point)) > REFERENCE_TOLERANCE:
         yield (
@@ -55,13 +55,13 @@ def centre_ranges(car: CarContent) -> tuple[tuple[float, float], tuple[float, fl
     """Ranges of x, y and z of the centre of mass of a car, m."""
     base, track = max(car.wheelbase, 1e-3), min(car.front.track, car.rear.track)
     return (
-        (base * (LEAST_WEIGHT_SHARE - 1.0), -base * LEAST_WEIGHT_SHARE),
-        (-LARGEST_LATERAL_OFFSET * track, LARGEST_LATERAL_OFFSET * track),
-        (LEAST_HEIGHT * track, track),
+        (base * (MIN_WEIGHT_FRACTION - 1.0), -base * MIN_WEIGHT_FRACTION),
+        (-MAX_LATERAL_OFFSET * track, MAX_LATERAL_OFFSET * track),
+        (MIN_HEIGHT * track, track),
     )
 
 
-def centre_of(car: CarContent, payloads: bool) -> list[float]:
+def centre_of_mass(car: CarContent, payloads: bool) -> list[float]:
     """Centre of mass of all parts, m. `payloads`: whether they are included."""
     weighed = weighed_points(car, payloads)
     total = sum(mass for mass, _ in weighed)

@@ -38,14 +38,14 @@ def place_oddities(car: CarContent) -> Iterator[str]:
             )
 
 
-def parts_of(section: Section) -> list[Part]:
+def rigid_parts(section: Section) -> list[Part]:
     """Rigid parts of the left side within a section."""
     return [inner for inner in sections_of(section) if isinstance(inner, Part)]
 
 
-def centres_of(section: Section) -> dict[str, Point]:
-    """Centres of mass of `parts_of` by key path, m."""
-    return {part.key("com"): part.com for part in parts_of(section)}
+def mass_centres(section: Section) -> dict[str, Point]:
+    """Centres of mass of `rigid_parts` by key path, m."""
+    return {part.key("com"): part.com for part in rigid_parts(section)}
 
 
 def drawn_points(section: Section) -> dict[str, Point]:
@@ -61,7 +61,7 @@ def drawn_points(section: Section) -> dict[str, Point]:
 
 def _suspension_faults(axle: Axle) -> Iterator[str]:
     """Yield a sentence for each point of an axle that is not on the left side above the ground."""
-    points = drawn_points(axle) | centres_of(axle)
+    points = drawn_points(axle) | mass_centres(axle)
     for key, point in points.items():
         if not point[1] > 0.0:
             yield f"{key} has y = {point[1]:g} m; points are given for the left side, where y is above 0."

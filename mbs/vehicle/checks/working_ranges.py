@@ -8,20 +8,20 @@ import numpy as np
 from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.checks.masses import centre_of, centre_ranges, weighed_points
-from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.checks.masses import centre_of_mass, centre_ranges, weighed_points
+from mbs.vehicle.checks.places import rigid_parts
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import Damper, Spring
 
-DEFLECTIONS = 1.0 / 150.0, 0.25  # of a tyre under the load as drawn, over its free radius
-LARGEST_TRAVEL = 0.3  # m, of the springs from the drawing
-LARGEST_FREQUENCY = 40.0  # rad/s, natural, of the body on a wheel's spring
+DEFLECTIONS = 1.0 / 150.0, 0.25  # of a tyre under the load as drawn, relative to its free radius
+MAX_TRAVEL = 0.3  # m, of the springs from the drawing
+MAX_FREQUENCY = 40.0  # rad/s, natural, of the body on a wheel's spring
 DAMPING_RATIOS = 0.02, 5.0  # of the body on a wheel's spring
 BRAKING = 0.1, 5.0  # g, by the brakes alone at full pedal
 ACCELERATIONS = 0.02, 5.0  # g, by the drive at full throttle from rest without limit of grip
 AIR_SPEED = 50.0  # m/s, at which drag is at most 1 g and lift neither unloads nor bottoms an axle
-LEAST_FRICTION = 0.02  # of a tyre on the road: half of that on wet ice
+MIN_FRICTION = 0.02  # of a tyre on the road: half of that on wet ice
 DAMPER_SPEED = 0.3  # m/s, at which a table of a damper is replaced by a coefficient
 
 Ranges = dict[str, tuple[float, float]]
@@ -66,9 +66,9 @@ def working_ranges(car: CarContent) -> Ranges:
 
 
 def _add_mass_centre(ranges: Ranges, car: CarContent) -> None:
-    """Add the ranges of the chassis' centre of mass for which that of the car is within `centre_ranges`."""
+    """Add the ranges of the chassis' centre of mass for which the car's is within `centre_ranges`."""
     lever = car.chassis.mass / sum(mass for mass, _ in weighed_points(car, payloads=False))
-    centre, spans = centre_of(car, payloads=False), centre_ranges(car)
+    centre, spans = centre_of_mass(car, payloads=False), centre_ranges(car)
     for (path, value), position, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
         low, high = (value + (end - position) / lever for end in span)
         ranges[path] = min(low, value), max(high, value)
@@ -89,7 +89,7 @@ def _add_grip(ranges: Ranges, car: CarContent) -> None:
 
 def weight_on_spring(axle: Axle, load: float) -> float:
     """Load of a wheel minus the unsprung weight, N. `load`: N."""
-    return load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in parts_of(axle)))
+    return load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in rigid_parts(axle)))
 
 
 def compression_and_slope(spring: Spring, force: float) -> tuple[float, float]:
@@ -104,16 +104,16 @@ def compression_and_slope(spring: Spring, force: float) -> tuple[float, float]:
 
 
 def _add_least_value(ranges: Ranges, section: Section, name: str, friction: float) -> None:
-    """Add the least value with which both axles reach `LEAST_FRICTION`. `friction`: reached with a value of 1."""
+    """Add the least value with which both axles reach `MIN_FRICTION`. `friction`: reached with a value of 1."""
     quantity, path = section.quantity(name), section.key(name)
     assert quantity is not None, f"{path} is not a quantity"
     if friction > 0.0:
-        least, high = LEAST_FRICTION / friction, quantity.high
+        least, high = MIN_FRICTION / friction, quantity.high
         ranges[path] = min(max(least, ranges.get(path, (0.0,))[0]), high), high
 
 
 def _add_suspension(ranges: Ranges, axle: Axle, weight: float) -> float:
-    """Add the ranges of a spring and its damper; return the additional load until `LARGEST_TRAVEL`, N.
+    """Add the ranges of a spring and its damper; return the additional load until `MAX_TRAVEL`, N.
 
     `weight`: sprung weight on the spring, N.
     """
@@ -122,12 +122,12 @@ def _add_suspension(ranges: Ranges, axle: Axle, weight: float) -> float:
     if not spring.factor > 0.0:
         return math.inf
     compression, slope = compression_and_slope(spring, weight)
-    largest_compression = compression + LARGEST_TRAVEL
+    largest_compression = compression + MAX_TRAVEL
     end_slope = float((force[-1] - force[-2]) / (x[-1] - x[-2]))
     largest_force = float(np.interp(largest_compression, x, force)) + end_slope * max(
         largest_compression - float(x[-1]), 0.0
     )
-    k, largest_stiffness = slope * spring.factor, LARGEST_FREQUENCY**2 * weight / GRAVITY
+    k, largest_stiffness = slope * spring.factor, MAX_FREQUENCY**2 * weight / GRAVITY
     least_factor, largest_factor = weight / largest_force, max(largest_stiffness / slope, spring.factor)
     _add_range(ranges, spring, "factor", least_factor, largest_factor)
     if spring.stiffness is not None:
@@ -137,7 +137,7 @@ def _add_suspension(ranges: Ranges, axle: Axle, weight: float) -> float:
             "stiffness",
             *(spring.stiffness * part / spring.factor for part in (least_factor, largest_factor)),
         )
-    _add_range(ranges, spring, "free_length", spring.free_length - LARGEST_TRAVEL, spring.free_length + LARGEST_TRAVEL)
+    _add_range(ranges, spring, "free_length", spring.free_length - MAX_TRAVEL, spring.free_length + MAX_TRAVEL)
     critical = 2.0 * math.sqrt(k * weight / GRAVITY)
     unit_damping = _damping_coefficient(damper)
     if unit_damping > 0.0:
@@ -174,7 +174,7 @@ def _add_air(ranges: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float,
 
 
 def _damping_coefficient(damper: Damper) -> float:
-    """Damping coefficient with a factor of 1, N s/m: of a table the mean over both directions at `DAMPER_SPEED`."""
+    """Damping coefficient with a factor of 1, N s/m: of a table the mean of both directions at `DAMPER_SPEED`."""
     if damper.damping is not None:
         return damper.damping
     rows = [(v, force) for v, force in damper.table or () if v != 0.0]

@@ -64,11 +64,11 @@ class Automatic(Section, of=AutomaticDrive):
 
     @property
     def torque_ratio(self) -> float:
-        """Torque of both driven wheels together over that of the engine, at rest in first gear."""
+        """Torque of both driven wheels together per torque of the engine, at rest in first gear."""
         return self.ratios[0] * self.ratio_factor * self.stall_factor * self.efficiency
 
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
-        """Add the drive, whose reaction is on the chassis. `spins`: those of the wheels, by name."""
+        """Add the drive, whose reaction is on the chassis. `spins`: spins of the wheels, by name."""
         drive = self.element(
             AutomaticDrive,
             ratios=tuple(self.ratio_factor * ratio for ratio in self.ratios),

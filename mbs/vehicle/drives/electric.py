@@ -48,11 +48,11 @@ class Electric(Section, of=ElectricDrive):
 
     @property
     def torque_ratio(self) -> float:
-        """Torque of both driven wheels together over that of the motor."""
+        """Torque of both driven wheels together per torque of the motor."""
         return self.ratio * self.gear_efficiency
 
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
-        """Add the drive, whose reaction is on the chassis. `spins`: those of the wheels, by name."""
+        """Add the drive, whose reaction is on the chassis. `spins`: spins of the wheels, by name."""
         drive = self.element(ElectricDrive)
         left, right = (spins[self.wheels[0].upper() + side] for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)

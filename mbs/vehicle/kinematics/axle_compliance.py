@@ -38,7 +38,7 @@ class Compliance:
     wheel, and the response: steer_angle and inclination_angle, rad per N or per N m, contact_y and centre_x, m per N or
     per N m. Of the axle ``wheel_rate`` and ``roll_wheel_rate``, N/m, with all compliances in series."""
     sentence: str
-    """Reason why all values are zero; else empty."""
+    """Reason why all values are zero; otherwise empty."""
 
 
 def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:
@@ -47,7 +47,7 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     Parameters
     ----------
     fidelity : Fidelity, int or str, optional
-        Of the chassis; by default its flexible frame with all static modes, where the car has one.
+        Of the chassis; by default its flexible frame with all static modes, if the car has one.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
         The car has no frame for the fidelity, or no axle with links.
     """
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
-    chosen = fidelity_of(car, fidelity)
+    chosen = compliance_fidelity(car, fidelity)
     if not car.linked_axles:
         car.front.suspension.require_links()
     held_car = HeldCar(car, chosen)
@@ -67,11 +67,11 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     return Compliance(chosen, V.shape[1], values, "" if V.shape[1] else _rigid_sentence(car, chosen))
 
 
-def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
+def compliance_fidelity(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
     """The fidelity at which compliance is computed.
 
     `fidelity`: a member, its number, also as text, or its name; None: the most accurate one of the car. Raises
-    `ModelError`: there is none, or the car has no frame for it.
+    `ModelError` if there is none, or the car has no frame for it.
     """
     offered = tuple(car.fidelities())
     if fidelity is None:
@@ -123,7 +123,7 @@ def _unit_load(wheel: HeldWheel, load: str) -> Array:
 
 
 def _response_rows(wheel: HeldWheel) -> dict[str, Array]:
-    """Rows of the responses of a wheel over the coordinates, shape (nq,)."""
+    """Rows of the responses of a wheel by coordinates, shape (nq,)."""
     return {
         "steer_angle": -wheel.axis[0],
         "inclination_angle": wheel.axis[2],

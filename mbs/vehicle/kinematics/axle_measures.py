@@ -4,10 +4,11 @@ Roll centre: intersection of the middle plane with the line through a contact ce
 the chassis rolls; the height above the ground is the mean of both sides. Equal lateral forces then do not roll the
 chassis (J. C. Dixon, "Suspension Geometry and Computation", Wiley; W. Matschinsky, "Road Vehicle Suspensions").
 
-Anti-dive, anti-lift, anti-squat: with the share s of the axle in the longitudinal force, the wheelbase l and the height
-h of the centre of mass, s |dx/dz| l/h is the share of the load transfer in the links (W. F. and D. L. Milliken, "Race
-Car Vehicle Dynamics", chapter 17). Under braking dx/dz is that of the carrier's point at the contact centre, as the
-brake holds the wheel on its carrier; under drive it is that of the wheel centre, as the chassis carries the torque.
+Anti-dive, anti-lift, anti-squat: with the fraction s of the longitudinal force on the axle, the wheelbase l and the
+height h of the centre of mass, s |dx/dz| l/h is the fraction of the load transfer in the links (W. F. and D. L.
+Milliken, "Race Car Vehicle Dynamics", chapter 17). Under braking dx/dz is taken of the carrier's point at the contact
+centre, as the brake holds the wheel on its carrier; under drive it is taken of the wheel centre, as the chassis carries
+the torque.
 """
 
 import numpy as np
@@ -124,14 +125,14 @@ def anti_measures(car: CarContent, axle: str, wheels: list[WheelMotion]) -> dict
     lever = 100.0 * car.wheelbase / car.vehicle.reference_point[2]
     sign = 1.0 if axle == "front" else -1.0
     braked, driven = (np.mean([float(r[0] / r[2]) for r in rates]) for rates in _heave_rates(wheels))
-    measures = {"anti_dive" if axle == "front" else "anti_lift": brake_share(car, axle) * sign * braked * lever}
+    measures = {"anti_dive" if axle == "front" else "anti_lift": brake_fraction(car, axle) * sign * braked * lever}
     if car.drive.wheels == axle:
         measures["anti_lift_in_drive" if axle == "front" else "anti_squat"] = sign * driven * lever
     return {name: float(value) for name, value in measures.items()}
 
 
-def brake_share(car: CarContent, axle: str) -> float:
-    """Share of an axle in the braking force on a level road, from brake balance and wheel radii."""
+def brake_fraction(car: CarContent, axle: str) -> float:
+    """Fraction of the braking force on an axle on a level road, from brake balance and wheel radii."""
     front = car.brakes.balance / car.front.wheel.centre[2]
     rear = (1.0 - car.brakes.balance) / car.rear.wheel.centre[2]
     return (front if axle == "front" else rear) / (front + rear)

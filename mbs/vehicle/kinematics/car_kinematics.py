@@ -19,10 +19,12 @@ Array = NDArray[np.float64]
 TRAVEL = (-0.08, 0.08)
 """Default range of wheel travel, m."""
 POINTS = 81
+"""Default number of points of a curve."""
 MOTIONS = ("parallel", "opposite", "single")
 ANGLE_TOLERANCE = 1e-9
 """Largest difference of the angles of both wheels with the same setting, rad."""
-LARGEST_TRAVEL, MOST_POINTS = 0.5, 10_001  # m, number
+MAX_TRAVEL = 0.5  # m
+MAX_POINTS = 10_001
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,7 @@ class Kinematics:
     curves: dict[tuple[str, str], Curve]
     """By axle, of those with links, and motion; "steer" of the front axle alone."""
     notes: tuple[str, ...]
-    """Sentences: where curves end early, where the range goes into the stops, which axle has no links."""
+    """Sentences on curves that end early, ranges that go into the stops, and axles without links."""
 
     def drawn(self, axle: str) -> dict[str, float]:
         """Values and gradients at the drawing, SI units.
@@ -42,8 +44,9 @@ class Kinematics:
         -------
         dict of str to float
             Of the left wheel and the axle, by the quantities' names; toe and camber of a right wheel that is set
-            otherwise, as ``right_toe_angle``; those of roll from opposite travel, those of steering from the steer
-            curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock. Empty: it has no links.
+            otherwise, as ``right_toe_angle``; columns of roll are from opposite travel, columns of steering from the
+            steer curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock. Empty: it has no
+            links.
         """
         if (axle, "parallel") not in self.curves:
             return {}
@@ -78,9 +81,9 @@ def kinematics(
     travel : (float, float)
         Least and largest wheel travel, m, from the drawing, positive in bump; 0 is between them.
     points : int
-        Of each curve; one at the drawing is added where there is none.
+        Of each curve; one at the drawing is added if there is none.
     progress : callable, optional
-        Receives the share that is done.
+        Receives the fraction done.
 
     Raises
     ------
@@ -89,8 +92,8 @@ def kinematics(
     """
     instance_of(Car, car, "The car of kinematics()", "a Car of mbs.vehicle.load()")
     low, high = checked_travel(travel)
-    if not isinstance(points, int) or isinstance(points, bool) or not 3 <= points <= MOST_POINTS:
-        raise ModelError(f"points = {shown(points)}; it must be a whole number between 3 and {MOST_POINTS}.")
+    if not isinstance(points, int) or isinstance(points, bool) or not 3 <= points <= MAX_POINTS:
+        raise ModelError(f"points = {shown(points)}; it must be a whole number between 3 and {MAX_POINTS}.")
     common_range = min(-low, high)
     curves: dict[tuple[str, str], Curve] = {}
     notes: list[str] = []
@@ -124,14 +127,14 @@ def wheel_by_rack(car: Car) -> WheelByRack:
 
 
 def checked_travel(travel: object) -> tuple[float, float]:
-    """Check a range of wheel travel, m. Raises `ModelError`: it is not two numbers around 0."""
+    """Check a range of wheel travel, m. Raises `ModelError` if it is not two numbers around 0."""
     if not isinstance(travel, (tuple, list)) or len(travel) != 2 or not all(is_finite(v) for v in travel):
         raise ModelError(f"The range of wheel travel is {shown(travel)}; it must be two numbers, m.")
     low, high = (float(v) for v in travel)
-    if not (-LARGEST_TRAVEL <= low < 0.0 < high <= LARGEST_TRAVEL):
+    if not (-MAX_TRAVEL <= low < 0.0 < high <= MAX_TRAVEL):
         raise ModelError(
-            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{LARGEST_TRAVEL:g} m or "
-            f"more, to above 0, {LARGEST_TRAVEL:g} m or less (positive in bump; 0 is the drawing)."
+            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{MAX_TRAVEL:g} m or "
+            f"more, to above 0, {MAX_TRAVEL:g} m or less (positive in bump; 0 is the drawing)."
         )
     return low, high
 
@@ -147,6 +150,6 @@ def _grid(low: float, high: float, points: int) -> Array:
 
 
 def _report(progress: Callable[[float], None] | None, done: int) -> None:
-    """Report the share of completed curves. `done`: their number."""
+    """Report the fraction of completed curves. `done`: their number."""
     if progress is not None:
         progress(done / (2 * len(MOTIONS) + 1))

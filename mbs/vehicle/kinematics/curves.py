@@ -1,4 +1,4 @@
-"""Curves of an axle over wheel travel and over steering."""
+"""Curves of an axle against wheel travel and steering."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -28,16 +28,16 @@ WORDS = {
 
 @dataclass(frozen=True)
 class Curve:
-    """Columns over a motion."""
+    """Columns along a motion."""
 
     axle: str
     motion: str
     """Both wheels "parallel", left up as right goes down "opposite", the left one alone "single", the rack "steer"."""
     columns: dict[str, Array]
-    """By name, each of shape (n,), in SI units; those of a wheel have ``_left`` or ``_right`` behind the name of their
+    """By name, each of shape (n,), in SI units; names of a wheel have ``_left`` or ``_right`` behind the name of their
     quantity."""
     notes: tuple[str, ...] = ()
-    """Sentences, where the curve ends before its range does."""
+    """Sentences, if the curve ends before its range does."""
 
     def __getitem__(self, name: str) -> Array:
         return self.columns[name]
@@ -59,7 +59,7 @@ class Curve:
 
 
 def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
-    """A curve over the travel of the left wheel.
+    """A curve against the travel of the left wheel.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
 
 
 def steer_curve(linkage: Linkage, rack: Array, wheel_by_rack: WheelByRack) -> Curve:
-    """A curve over the travel of the rack, the wheel centres at the height of the drawing.
+    """A curve against the travel of the rack, the wheel centres at the height of the drawing.
 
     `rack`: rising, with 0 among them, m, shape (n,); `wheel_by_rack`: gives the angle of the steering wheel, rad, and
     its change per travel of the rack, rad/m, at a travel, m.

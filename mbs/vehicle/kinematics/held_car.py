@@ -22,12 +22,13 @@ from mbs.vehicle.side import Point, Side, sides
 
 Array = NDArray[np.float64]
 
-POSITION_TOLERANCE, MOST_ITERATIONS = 1e-9, 30  # m, of the equilibrium
+POSITION_TOLERANCE = 1e-9  # m, of the equilibrium
+MAX_ITERATIONS = 30
 
 
 @dataclass(frozen=True)
 class HeldWheel:
-    """Small motions of a wheel as rows over the coordinates."""
+    """Small motions of a wheel as rows by coordinates."""
 
     radius: float
     """Distance from the wheel centre to the contact centre, m."""
@@ -42,7 +43,7 @@ class HeldWheel:
 def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[str, tuple[Body, Point]]]:
     """Build the model with a free chassis; return it with carrier and centre as drawn of each wheel on links.
 
-    `car`: without faults.
+    `car`: a car without faults.
     """
     m = Model(f"{car.name} held", gravity=(0.0, 0.0, 0.0))
     m.start_in_equilibrium = False
@@ -68,7 +69,7 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
 class HeldCar(StandingModel):
     """A car in equilibrium with the contact centres at the heights of the drawing.
 
-    `car`: without faults.
+    `car`: a car without faults.
 
     Attributes
     ----------
@@ -148,7 +149,7 @@ class HeldCar(StandingModel):
             [self._chassis_rows, np.array([parts[0][0][2] for _, parts in self._wheel_points.values()])]
         )
         fixed_values = fixed_rows @ self.q
-        for _ in range(MOST_ITERATIONS):
+        for _ in range(MAX_ITERATIONS):
             V, flexibility = self.flexibility(self.wheel_rows())
             correction = V @ (flexibility @ (V.T @ self.force(self.q)))
             self.q = self.q + correction
@@ -161,7 +162,8 @@ class HeldCar(StandingModel):
         raise ModelError("The frame of the held car finds no equilibrium with its springs.")
 
     def _wheel(self, down: Array, parts: list[tuple[Array, Array]]) -> HeldWheel:
-        """Small motions of a wheel. `down`: from its centre to the contact, m; `parts`: linear centre and axes."""
+        """Small motions of a wheel. `down`: vector from its centre to the contact, m; `parts`: linear centre and
+        axes."""
         centre, *axes = parts
         rotation = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
         contact = centre[0] + np.cross(rotation, down, axisa=0).T

@@ -37,7 +37,7 @@ TRAVEL_PANELS = (
     ("wheel_rate", ("parallel", "opposite")),
     ("ride_rate", ("parallel", "opposite")),
 )
-"""Quantities over wheel travel, and the motions in each panel."""
+"""Quantities against wheel travel, and the motions in each panel."""
 STEER_PANELS = (
     "steer_angle",
     "steering_ratio",
@@ -51,15 +51,15 @@ STEER_PANELS = (
     "kingpin_offset_at_ground",
     "track_change",
 )
-"""Quantities over the angle of the steering wheel."""
+"""Quantities against the angle of the steering wheel."""
 COLUMNS = 4
 DASHES = {"opposite": (0, (5, 2)), "single": (0, (1, 1.5))}
-"""Line styles of motions whose curves may coincide with those of parallel travel."""
-LARGEST_CIRCLE = 60.0  # m, end of the axis of turning circles
+"""Line styles of motions whose curves may coincide with the curves of parallel travel."""
+MAX_CIRCLE = 60.0  # m, end of the axis of turning circles
 
 
 def travel_figure(kinematics: Kinematics, axle: str) -> Figure:
-    """Panels of the left wheel of an axle over wheel travel."""
+    """Panels of the left wheel of an axle against wheel travel."""
     curves = {motion: c for (of, motion), c in kinematics.curves.items() if of == axle and motion != "steer"}
     panels = [(name, motions) for name, motions in TRAVEL_PANELS if _column(curves["parallel"], name)]
 
@@ -74,7 +74,7 @@ def travel_figure(kinematics: Kinematics, axle: str) -> Figure:
 
 
 def steer_figure(kinematics: Kinematics) -> Figure:
-    """Panels of the front axle over the angle of the steering wheel."""
+    """Panels of the front axle against the angle of the steering wheel."""
     curve = kinematics.curves["front", "steer"]
 
     def draw(ax: Axes, k: int) -> None:
@@ -84,7 +84,7 @@ def steer_figure(kinematics: Kinematics) -> Figure:
             _plot(ax, curve, name, side, COLOURS.get(side, COLOURS["left"]), f"{side} wheel" if side else "")
         _set_labels(ax, name)
         if name == "turning_circle":
-            ax.set_ylim(0.0, LARGEST_CIRCLE)
+            ax.set_ylim(0.0, MAX_CIRCLE)
         ax.set_xlabel("steering-wheel angle, deg (left positive)")
 
     return _figure(f"{kinematics.car}: front axle over steering", len(STEER_PANELS), draw)
@@ -116,7 +116,7 @@ def _column(curve: Curve, name: str, side: str = "left") -> str:
 
 
 def _plot(ax: Axes, curve: Curve, name: str, side: str, colour: str, label: str, dashes: Any = "-") -> None:
-    """Plot a quantity of a curve over the variable of its motion."""
+    """Plot a quantity of a curve against the variable of its motion."""
     over = BY_NAME[curve.over.removesuffix("_left")]
     column = _column(curve, name, side)
     ax.plot(

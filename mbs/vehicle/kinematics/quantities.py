@@ -1,6 +1,6 @@
 """Names, units and meanings of the columns of curves, in the terms of ISO 8855.
 
-The terms are those of public summaries and textbooks, not of the standard itself.
+The terms are from public summaries and textbooks, not from the standard itself.
 """
 
 import math
@@ -130,7 +130,7 @@ ROLL = (
 STEER = (
     _quantity("steering_wheel_angle", "angle", "steering-wheel angle", "positive to the left"),
     _quantity("rack_travel", "length", "rack travel", "positive to the left"),
-    _quantity("steering_arm_angle", "angle", "angle of the Pitman arm", "positive where it steers to the left"),
+    _quantity("steering_arm_angle", "angle", "angle of the Pitman arm", "positive if it steers to the left"),
     _quantity("mean_steer_angle", "angle", "mean steer angle", "of both wheels"),
     _quantity("steering_ratio", "ratio", "steering ratio", "steering-wheel angle per mean steer angle"),
     _quantity("ackermann_steer_angle", "angle", "Ackermann steer angle, outer wheel", "for that of the inner"),

@@ -11,7 +11,7 @@ from ali3.files import check_writable, write_json, write_text
 from ali3.warning_lines import warning_lines
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
-from mbs.vehicle.kinematics.axle_compliance import compliance, fidelity_of
+from mbs.vehicle.kinematics.axle_compliance import compliance, compliance_fidelity
 from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, checked_travel, kinematics
 from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
 from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
@@ -20,7 +20,7 @@ from mbs.vehicle.linkages.curve_grid import write_curve_table
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.suspensions.curve_table import RACK
 
-LEAST_RANGE = 1e-3  # m: a smaller range was given in m in place of mm
+MIN_RANGE = 1e-3  # m: a smaller range was given in m instead of mm
 TRAVEL = (-80.0, 80.0)  # mm
 
 
@@ -32,15 +32,17 @@ def report(options: argparse.Namespace) -> int:
 
     travel = TRAVEL if options.travel is None else options.travel
     low, high = checked_travel(tuple(1e-3 * v for v in travel))
-    if high - low < LEAST_RANGE:
+    if high - low < MIN_RANGE:
         raise UserError(
             f"--travel goes from {travel[0]:g} to {travel[1]:g} mm; it is in mm and must span "
-            f"{1e3 * LEAST_RANGE:g} mm or more."
+            f"{1e3 * MIN_RANGE:g} mm or more."
         )
     with warning_lines():
         car = load(options.car)
     requested = options.fidelity
-    fidelity = fidelity_of(car, int(requested) if requested is not None and requested == requested // 1 else requested)
+    fidelity = compliance_fidelity(
+        car, int(requested) if requested is not None and requested == requested // 1 else requested
+    )
     folder = options.out or Path("out", "kinematics", car.name)
     names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in (*MOTIONS, "table")]
     for file in (folder / "kinematics.html", *(folder / n for n in names), *([options.json] if options.json else [])):

@@ -15,7 +15,7 @@ from mbs.vehicle.kinematics.wheel_motion import wheel_motion
 from mbs.vehicle.linkages.linkage import Linkage, Position
 
 WheelByRack: TypeAlias = Callable[[float], tuple[float, float]]
-LEAST_STEER_ANGLE = 1e-4  # rad, with a turning circle
+MIN_STEER_ANGLE = 1e-4  # rad, with a turning circle
 
 
 def steer_measures(linkage: Linkage, position: Position, wheel_by_rack: WheelByRack) -> dict[str, float]:
@@ -36,7 +36,7 @@ def steer_measures(linkage: Linkage, position: Position, wheel_by_rack: WheelByR
         "steering_ratio": wheel_per_rack / rate if rate else math.nan,
         **dict.fromkeys(("ackermann_steer_angle", "ackermann_error", "ackermann", "turning_circle"), math.nan),
     }
-    if min(abs(s) for s in steers) < LEAST_STEER_ANGLE or steers[0] * steers[1] < 0.0:
+    if min(abs(s) for s in steers) < MIN_STEER_ANGLE or steers[0] * steers[1] < 0.0:
         return measures
     inner, outer = wheels if mean > 0.0 else wheels[::-1]
     axle_x = linkage.car.rear.wheel.centre[0]

@@ -35,7 +35,7 @@ SECTIONS = (
 """Headings with the names of their rows."""
 
 
-def named(name: str) -> tuple[Quantity, str]:
+def quantity_and_title(name: str) -> tuple[Quantity, str]:
     """Quantity and title of a value of `Kinematics.drawn` by its name."""
     base, title = TITLED.get(name, (name, ""))
     quantity = BY_NAME[base]
@@ -52,7 +52,7 @@ def rows(kinematics: Kinematics) -> list[tuple[str, str, str, str, str]]:
             values = [drawn[axle].get(name, math.nan) for axle in drawn]
             if all(math.isnan(v) for v in values):
                 continue
-            quantity, title = named(name)
+            quantity, title = quantity_and_title(name)
             front, rear = (number_text(v * quantity.factor) for v in values)
             section_lines.append((title, front, rear, quantity.shown, quantity.meaning))
         if section_lines:
@@ -61,7 +61,7 @@ def rows(kinematics: Kinematics) -> list[tuple[str, str, str, str, str]]:
 
 
 def text(lines: Sequence[tuple[str, str, str, str, str]]) -> str:
-    """Text of rows. `lines`: from `rows`."""
+    """Text of rows. `lines`: result of `rows`."""
     lines = [("", "front", "rear", "", ""), *lines]
     headings = [bool(line[0]) and not any(line[1:]) for line in lines]
     return "\n".join("\n" * heading + line for heading, line in zip(headings, in_columns(lines, (1, 2)), strict=True))

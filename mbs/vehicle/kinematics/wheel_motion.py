@@ -83,7 +83,7 @@ class SteeringAxis:
     """Displacement along the axis per angle, m/rad: of a screw; 0 for ball joints."""
 
     def at_height(self, z: float) -> Array:
-        """Point of the axis at a height, m, shape (3,). `z`: in m."""
+        """Point of the axis at a height, m, shape (3,). `z`: height, m."""
         return np.asarray(self.point + self.direction * (z - self.point[2]) / self.direction[2])
 
     @property

@@ -17,7 +17,7 @@ ACCELERATION = 4.0  # m/s2, lateral, in the slalom
 SLALOM_SPEED, SLALOM_FREQUENCY, SLALOM_TIME = 15.0, 0.5, 6.0  # m/s, Hz, s
 BRAKING_SPEED, BRAKE_PEDAL, BRAKING_TIME = 20.0, 0.3, 4.0  # m/s, 1, s
 KERB_SPEED, KERB_X, KERB_HEIGHT, KERB_TIME = 5.0, 4.0, 0.05, 3.0  # m/s, m, m, s
-LEAST_TIME = 0.1  # s
+MIN_TIME = 0.1  # s
 
 
 @dataclass(frozen=True)
@@ -75,8 +75,8 @@ def default_drives(system: System) -> list[Drive]:
 def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
     """Read a drive from a table of inputs over time.
 
-    `file`: CSV with the column ``time``, s, and columns of inputs, linear between rows; `speed`: at the start, m/s;
-    `inputs`: of the car. Raises `FileError`: the file is not such a table.
+    `file`: CSV with the column ``time``, s, and columns of inputs, linear between rows; `speed`: speed at the start,
+    m/s; `inputs`: inputs of the car. Raises `FileError` if the file is not such a table.
     """
     table = TextTable(file, known=("time",))
     if "time" not in table.names or len(table.names) < 2:
@@ -86,8 +86,8 @@ def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
         raise table.error(f"{file}: the car has no input '{unknown[0]}'; it has {', '.join(sorted(inputs))}.")
     columns = dict(zip(table.names, table.values().T, strict=True))
     t = columns.pop("time")
-    if not (np.diff(t) >= 0.0).all() or t[0] != 0.0 or t[-1] < LEAST_TIME:
+    if not (np.diff(t) >= 0.0).all() or t[0] != 0.0 or t[-1] < MIN_TIME:
         raise table.error(
-            f"{file}: times go from {t[0]:g} to {t[-1]:g} s; they must rise from 0 to {LEAST_TIME:g} s or more."
+            f"{file}: times go from {t[0]:g} to {t[-1]:g} s; they must rise from 0 to {MIN_TIME:g} s or more."
         )
     return Drive(file.stem, float(t[-1]), {name: (t, values) for name, values in columns.items()}, speed=speed)

@@ -1,4 +1,4 @@
-"""Errors of the signals of a car against those of a reference run at the same times."""
+"""Errors of the signals of a car against a reference run at the same times."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias

@@ -43,7 +43,7 @@ class LevelChoice:
 def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[LevelChoice]:
     """Levels that were measured in all manoeuvres, with their largest errors and costs.
 
-    `rows`: with "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output or
+    `rows`: rows with "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output or
     None.
     """
     names = {row["manoeuvre"] for row in rows}
@@ -61,8 +61,8 @@ def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Le
 def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> LevelChoice:
     """The level with the least time per simulated second within tolerances in all measured manoeuvres.
 
-    `rows`: as in `levels`; `tolerances`: of errors by output. Raises `ValueError`: a tolerance is not positive, or no
-    level is within the tolerances.
+    `rows`: as in `levels`; `tolerances`: largest errors by output. Raises `ValueError` if a tolerance is not positive,
+    or no level is within the tolerances.
     """
     for output, tolerance in tolerances.items():
         if not tolerance > 0.0:

@@ -26,10 +26,10 @@ REFERENCE_STEP = 0.0005  # s
 CUTOFF_FREQUENCY = 10.0  # Hz, of the low-pass filter of moments
 
 
-def systems_of(car: Car) -> dict[Fidelity, System]:
+def compile_fidelities(car: Car) -> dict[Fidelity, System]:
     """Compile the car at each of its fidelities, from the cheapest to the most detailed.
 
-    Raises `ModelError`: the tyres of the car are at ports.
+    Raises `ModelError` if the tyres of the car are at ports.
     """
     if car.ports.tyre is not None:
         raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it cannot drive.")
@@ -47,14 +47,14 @@ def measure(
     drives: Sequence[Drive],
     steps: Sequence[float] = STEPS,
     repeats: int = 3,
-    tell: Callable[[float], None] = lambda share: None,
+    tell: Callable[[float], None] = lambda fraction: None,
 ) -> list[dict[str, Any]]:
     """Measure the errors of each level against the most detailed one with steps of 0.5 ms, and its cost.
 
     Parameters
     ----------
     systems : dict of Fidelity to System
-        From `systems_of`; the last is the reference.
+        From `compile_fidelities`; the last is the reference.
     drives : sequence of Drive
         Manoeuvres of the car.
     steps : sequence of float
@@ -62,15 +62,16 @@ def measure(
     repeats : int
         Timed runs of each level, of which the fastest counts; levels alternate, so that disturbances are shared.
     tell : callable
-        Called with the completed share, 0 to 1.
+        Called with the completed fraction, 0 to 1.
 
     Returns
     -------
     list of dict
-        Of each drive, fidelity and step: "path", the largest distance from the reference over the length of the way or
-        1 m, whichever is longer; "load", the largest error of a wheel load over the largest load; "moment", the largest
-        error of a moment of the gauges over the largest change, after a low-pass of 10 Hz, None where there are none;
-        "us_per_step", processor time; "failed", why a run ended early, with None for all else; empty where none did.
+        Of each drive, fidelity and step: "path", the largest distance from the reference, relative to the length of
+        the way or 1 m, whichever is longer; "load", the largest error of a wheel load, relative to the largest load;
+        "moment", the largest error of a moment of the gauges, relative to the largest change, after a low-pass of 10
+        Hz, None if there are no gauges; "us_per_step", processor time; "failed", why a run ended early, with None for
+        all else; empty if none did.
     """
     finest = list(systems)[-1]
     grid = max(steps)

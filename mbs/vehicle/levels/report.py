@@ -20,7 +20,7 @@ from mbs.vehicle.car_file import load
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.levels.drives import default_drives, read_drive
 from mbs.vehicle.levels.level_choice import OMISSIONS, LevelChoice, cheapest, levels, nearest
-from mbs.vehicle.levels.measure import REFERENCE_STEP, measure, systems_of
+from mbs.vehicle.levels.measure import REFERENCE_STEP, compile_fidelities, measure
 
 DEFAULT_TOLERANCES = {"path": 1.0, "loads": 3.0}
 """Percent."""
@@ -40,7 +40,7 @@ def report(options: argparse.Namespace) -> int:
         raise UserError(f"The car '{car.name}' has no moments in a frame: it has no flexible one. Leave moments out.")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        systems = systems_of(car)
+        systems = compile_fidelities(car)
     for warning in caught:
         print(f"note: {warning.message}", file=sys.stderr)
     rigid = systems[Fidelity.RIGID]
@@ -82,7 +82,7 @@ def _print_rows(title: str, drives: Sequence[str], rows: Sequence[Mapping[str, A
 def parse_options(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path | None, float]:
     """Tolerances (ratios by error), file of a drive and its initial speed (m/s) from the NAME=VALUE of the option.
 
-    Raises `UserError`: a name is not known, or a value cannot be used.
+    Raises `UserError` if a name is not known, or a value cannot be used.
     """
     options = dict(words)
     numbers = {name: text for name, text in options.items() if name != "drive"}

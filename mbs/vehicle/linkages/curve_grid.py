@@ -9,15 +9,15 @@ import numpy as np
 from ali3.files import atomic_file
 from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError
 from mbs.vehicle.linkages.pose_grid import MARGIN, SPACING, compression_range, even_points, is_coupled
-from mbs.vehicle.suspensions.curve_poses import axes_of
+from mbs.vehicle.suspensions.curve_poses import wheel_axes
 from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER_TRAVEL, RACK, WHEEL_TRAVEL
 
 
 def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
     """Compute the columns of the table of the left wheel between its stops by name, SI units, shape (n,) each.
 
-    `rack_travel`: to each side, m; 0: the axle is not steered. Raises `NotReachedError`: the links cannot reach the
-    stops.
+    `rack_travel`: travel to each side, m; 0: the axle is not steered. Raises `NotReachedError` if the links cannot
+    reach the stops.
     """
     coupled = is_coupled(linkage)
     travel = _wheel_travels(linkage, coupled)
@@ -72,8 +72,8 @@ def _solve(linkage: Linkage, travel: Array, rack: float) -> Array:
         position = linkage.drawn
         try:
             for k in range(step_count):
-                share = (k + 1) / step_count
-                position = linkage.solve(position.q, share * travel, share * rack)
+                fraction = (k + 1) / step_count
+                position = linkage.solve(position.q, fraction * travel, fraction * rack)
         except NotReachedError:
             continue
         return position.q
@@ -86,7 +86,7 @@ def _columns_at(linkage: Linkage, q: Array) -> dict[str, float]:
     (x, y, _), triad = C @ q + c, [A @ q + a for A, a in linkage.triad(0)]
     axis = triad[1]
     steer, inclination = np.arctan2(-axis[0], axis[1]), np.arcsin(axis[2])
-    level = axes_of(steer, inclination)
+    level = wheel_axes(steer, inclination)
     measures = {
         "wheel_centre_x": float(x),
         "wheel_centre_y": float(y),

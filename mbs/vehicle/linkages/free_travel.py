@@ -10,13 +10,13 @@ from mbs.vehicle.linkages.linkage import Array, Linkage, Position
 from mbs.vehicle.suspensions.curve_table import RACK
 from mbs.vehicle.suspensions.curves import Curves
 
-LARGEST_TRAVEL = 0.5  # m, of wheels and rack, that is examined
+MAX_TRAVEL = 0.5  # m, of wheels and rack, that is examined
 
 
 def notes_without_stops(car: CarContent) -> Iterator[str]:
     """Yield a sentence for each axle without stops, and one for a steered knuckle without a stop.
 
-    `car`: at rest near the drawing.
+    `car`: a car at rest near the drawing.
     """
     yield from _stop_notes(car)
     yield from _steering_stop_notes(car)
@@ -69,11 +69,10 @@ def _steering_stop_notes(car: CarContent) -> Iterator[str]:
 
 
 def _travel_limits(linkage: Linkage, direction: Array, start: Position | None = None) -> tuple[float, float] | None:
-    """Limits of the travel from a start by the links, m; None if they are beyond `LARGEST_TRAVEL` on both sides."""
+    """Limits of the travel from a start by the links, m; None if they are beyond `MAX_TRAVEL` on both sides."""
     low, high = (
-        positions_along(linkage, direction, np.array([travel]), start)[1]
-        for travel in (-LARGEST_TRAVEL, LARGEST_TRAVEL)
+        positions_along(linkage, direction, np.array([travel]), start)[1] for travel in (-MAX_TRAVEL, MAX_TRAVEL)
     )
     if low is None and high is None:
         return None
-    return -LARGEST_TRAVEL if low is None else low, LARGEST_TRAVEL if high is None else high
+    return -MAX_TRAVEL if low is None else low, MAX_TRAVEL if high is None else high

@@ -33,9 +33,9 @@ from mbs.vehicle.suspensions.anti_roll_bar import LINK
 Array = NDArray[np.float64]
 
 SIDES = ("left", "right")
-LARGEST_RACK_TRAVEL = 1.0  # m
+MAX_RACK_TRAVEL = 1.0  # m
 CORRECTION_TOLERANCE = 1e-11  # m: largest correction of a converged position
-MOST_ITERATIONS = 12
+MAX_ITERATIONS = 12
 RESIDUAL_TOLERANCE = 1e-9  # largest residual of a converged position, in the units of the equations
 
 
@@ -87,7 +87,7 @@ class Linkage(StandingModel):
         b = CarBuilder(m, m.road(PlaneRoad()), {})
         b.chassis = _fixed_chassis(m, car)
         # the time is the travel of the rack
-        ramp = PPoly(np.array([[1.0], [-LARGEST_RACK_TRAVEL]]), np.array([-LARGEST_RACK_TRAVEL, LARGEST_RACK_TRAVEL]))
+        ramp = PPoly(np.array([[1.0], [-MAX_RACK_TRAVEL]]), np.array([-MAX_RACK_TRAVEL, MAX_RACK_TRAVEL]))
         rack = m.guide_time("rack", ramp, unit="m")
         steered = car.steering.ends(b, rack, car.rack_direction) if axle == "front" else rack_ends(b, rack)
         rods: list[str] = []
@@ -137,12 +137,12 @@ class Linkage(StandingModel):
     def solve(self, start: Array, travel: Array, rack: float) -> Position:
         """Find a position by Newton's method.
 
-        `start`: initial coordinates, shape (nq,); `travel`: of the left and the right wheel, m, shape (2,); `rack`:
-        travel of the rack, m. Raises `NotReachedError`: the iteration does not converge.
+        `start`: initial coordinates, shape (nq,); `travel`: travel of the left and the right wheel, m, shape (2,);
+        `rack`: travel of the rack, m. Raises `NotReachedError` if the iteration does not converge.
         """
         q, zero_rates, heights = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
         offset = np.array([centre[1][2] for centre in self._centres])
-        for _ in range(MOST_ITERATIONS):
+        for _ in range(MAX_ITERATIONS):
             phi, jacobian, rack_derivative = self.evaluator.constraints(q, zero_rates, rack)
             rows = np.vstack([jacobian, self._heights])
             residuals = np.concatenate([phi, self._heights @ q + offset - heights])
@@ -197,7 +197,7 @@ class Linkage(StandingModel):
 
 
 def _fixed_chassis(m: Model, car: CarContent) -> Mount:
-    """Mount on the ground in place of the chassis."""
+    """Mount on the ground instead of the chassis."""
     ground = m.ground
     axes = [ground.vector(e) for e in np.eye(3)]
     origin = np.array(car.chassis.reference)

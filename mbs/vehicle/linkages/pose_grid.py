@@ -11,7 +11,7 @@ import numpy as np
 from mbs.simulation.evaluator import RANK_TOLERANCE
 from mbs.vehicle.linkages.linkage import (
     CORRECTION_TOLERANCE,
-    MOST_ITERATIONS,
+    MAX_ITERATIONS,
     RESIDUAL_TOLERANCE,
     Array,
     Linkage,
@@ -34,16 +34,16 @@ class PoseGrid:
 
     linkage: Linkage
     compression: Array
+    """Points of the springs, m, positive in bump, shape (n,)."""
     rack: Array
-    """`compression`, `rack`: points, m, positive in bump and to the left, shapes (n,) and (k,); k is 1 for an axle that
-    is not steered."""
+    """Points of the rack, m, positive to the left, shape (k,); k is 1 for an axle that is not steered."""
     coupled: bool
     """Whether each side depends on the compressions of both springs, which are then the variables of the tables."""
     q: Array
     """Coordinates of the linkage, shape (n, k, nq), or (n, n, nq) if coupled."""
 
     def full(self, start: int, size: int) -> Array:
-        """Full coordinates from `start` on over the grid, shape (n, k, size)."""
+        """Full coordinates over the grid, computed from `start`, shape (n, k, size)."""
         rows = [self.linkage.full(start + i) for i in range(size)]
         return np.stack([self.q @ row + constant for row, constant in rows], axis=-1)
 
@@ -51,8 +51,8 @@ class PoseGrid:
 def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
     """Compute the positions of an axle over the range of its springs and its rack.
 
-    `rack_travel`: to each side, m; 0 if the axle is not steered. Raises `NotReachedError`: the links cannot reach the
-    stops.
+    `rack_travel`: travel to each side, m; 0 if the axle is not steered. Raises `NotReachedError` if the links cannot
+    reach the stops.
     """
     low, high = compression_range(linkage)
     compression = even_points(-low, high, SPACING[0])
@@ -67,7 +67,7 @@ def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
         second = (
             [((compression[i], b), 0.0) for b in compression] if coupled else [((compression[i],) * 2, u) for u in rack]
         )
-        q[i] = _follow(linkage, start, second, begin=i if coupled else int(np.argmin(np.abs(rack))))
+        q[i] = _follow(linkage, start, second, first=i if coupled else int(np.argmin(np.abs(rack))))
     return PoseGrid(linkage, compression, rack, coupled, q)
 
 
@@ -87,10 +87,11 @@ def even_points(low: float, high: float, spacing: float) -> Array:
 
 
 def _follow(
-    linkage: Linkage, start: Array, points: list[tuple[tuple[float, float], float]], begin: int | None = None
+    linkage: Linkage, start: Array, points: list[tuple[tuple[float, float], float]], first: int | None = None
 ) -> Array:
-    """Coordinates at points along a line, continued from the one nearest to the drawing, or `begin`, to both ends."""
-    first = int(np.argmin([abs(c[0]) + abs(u) for c, u in points])) if begin is None else begin
+    """Coordinates at points along a line, continued from the one nearest to the drawing, or `first`, to both ends."""
+    if first is None:
+        first = int(np.argmin([abs(c[0]) + abs(u) for c, u in points]))
     coordinates = np.zeros((len(points), len(start)))
     coordinates[first] = at_springs(linkage, start, *points[first])
     for direction, end in ((1, len(points)), (-1, -1)):
@@ -108,13 +109,13 @@ def _follow(
 def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float], rack: float) -> Array:
     """Coordinates (nq,) at compressions of both springs and a travel of the rack, by Newton's method from `start`.
 
-    `compression`: of the left and the right spring from the drawing, m; `rack`: m. Raises `NotReachedError`: the
-    iteration does not converge.
+    `compression`: compression of the left and the right spring from the drawing, m; `rack`: m. Raises `NotReachedError`
+    if the iteration does not converge.
     """
     q, zero_rates = start.copy(), np.zeros(len(start))
     lines = [linkage.linear(spring) for spring in linkage.springs]
     drawn_lengths = [float(np.linalg.norm(D @ linkage.drawn.q + d)) for D, d in lines]
-    for _ in range(MOST_ITERATIONS):
+    for _ in range(MAX_ITERATIONS):
         phi, jacobian, _ = linkage.constraints(q, zero_rates, rack)
         vectors = [D @ q + d for D, d in lines]
         lengths = np.array([np.linalg.norm(vector) for vector in vectors])

@@ -11,7 +11,7 @@ from ali3.plausibility import Value, quantities_of
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.checks.places import centres_of, drawn_points
+from mbs.vehicle.checks.places import drawn_points, mass_centres
 from mbs.vehicle.checks.working_ranges import DAMPER_SPEED, compression_and_slope, weight_on_spring
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
@@ -22,7 +22,7 @@ from mbs.vehicle.suspensions.curves import Curves
 
 CAR = quantities_of("car")
 DEG = 180.0 / math.pi
-LEAST_ABSOLUTE_Y = 0.1  # m: a larger y of a table is measured from the middle plane
+MIN_ABSOLUTE_Y = 0.1  # m: a larger y of a table is measured from the middle plane
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class AxleRates:
     wheel_rate: float
     """Wheel rate of one wheel, N/m."""
     damper_ratio: float
-    """Travel of the damper over travel of the wheel."""
+    """Travel of the damper per travel of the wheel."""
     roll_stiffness: float
     """Roll stiffness of the axle, N m/rad."""
     steering_axis: dict[str, float]
@@ -65,7 +65,7 @@ def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
 
 
 def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None) -> Iterator[Value]:
-    """Values of an axle. `name`: "front" or "rear"; `rates`: from `axle_rates`."""
+    """Values of an axle. `name`: "front" or "rear"; `rates`: result of `axle_rates`."""
     axle, centre = car.axles[name], car.axles[name].wheel.centre
     centre_key = {axle.wheel.key("centre"): list(centre)}
     yield Value(CAR["track"], axle.track, centre_key, name)
@@ -100,7 +100,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
 
 def _distance_values(axle: Axle, name: str) -> Iterator[Value]:
     """Values of the distances of the farthest points and parts of an axle."""
-    points, centre, parts = drawn_points(axle), axle.wheel.centre, centres_of(axle)
+    points, centre, parts = drawn_points(axle), axle.wheel.centre, mass_centres(axle)
     if not axle.suspension.linked:
         points = parts
     hub_keys = {axle.suspension.points.key(n) for n in axle.suspension.near_wheel} if axle.suspension.linked else set()
@@ -155,7 +155,7 @@ def _spring_values(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Itera
 
 
 def damping_at(damper: Damper, speed: float) -> float:
-    """Force over speed of a damper, N s/m. `speed`: m/s, positive in rebound."""
+    """Force per speed of a damper, N s/m. `speed`: m/s, positive in rebound."""
     if damper.damping is not None:
         return damper.damping * damper.factor
     v, force = np.array(damper.table, dtype=float).T
@@ -170,7 +170,7 @@ def _curve_values(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator
     (wheel,) = centre.values()
     for column in ("wheel_centre_y", "contact_centre_y"):
         values = table.of(column, "left")
-        if values is not None and abs(values[i, k]) > LEAST_ABSOLUTE_Y:
+        if values is not None and abs(values[i, k]) > MIN_ABSOLUTE_Y:
             yield Value(CAR["curve_place"], float(values[i, k]) / wheel[1], {**key, **centre}, name)
             break
     for quantity, columns in (

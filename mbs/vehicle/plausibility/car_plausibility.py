@@ -13,8 +13,8 @@ from mbs.tyre_files.tyre_plausibility import cornering_stiffness_at, magic_plaus
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.checks.masses import centre_of, weighed_points
-from mbs.vehicle.checks.places import centres_of, chassis_points, drawn_points, parts_of
+from mbs.vehicle.checks.masses import centre_of_mass, weighed_points
+from mbs.vehicle.checks.places import chassis_points, drawn_points, mass_centres, rigid_parts
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.plausibility.axle_values import CAR, DEG, axle_rates, axle_values
@@ -24,11 +24,11 @@ Data: TypeAlias = "dict[str, Any]"
 Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
 """Makes a car of altered content of its file, and the same car at rest; None if it is not a car."""
 FINAL_DRIVE = 4.0
-LARGEST_HEIGHT = 4.0  # m, of a truck
-KILOGRAMS = ("kilograms in place of newtons", GRAVITY)
+MAX_HEIGHT = 4.0  # m, of a truck
+KILOGRAMS = ("kilograms instead of newtons", GRAVITY)
 POUNDS = (
-    ("pounds and inches in place of N and m", 175.127),
-    ("pounds and feet in place of N and m", 14.5939),
+    ("pounds and inches instead of N and m", 175.127),
+    ("pounds and feet instead of N and m", 14.5939),
 )
 
 
@@ -70,7 +70,7 @@ def car_values(car: CarContent, rest: Rest) -> list[Value]:
             keys |= spring.given | {spring.key("factor"): spring.factor}
         values.append(Value(CAR["roll"], total / DEG, keys))
         if total > 0.0:
-            lean = _mass(car) * GRAVITY * centre_of(car, payloads=True)[2] / total
+            lean = _mass(car) * GRAVITY * centre_of_mass(car, payloads=True)[2] / total
             values.append(Value(CAR["gradient"], lean * DEG, keys | _centre_key(car)))
             values.append(Value(CAR["split"], stiffness[0] / total, keys))
     return [*values, *_driving_values(car, rest)]
@@ -110,7 +110,7 @@ def _point_values(car: CarContent) -> Iterator[Value]:
     points, body = chassis_points(car), car.vehicle
     middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
     overhangs = {
-        key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - LARGEST_HEIGHT, -z, 0.0)
+        key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - MAX_HEIGHT, -z, 0.0)
         for key, (x, y, z) in points.items()
     }
     key = max(overhangs, key=overhangs.__getitem__)
@@ -118,7 +118,7 @@ def _point_values(car: CarContent) -> Iterator[Value]:
     distances = {key: abs(point[0]) or math.inf for key, point in points.items()}
     key = min(distances, key=distances.__getitem__)
     yield Value(CAR["ahead"], distances[key], {key: list(points[key])})
-    points |= drawn_points(car.front) | drawn_points(car.rear) | centres_of(car)
+    points |= drawn_points(car.front) | drawn_points(car.rear) | mass_centres(car)
     smallest = {key: min((abs(c) for c in point if c), default=math.inf) for key, point in points.items()}
     key = min(smallest, key=smallest.__getitem__)
     yield Value(CAR["nearest"], smallest[key], {key: list(points[key])})
@@ -126,10 +126,10 @@ def _point_values(car: CarContent) -> Iterator[Value]:
 
 def _mass_values(car: CarContent) -> Iterator[Value]:
     """Values of the centre of mass and of the inertias."""
-    x, y, height = centre_of(car, payloads=True)
+    x, y, height = centre_of_mass(car, payloads=True)
     track, chassis = 0.5 * sum(axle.track for axle in car.axles.values()), car.chassis
-    share = (x - car.rear.wheel.centre[0]) / car.wheelbase
-    yield Value(CAR["share"], share, _centre_key(car))
+    front_fraction = (x - car.rear.wheel.centre[0]) / car.wheelbase
+    yield Value(CAR["share"], front_fraction, _centre_key(car))
     yield Value(CAR["height"], height / track, _centre_key(car))
     yield Value(CAR["aside"], y / track, _centre_key(car))
     products = [abs(p) for p in chassis.products if p]
@@ -138,7 +138,7 @@ def _mass_values(car: CarContent) -> Iterator[Value]:
         yield Value(CAR["products"], min(products) / max(chassis.inertia), product_key)
     weighed = weighed_points(car, payloads=True)
     inertia = chassis.inertia[2] + sum(m * ((px - x) ** 2 + (py - y) ** 2) for m, (px, py, _) in weighed)
-    before, behind = car.wheelbase * (1.0 - share), car.wheelbase * share
+    before, behind = car.wheelbase * (1.0 - front_fraction), car.wheelbase * front_fraction
     key = {chassis.key("inertia"): list(chassis.inertia)}
     if before > 0.0 and behind > 0.0:
         yield Value(CAR["yaw"], inertia / _mass(car) / (before * behind), key | {chassis.key("mass"): chassis.mass})
@@ -148,7 +148,7 @@ def _mass_values(car: CarContent) -> Iterator[Value]:
         yield Value(CAR["body_radius"], math.sqrt(moment / chassis.mass) / extent, key | sizes, f"about {axis}")
     radii = {
         math.sqrt(moment / part.mass): {part.key("inertia"): list(part.inertia), part.key("mass"): part.mass}
-        for part in parts_of(car)
+        for part in rigid_parts(car)
         for moment in part.inertia
     }
     for of, radius in (("least", min(radii)), ("largest", max(radii))):
@@ -169,8 +169,8 @@ def _driving_values(car: CarContent, rest: Rest) -> Iterator[Value]:
         tyre, road = axle.tyre, car.road
         of_grip = {tyre.key("grip"): tyre.grip, tyre.key("reference_friction"): tyre.reference_friction}
         of_grip |= {road.key("friction"): road.friction, road.key("friction_factor"): road.friction_factor}
-        for of, share in (("least", min), ("largest", max)):
-            yield Value(CAR["grip"], share(tyre.friction) * road.grip_of(tyre), of_grip, f"{name} {of}")
+        for of, select in (("least", min), ("largest", max)):
+            yield Value(CAR["grip"], select(tyre.friction) * road.grip_of(tyre), of_grip, f"{name} {of}")
     steering = car.steering
     key = steering.key("front_wheel_angle_max")
     ratio = steering.wheel_angle_max / steering.front_wheel_angle_max
@@ -223,11 +223,11 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
     for name, axle in car.axles.items():
         centre, alignment = axle.wheel.key("centre"), axle.alignment
         yield f"half the track less half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 2.0)
-        yield f"the track in place of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
+        yield f"the track instead of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
         for angle in ("toe", "camber"):
             keys = [alignment.key(f"{angle}_{side}") for side in ("left", "right")]
             present = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
-            yield f"degrees in place of radians in {' and '.join(present)}", set(keys), _scale(present, 1.0 / DEG)
+            yield f"degrees instead of radians in {' and '.join(present)}", set(keys), _scale(present, 1.0 / DEG)
             for key in present if angle == "camber" else ():
                 yield f"the sign of {key}", {key}, _scale(key, -1.0)
             yield f"the signs of {' and '.join(present)}", set(keys), _scale(present, -1.0)
@@ -236,30 +236,30 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
             key = damper.key("table")
             yield f"bump and rebound exchanged in {key}", {key}, partial(_mirror, key)
         for key, parts in zip((*spring.given, *damper.given), ("springs", "dampers"), strict=True):
-            yield from _scales(key, (f"both {parts} of the axle in place of one", 0.5))
+            yield from _scales(key, (f"both {parts} of the axle instead of one", 0.5))
             yield from _scales(key, (f"half of one of the {parts}", 2.0), *POUNDS, KILOGRAMS)
         key = axle.wheel.key("spin_inertia")
-        yield from _scales(key, ("both wheels in place of one", 0.5), ("half of the wheel", 2.0))
+        yield from _scales(key, ("both wheels instead of one", 0.5), ("half of the wheel", 2.0))
         other_key = axle.wheel.key("diametral_inertia")
         yield f"{key} and {other_key} exchanged", {key, other_key}, partial(_exchange, key, other_key)
     chassis, drive, steering = car.chassis, car.drive, car.steering
     gears, limit = drive.key("ratios" if isinstance(drive, Automatic) else "ratio"), drive.key("limit_speed")
     yield from _scales(gears, (f"ratios without a final drive, of about {FINAL_DRIVE:g},", FINAL_DRIVE))
     yield from _scales(gears, (f"the final drive, of about {FINAL_DRIVE:g}, twice", 1.0 / FINAL_DRIVE))
-    yield from _scales(limit, ("rounds per minute in place of rad/s", math.pi / 30.0))
-    yield from _scales(limit, ("rounds per second in place of rad/s", 2.0 * math.pi))
+    yield from _scales(limit, ("rounds per minute instead of rad/s", math.pi / 30.0))
+    yield from _scales(limit, ("rounds per second instead of rad/s", 2.0 * math.pi))
     yield from _scales(drive.key("max_torque"), KILOGRAMS, ("the torque of the wheels", 0.5 / FINAL_DRIVE))
-    yield from _scales(drive.key("max_power"), ("horsepower in place of W", 735.5), ("kW in place of W", 1000.0))
+    yield from _scales(drive.key("max_power"), ("horsepower instead of W", 735.5), ("kW instead of W", 1000.0))
     inertia, balance = chassis.key("inertia"), car.brakes.key("balance")
     for a, b in ((0, 2), (0, 1)):
         words = f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}"
         yield words, {inertia}, partial(_swap, inertia, a, b)
-    yield from _scales(inertia, ("half of the moments", 2.0), ("pounds and feet in place of kg and m", 0.04214))
+    yield from _scales(inertia, ("half of the moments", 2.0), ("pounds and feet instead of kg and m", 0.04214))
     yield f"the share of the rear wheels in {balance}", {balance}, partial(_complement, balance)
-    sides = (("the torque of one wheel in place of a side", 2.0), ("the torque of all wheels in place of a side", 0.5))
+    sides = (("the torque of one wheel instead of a side", 2.0), ("the torque of all wheels instead of a side", 0.5))
     yield from _scales(car.brakes.key("torque"), KILOGRAMS, *sides)
     angle = steering.key("front_wheel_angle_max")
-    yield from _scales(angle, ("the angle from lock to lock in place of one side", 0.5))
+    yield from _scales(angle, ("the angle from lock to lock instead of one side", 0.5))
 
 
 def _scales(key: str, *mistakes: tuple[str, float]) -> Iterator[tuple[str, set[str], Undo]]:
@@ -321,6 +321,6 @@ def _exchange(key: str, other: str, data: Data) -> None:
 
 
 def _complement(key: str, data: Data) -> None:
-    """Replace a share by its complement to 1."""
+    """Replace a fraction by its complement to 1."""
     holder, last = _container(data, key)
     holder[last] = 1.0 - holder[last]

@@ -29,7 +29,7 @@ DARK_PLASTIC: Paint = {"material": "plastic", "color": "#23262b"}
 FRAME_PAINT: Paint = {"material": "paint", "color": "#b3202c"}
 BODY_PAINT: Paint = {"material": "paint", "color": "#1f5f9e"}
 SEAT_PAINT: Paint = {"material": "plastic", "color": "#3a3f47"}
-SILL_HEIGHT = 0.62  # of the sill, over the radius of the front tyres
+SILL_HEIGHT = 0.62  # relative to the radius of the front tyres
 SMALL_CAR_MASS = 600.0  # kg: parts of a car of this mass have the thicknesses that the functions name
 
 
@@ -57,7 +57,7 @@ class Looks:
 
     @cached_property
     def scale(self) -> float:
-        """Thickness of parts over that of a small car."""
+        """Thickness of parts relative to a small car."""
         return float(np.cbrt(self.car.vehicle.mass / SMALL_CAR_MASS))
 
     def body(self, name: str) -> Body:
@@ -69,21 +69,21 @@ class Looks:
         return self.rack if axle in self.steered else self.chassis
 
     def shape(self, of: Owner, kind: Kind, **fields: Any) -> None:
-        """Add a shape; `fields` are those of `Model.shape`."""
+        """Add a shape; `fields`: as in `Model.shape`."""
         self.m.shape(of, kind, **fields)
 
     def tube(self, *points: Anchor, radius: float, name: str | None = None, **looks: Any) -> None:
-        """Add a round tube through points; `radius`: that of a small car, m."""
+        """Add a round tube through points; `radius`: radius on a small car, m."""
         self.shape(
             points[0][0], "tube", points=list(points), radius=self.scale * radius, name=name, **(looks or BARE_STEEL)
         )
 
     def rod(self, name: str, axle: str, outer: Anchor, inner: Sequence[float]) -> None:
-        """Add a tie rod or toe link of an axle, from its outer end on the carrier; its `name` is that of its joint."""
+        """Add a tie rod or toe link of an axle, from its outer end on the carrier; `name`: name of its joint."""
         self.tube(outer, (self.rod_end(axle), inner), radius=0.009, name=name, **CAST_STEEL)
 
     def ball(self, of: Anchor, radius: float, **looks: Any) -> None:
-        """Add the sphere of a joint; `radius`: that of a small car, m."""
+        """Add the sphere of a joint; `radius`: radius on a small car, m."""
         self.shape(of[0], "sphere", at=of[1], radius=self.scale * radius, **(looks or CAST_STEEL))
 
     def cylinder(self, of: Owner, ends: tuple[Sequence[float], Sequence[float]], radius: float, **looks: Any) -> None:
@@ -91,9 +91,9 @@ class Looks:
         self.shape(of, "cylinder", ends=ends, radius=radius, **(looks or CAST_STEEL))
 
 
-def between(a: Sequence[float], b: Sequence[float], share: float) -> Point:
-    """The point at a share of the line from `a` to `b`."""
-    x, y, z = np.asarray(a, float) + share * np.subtract(b, a)
+def between(a: Sequence[float], b: Sequence[float], fraction: float) -> Point:
+    """The point at a fraction of the line from `a` to `b`."""
+    x, y, z = np.asarray(a, float) + fraction * np.subtract(b, a)
     return float(x), float(y), float(z)
 
 
@@ -103,7 +103,7 @@ def inboard(point: Sequence[float], distance: float) -> Point:
     return point[0], point[1] - side * distance, point[2]
 
 
-def share_along(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
+def fraction_along(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
     """Relative position of the foot of a point on the line from `a` (0) to `b` (1)."""
     line = np.subtract(b, a)
     return float(line @ np.subtract(p, a) / (line @ line))

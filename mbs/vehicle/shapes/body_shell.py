@@ -1,7 +1,7 @@
 """Drawn body of a car without a tubular frame: a surface lofted over its wheels, from length, width, height and axles.
 
-Its outline is that of a hatchback, of a van if the car is high for its length, or a mean of both. The
-proportions are those of no particular car; nothing here enters the simulation.
+Its outline is a hatchback, a van if the car is high for its length, or a mean of both. The
+proportions belong to no particular car; nothing here enters the simulation.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.appearance import BODY_PAINT, DARK_PLASTIC, SILL_HEIGHT, Looks, Paint
-from mbs.vehicle.shapes.loft import interpolated, loft
+from mbs.vehicle.shapes.loft import interpolate_columns, loft
 from mbs.vehicle.shapes.occupants import steering_wheel_place
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
@@ -80,12 +80,12 @@ ARCH_CLEARANCE = 0.055  # m between tyre and arch
 CABIN_CLEARANCE = 0.02  # m between an arch and the opening over the cabin
 DASHBOARD = 0.13, 0.42  # m: distance ahead of the middle of the steering wheel, and largest thickness
 CABIN_INDEX = 6  # index of the first point of a cross-section of the lower body above the cabin
-FRONT_OVERHANG = 0.53  # share of both overhangs
+FRONT_OVERHANG = 0.53  # fraction of both overhangs
 HEIGHT_OVER_LENGTH = 0.36  # assumed, if HEIGHT_OVER_TYRE gives a higher car
-HEIGHT_OVER_TYRE = 4.4  # assumed height over the radius of a front tyre
-MASS_HEIGHT = 0.39  # height of the centre of mass over that of the car, if this gives a higher car
-HATCHBACK_RATIO = 0.385  # height over length up to which the body is that of a hatchback
-VAN_RATIO = 0.42  # height over length from which the body is that of a van
+HEIGHT_OVER_TYRE = 4.4  # assumed height, relative to the radius of a front tyre
+MASS_HEIGHT = 0.39  # height of the centre of mass, relative to the height of the car, if this gives a higher car
+HATCHBACK_RATIO = 0.385  # height / length up to which the body is a hatchback
+VAN_RATIO = 0.42  # height / length from which the body is a van
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class BodyShell:
 
     @property
     def height(self) -> float:
-        """Height of the roof, m: of the highest ground contact point if it is on the roof, else estimated."""
+        """Height of the roof, m: of the highest ground contact point if it is on the roof, otherwise estimated."""
         contact = self.car.chassis.ground_contact
         points = [] if contact is None else [p for p in contact.points if not isinstance(p, str)]
         highest = max((p[2] + contact.radius for p in points), default=0.0) if contact is not None else 0.0
@@ -106,11 +106,11 @@ class BodyShell:
 
     @cached_property
     def outline(self) -> Outline:
-        """Outline between those of a hatchback and a van, by the ratio of height to length."""
+        """Outline between hatchback and van, by the ratio of height to length."""
         ratio = self.height / self.car.vehicle.length
-        share = min(max((ratio - HATCHBACK_RATIO) / (VAN_RATIO - HATCHBACK_RATIO), 0.0), 1.0)
+        fraction = min(max((ratio - HATCHBACK_RATIO) / (VAN_RATIO - HATCHBACK_RATIO), 0.0), 1.0)
         return Outline(
-            *((1.0 - share) * hatchback + share * van for hatchback, van in zip(HATCHBACK, VAN, strict=True))
+            *((1.0 - fraction) * hatchback + fraction * van for hatchback, van in zip(HATCHBACK, VAN, strict=True))
         )
 
     @property
@@ -125,28 +125,30 @@ class BodyShell:
         overhangs = car.vehicle.length - car.wheelbase
         return car.rear.wheel.centre[0] - (1.0 - FRONT_OVERHANG) * overhangs
 
-    def x_position(self, share: float | NDArray[np.float64]) -> NDArray[np.float64]:
+    def x_position(self, fraction: float | NDArray[np.float64]) -> NDArray[np.float64]:
         """x at a position relative to the length, from the rear end, m."""
-        return np.asarray(self.rear_end + share * self.car.vehicle.length)
+        return np.asarray(self.rear_end + fraction * self.car.vehicle.length)
 
-    def share(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    def fraction(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """Position relative to the length, from the rear end, of x in m."""
         return np.asarray((x - self.rear_end) / self.car.vehicle.length)
 
     def deck(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Height and half width of the lower body, m."""
-        height, width = interpolated(self.outline.deck, self.share(x)).T
+        height, width = interpolate_columns(self.outline.deck, self.fraction(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
     def roof(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Height and half width of the roof, m."""
-        height, width = interpolated(self.outline.roof, self.share(x)).T
+        height, width = interpolate_columns(self.outline.roof, self.fraction(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
     def sill(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """Height of sills and bumpers, m."""
-        sill, share = SILL_HEIGHT * self.car.front.tyre.radius, self.share(x)
-        end_rise = 0.10 * np.clip((0.06 - share) / 0.06, 0.0, 1.0) + 0.04 * np.clip((share - 0.95) / 0.05, 0.0, 1.0)
+        sill, fraction = SILL_HEIGHT * self.car.front.tyre.radius, self.fraction(x)
+        end_rise = 0.10 * np.clip((0.06 - fraction) / 0.06, 0.0, 1.0) + 0.04 * np.clip(
+            (fraction - 0.95) / 0.05, 0.0, 1.0
+        )
         return np.asarray(sill + end_rise)
 
     def lower_edge(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -160,8 +162,8 @@ class BodyShell:
 
     def stations(self) -> NDArray[np.float64]:
         """x of the cross-sections, m, ascending: dense along the arches."""
-        shares = np.concatenate([np.linspace(0.0, 1.0, 29), [0.005, 0.015, 0.985, 0.995]])
-        positions = [self.x_position(shares), np.array(self.cabin)]
+        fractions = np.concatenate([np.linspace(0.0, 1.0, 29), [0.005, 0.015, 0.985, 0.995]])
+        positions = [self.x_position(fractions), np.array(self.cabin)]
         for axle in (self.car.front, self.car.rear):
             radius = axle.tyre.radius + ARCH_CLEARANCE
             positions.append(axle.wheel.centre[0] + radius * np.cos(np.linspace(0.0, np.pi, 17)))
@@ -204,7 +206,7 @@ class BodyShell:
             ],
             ends=True,
         )
-        ring = 17  # points of a cross-section, both sides; those of the caps come last
+        ring = 17  # points of a cross-section, both sides; the points of the caps come last
         rear, front = self.cabin
         point, x_of_corner = triangles % ring, points[triangles, 0]
         in_cabin = (
@@ -220,29 +222,29 @@ class BodyShell:
         middle = 0.5 * (rear_x + x[-1]), 0.0, 0.5 * (low + top + 0.012)
         return middle, (x[-1] - rear_x, 1.84 * half, top + 0.012 - low)
 
-    def window_edges(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def window_edges(self, fraction: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lower and upper edge of the left side windows: arrays of shape (n, 3), m."""
-        x = self.x_position(share)
+        x = self.x_position(fraction)
         top, half = self.deck(x)
         roof, roof_half = self.roof(x)
         lower = np.column_stack([x, 0.90 * half, top - 0.01])
-        share_up = np.clip((roof - 0.045 - lower[:, 2]) / np.maximum(self.height - lower[:, 2], 1e-6), 0.0, 1.0)
-        y = lower[:, 1] + (roof_half - lower[:, 1]) * np.maximum(share_up, 0.0)
+        fraction_up = np.clip((roof - 0.045 - lower[:, 2]) / np.maximum(self.height - lower[:, 2], 1e-6), 0.0, 1.0)
+        y = lower[:, 1] + (roof_half - lower[:, 1]) * np.maximum(fraction_up, 0.0)
         return lower, np.column_stack([x, y, np.maximum(roof - 0.045, lower[:, 2])])
 
     def windows(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Mesh of the surface between lower body and roof: vertices, m, and triangles."""
-        share = np.linspace(self.outline.roof[0, 0], self.windscreen, 25)
-        return loft(self._upper_sections(share, 0.0))
+        fraction = np.linspace(self.outline.roof[0, 0], self.windscreen, 25)
+        return loft(self._upper_sections(fraction, 0.0))
 
     def panel(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Mesh of the roof panel: vertices, m, and triangles."""
-        share = np.linspace(self.outline.panel[0], self.outline.panel[1], 15)
-        return loft([section[1:] for section in self._upper_sections(share, 0.006)])
+        fraction = np.linspace(self.outline.panel[0], self.outline.panel[1], 15)
+        return loft([section[1:] for section in self._upper_sections(fraction, 0.006)])
 
-    def _upper_sections(self, share: NDArray[np.float64], lift: float) -> list[NDArray[np.float64]]:
+    def _upper_sections(self, fraction: NDArray[np.float64], lift: float) -> list[NDArray[np.float64]]:
         """Cross-sections of the left half above the lower body, m, with the roof raised by `lift`, m."""
-        lower, upper = self.window_edges(share)
+        lower, upper = self.window_edges(fraction)
         height = np.maximum(self.roof(lower[:, 0])[0], lower[:, 2] + 0.004)
         sections = []
         for low, up, top in zip(lower, upper, height, strict=True):
@@ -260,7 +262,7 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     m.mesh_shape(chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
     m.mesh_shape(chassis, *shell.panel(), name="roof", cover=clear, **BODY_PAINT)
     half_width = 0.5 * car.vehicle.width
-    x0, x1 = (float(shell.x_position(share)) for share in (0.03, 0.96))
+    x0, x1 = (float(shell.x_position(fraction)) for fraction in (0.03, 0.96))
     floor = SILL_HEIGHT * car.front.tyre.radius + 0.03
     looks.shape(
         chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half_width, 0.05), **DARK_PLASTIC
@@ -286,6 +288,6 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
 def _draw_details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:
     """Draw lamps, grille and mirror on one side of the car as boxes. `side`: 1 left, -1 right."""
     chassis, half = looks.chassis, 0.5 * looks.car.vehicle.width
-    for share, across, height, size, paint in details:
-        position = float(shell.x_position(share)), side * across * half, height * shell.height
+    for fraction, across, height, size, paint in details:
+        position = float(shell.x_position(fraction)), side * across * half, height * shell.height
         looks.shape(chassis, "box", at=position, size=size, **paint)

@@ -16,7 +16,7 @@ from mbs.vehicle.shapes.body_shell import body_shell_shapes
 from mbs.vehicle.shapes.double_wishbone import double_wishbone_shapes
 from mbs.vehicle.shapes.occupants import occupant_shapes
 from mbs.vehicle.shapes.powertrain import powertrain_shapes
-from mbs.vehicle.shapes.steering import rack_of, steering_shapes
+from mbs.vehicle.shapes.steering import steering_shapes, tie_rod_owner
 from mbs.vehicle.shapes.struts import lower_arm_strut_shapes, macpherson_shapes
 from mbs.vehicle.shapes.tube_frame import tube_frame_shapes
 from mbs.vehicle.shapes.twist_beam import twist_beam_shapes
@@ -41,7 +41,7 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links:
     for wheel, spin in spins.items():
         if isinstance(spin.carrier, TabledBody):
             spin.carrier.outputs = tuple(f"wheel_{wheel}.{part}" for part in (*POSE, "angle"))
-    looks = Looks(b, car, spins, rack_of(b, car) if linked else b.chassis.frame)
+    looks = Looks(b, car, spins, tie_rod_owner(b, car) if linked else b.chassis.frame)
     for name, axle in car.axles.items():
         if linked:
             SUSPENSIONS[axle.suspension.kind](looks, name, axle)

@@ -1,7 +1,7 @@
 """Shapes of a suspension by double wishbones."""
 
 from mbs.vehicle.axle import Axle
-from mbs.vehicle.shapes.appearance import Looks, between, share_along
+from mbs.vehicle.shapes.appearance import Looks, between, fraction_along
 from mbs.vehicle.shapes.knuckle import draw_knuckle
 from mbs.vehicle.shapes.springs import draw_spring_and_damper
 from mbs.vehicle.side import sides
@@ -20,8 +20,8 @@ def double_wishbone_shapes(looks: Looks, name: str, axle: Axle) -> None:
                 looks.ball((arm, pivot), 1.6 * radius)
             looks.ball((arm, ball), 1.7 * radius)
         front, rear, ball = p["lower_pivot_front"], p["lower_pivot_rear"], p["lower_ball_joint"]
-        share = min(max(share_along(between(front, rear, 0.5), ball, p["spring_lower"]), 0.1), 0.9)
-        legs = between(front, ball, share), between(rear, ball, share)
+        fraction = min(max(fraction_along(between(front, rear, 0.5), ball, p["spring_lower"]), 0.1), 0.9)
+        legs = between(front, ball, fraction), between(rear, ball, fraction)
         looks.tube((lower, legs[0]), (lower, p["spring_lower"]), (lower, legs[1]), radius=0.012)
         joints = [(upright, p["lower_ball_joint"]), (upright, p["upper_ball_joint"])]
         draw_knuckle(looks, side, upright, joints, (upright, p["tie_rod_outer"]))

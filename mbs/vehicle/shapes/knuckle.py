@@ -14,7 +14,7 @@ HUB_SIZE = 0.055, 0.030  # m: length and radius of the hub of a small car
 def draw_knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], arm: Anchor | None) -> None:
     """Draw hub and arms on the carrier; the shape of the wheel includes the brake disc.
 
-    `joints`: those of the carrier, from the lowest to the highest; `arm`: outer end of the rod that steers it.
+    `joints`: joints of the carrier, from the lowest to the highest; `arm`: outer end of the rod that steers it.
     """
     axle = getattr(looks.car, side.axle)
     centre = side.point(axle.wheel.centre)

@@ -42,7 +42,7 @@ def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Position
     return np.vstack(positions), np.array(triangles)
 
 
-def interpolated(table: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
+def interpolate_columns(table: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
     """The other columns of a table at values of its first one, by cubics without overshoot, shape (n, columns - 1).
 
     `table`: rows, ascending in the first column; `at`: values of the first column, shape (n,).

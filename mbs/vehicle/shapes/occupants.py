@@ -21,11 +21,11 @@ HAND_HEIGHT, HAND_OFFSET = (
     STEERING_WHEEL_RADIUS * math.sin(math.radians(20.0)),
     STEERING_WHEEL_RADIUS * math.cos(math.radians(20.0)),
 )
-LEAST_PERSON_MASS = 30.0  # kg: a lighter payload is drawn as luggage
+MIN_PERSON_MASS = 30.0  # kg: a lighter payload is drawn as luggage
 
 
 def driver_place(car: CarContent) -> Point:
-    """Centre of mass of the driver: that of its payload, else opposite to the passenger, else estimated."""
+    """Centre of mass of the driver: of its payload, otherwise opposite to the passenger, otherwise estimated."""
     if "driver" in car.payload:
         return car.payload["driver"].point
     if "passenger" in car.payload:
@@ -48,7 +48,7 @@ def occupant_shapes(looks: Looks) -> None:
     for name, payload in car.payload.items():
         if name == "driver" or payload.mass <= 0.0:
             continue
-        if "luggage" in name or payload.mass < LEAST_PERSON_MASS:
+        if "luggage" in name or payload.mass < MIN_PERSON_MASS:
             size = 0.25 + 0.004 * payload.mass
             looks.shape(looks.chassis, "box", at=payload.point, size=(0.8 * size, 1.6 * size, size), **LUGGAGE_PAINT)
         else:
@@ -56,7 +56,7 @@ def occupant_shapes(looks: Looks) -> None:
 
 
 def _draw_person(looks: Looks, centre_of_mass: Point, driver: bool) -> None:
-    """Draw a sitting person with the seat. `centre_of_mass`: that of the person."""
+    """Draw a sitting person with the seat. `centre_of_mass`: centre of mass of the person, m."""
     chassis, (x, y, z), floor = looks.chassis, centre_of_mass, SILL_HEIGHT * looks.car.front.tyre.radius
 
     def draw_limb(radius: float, paint: Paint, *offsets: tuple[float, float, float]) -> None:

@@ -12,7 +12,7 @@ from mbs.vehicle.side import Point
 from mbs.vehicle.steering.pitman_arm import LINK, PitmanArm
 
 
-def rack_of(b: CarBuilder, car: CarContent) -> Owner:
+def tie_rod_owner(b: CarBuilder, car: CarContent) -> Owner:
     """Owner of the shapes at the inner ends of the tie rods: the rack, or the centre link of a Pitman arm."""
     inner, frame = car.rack_end, b.chassis.frame
     if isinstance(car.steering, PitmanArm):

@@ -14,7 +14,7 @@ FLOOR_RANGE = 0.05  # m above the lowest joint: joints in this range carry the f
 def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None:
     """Draw the tubes, unless they are drawn as beams, and the floor.
 
-    `frame`: that of the tables of the car; `bends`: whether the chassis is a flexible body, whose beams are
+    `frame`: frame of the tables of the car; `bends`: whether the chassis is a flexible body, whose beams are
     drawn.
     """
     joints = frame.joint_places()

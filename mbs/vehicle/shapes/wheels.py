@@ -16,7 +16,7 @@ def rim_radius(tyre: Tyre) -> float:
 
 
 def tyre_width(tyre: Tyre) -> float:
-    """Width by the nominal load, m, like that of usual tyre sizes; for pictures only."""
+    """Width by the nominal load, m, as of usual tyre sizes; for pictures only."""
     return float(min(REFERENCE_WIDTH * (tyre.nominal_load / REFERENCE_LOAD) ** WIDTH_EXPONENT, 1.2 * tyre.radius))
 
 

@@ -35,10 +35,11 @@ from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, demand_outputs
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
-LARGEST_HAND_TORQUE = 100.0  # N m, of the driver
-LARGEST_ACTUATOR_FORCE = 3e4  # N, on the rack
+MAX_HAND_TORQUE = 100.0  # N m, of the driver
+MAX_ACTUATOR_FORCE = 3e4  # N, on the rack
 RACK_STICK = 5e6, 1e4  # N/m, N s/m of a sticking rack: 300 N displace it by 0.06 mm
-STOP_STIFFNESS, STOP_LOSS = 2e6, 1.0  # N/m, s/m of the stops of the rack
+STOP_STIFFNESS = 2e6  # N/m, of the stops of the rack
+STOP_LOSS = 1.0  # s/m, of the stops of the rack
 STOP_LENGTH = 1.0  # m, of the line along which the stops of the rack act, as drawn
 RACK_RADIUS = 0.013  # m, for the inertia of the rack
 
@@ -56,7 +57,7 @@ class Column(RackSection, of=TorsionBar):
     rack_mass: PartMass
     """Mass of the rack."""
     rack_friction: RackFriction = 0.0
-    """Friction of the rack in its housing, with that of the gear."""
+    """Friction of the rack in its housing and in the gear."""
     wheel_inertia: SteeringWheelInertia
     """Moment of inertia of the steering wheel about its axis."""
     friction: SteeringFriction = 0.0
@@ -92,8 +93,8 @@ class Column(RackSection, of=TorsionBar):
         demand = angle_demand(m, self.wheel_angle_max)
         torque = m.input(
             "steering_torque",
-            min=-LARGEST_HAND_TORQUE,
-            max=LARGEST_HAND_TORQUE,
+            min=-MAX_HAND_TORQUE,
+            max=MAX_HAND_TORQUE,
             unit="N.m",
             description="torque of the driver's hands where steering.by_torque is 1, positive to the left",
         )
@@ -105,9 +106,7 @@ class Column(RackSection, of=TorsionBar):
         self._add_torsion_bar(b, wheel, pinion)
         if b.ports.steering is not None:
             text = "force of an actuator on the rack, positive to the left"
-            force = new_port(
-                b, "steering_rack_actuator_force", -LARGEST_ACTUATOR_FORCE, LARGEST_ACTUATOR_FORCE, "N", text
-            )
+            force = new_port(b, "steering_rack_actuator_force", -MAX_ACTUATOR_FORCE, MAX_ACTUATOR_FORCE, "N", text)
             m.add(InputForce(force.index, (per_radian,)).record("port rack", (pinion.affine,)))
         racks: list[Body] = []
 

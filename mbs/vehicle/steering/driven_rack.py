@@ -13,7 +13,8 @@ from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
 
 def by_port(b: CarBuilder, limit: float, text: str) -> Guide:
-    """Add a port for the travel of the rack; return the guide, m. `limit`: to each side, m; `text`: description."""
+    """Add a port for the travel of the rack; return the guide, m. `limit`: largest travel to each side, m; `text`:
+    description."""
     port = new_port(b, "steering_rack_demand", -limit, limit, "m", text)
     return b.m.guide_input("rack", input=port, frequency=b.ports.rack_frequency, unit="m")
 

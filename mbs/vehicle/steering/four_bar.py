@@ -19,11 +19,13 @@ class FourBar:
     """A linkage as drawn."""
 
     pivot: complex
+    """Joint of the Pitman arm and the chassis, m."""
     joint: complex
-    """`pivot`, `joint`: of the Pitman arm with the chassis and with the link, m."""
+    """Joint of the Pitman arm and the link, m."""
     idler_pivot: complex
+    """Joint of the idler arm and the chassis, m."""
     idler_joint: complex
-    """`idler_pivot`, `idler_joint`: of the idler arm with the chassis and with the link, m."""
+    """Joint of the idler arm and the link, m."""
 
     def turned(self, phi: Array) -> tuple[Array, Array, Array]:
         """Joint of the arm and rotation of the link at angles of the arm.
@@ -53,7 +55,7 @@ class FourBar:
     def lever(self, phi: Array) -> Array:
         """Cosine of the angle of the arm from straight ahead or back, positive as drawn, shape (n,).
 
-        `phi`: in rad, shape (n,).
+        `phi`: angle of the Pitman arm, rad, shape (n,).
         """
         arm = self.joint - self.pivot
         return np.asarray(np.copysign(1.0, arm.real) * np.real(arm * np.exp(1j * phi)) / abs(arm))
@@ -61,7 +63,7 @@ class FourBar:
     def transmission(self, phi: Array) -> Array:
         """Sine of the angle between link and idler arm, positive as drawn, shape (n,): 0 at a dead point, NaN beyond.
 
-        `phi`: in rad, shape (n,).
+        `phi`: angle of the Pitman arm, rad, shape (n,).
         """
         joint, turn, _ = self.turned(phi)
         link = (self.idler_joint - self.joint) * np.exp(1j * turn)
@@ -72,7 +74,7 @@ class FourBar:
     def carried(self, point: complex, phi: Array) -> tuple[Array, Array]:
         """Displacement (n,) of a point of the link, m, and its derivative by the angle of the arm, both complex.
 
-        `point`: as drawn, m; `phi`: in rad, shape (n,).
+        `point`: position as drawn, m; `phi`: angle of the Pitman arm, rad, shape (n,).
         """
         joint, turn, rate = self.turned(phi)
         arm = (point - self.joint) * np.exp(1j * turn)

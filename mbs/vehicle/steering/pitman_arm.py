@@ -32,9 +32,10 @@ from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import WHEEL_SPEED, WHEEL_TORQUE, demand_outputs, tie_ratio
 from mbs.vehicle.steering.steering_section import SteeringSection
 
-LEAST_ARM, LEAST_LINK = 0.03, 0.1  # m
-LEAST_SINE = math.sin(math.radians(10.0))  # of the angle to a dead point
-LEAST_AXIS_COSINE = math.cos(math.radians(60.0))  # of the angle of the axes from upright
+MIN_ARM = 0.03  # m
+MIN_LINK = 0.1  # m
+MIN_SINE = math.sin(math.radians(10.0))  # of the angle to a dead point
+MIN_AXIS_COSINE = math.cos(math.radians(60.0))  # of the angle of the axes from upright
 SPACING = 0.01  # rad, between rows of the tables: displacements are accurate to 1e-11 m
 LINK = "steering_link_x", "steering_link_y", "steering_link_angle"
 """Outputs of the pose of the centre link."""
@@ -44,7 +45,7 @@ class PitmanArm(SteeringSection):
     """Steering box whose Pitman arm moves a centre link, which an idler arm guides and the tie rods hang on.
 
     Both arms turn about parallel axes. The inner ends of the tie rods are fixed in the link, each in its place as
-    drawn. Arms and link have no mass of their own: it belongs to the chassis, as that of a rack that follows the
+    drawn. Arms and link have no mass of their own: it belongs to the chassis, as with a rack that follows the
     steering wheel.
     """
 
@@ -58,12 +59,12 @@ class PitmanArm(SteeringSection):
     arm_joint: Point
     """Joint of the Pitman arm and the centre link."""
     idler_pivot: Point | None = None
-    """Point of the axis of the idler arm; by default the mirror image of that of the Pitman arm."""
+    """Point of the axis of the idler arm; by default the mirror image of arm_pivot."""
     idler_joint: Point | None = None
-    """Joint of the idler arm and the centre link; by default the mirror image of that of the Pitman arm."""
+    """Joint of the idler arm and the centre link; by default the mirror image of arm_joint."""
     arm_axis_top: Point | None = None
-    """Another point of the axis of the Pitman arm, above arm_pivot, where the axis is not upright; that of the idler
-    arm is parallel to it."""
+    """Another point of the axis of the Pitman arm, above arm_pivot, if the axis is not upright; the axis of the
+    idler arm is parallel to it."""
     ratio: SteeringBox
     """Angle of the steering wheel per angle of the Pitman arm."""
     arm_angle_max: ArmAngle
@@ -77,7 +78,7 @@ class PitmanArm(SteeringSection):
 
     def faults(self) -> Iterator[str]:
         """Faults of an inclined axis, of short arms or links, and of a dead point before full lock."""
-        if not self.axis[2] >= LEAST_AXIS_COSINE * math.hypot(*self.axis) > 0.0:
+        if not self.axis[2] >= MIN_AXIS_COSINE * math.hypot(*self.axis) > 0.0:
             yield (
                 f"{self.key('arm_axis_top')} is {list(self.arm_axis_top or ())} and {self.key('arm_pivot')} "
                 f"{list(self.arm_pivot)}; the first must be above the second, 60 deg or less from upright."
@@ -85,12 +86,12 @@ class PitmanArm(SteeringSection):
             return
         bar = self.four_bar
         for name, a, b, least in (
-            ("arm_joint", bar.pivot, bar.joint, LEAST_ARM),
-            ("idler_joint", bar.idler_pivot, bar.idler_joint, LEAST_ARM),
-            ("idler_joint", bar.joint, bar.idler_joint, LEAST_LINK),
+            ("arm_joint", bar.pivot, bar.joint, MIN_ARM),
+            ("idler_joint", bar.idler_pivot, bar.idler_joint, MIN_ARM),
+            ("idler_joint", bar.joint, bar.idler_joint, MIN_LINK),
         ):
             if not abs(b - a) >= least:
-                other_name = "arm_joint" if least == LEAST_LINK else name.replace("joint", "pivot")
+                other_name = "arm_joint" if least == MIN_LINK else name.replace("joint", "pivot")
                 yield (
                     f"{self.key(name)} is {abs(b - a):.3g} m from {self.key(other_name)} across the axes; it must be "
                     f"{least:g} m or more."
@@ -102,7 +103,7 @@ class PitmanArm(SteeringSection):
                 (bar.lever(phi), "the arm points aside, where it moves the link to the side no more"),
                 (bar.transmission(phi), "link and idler arm are in one line, in which they lock"),
             ):
-                locking = ~(margin >= LEAST_SINE)
+                locking = ~(margin >= MIN_SINE)
                 if locking.any():
                     yield (
                         f"{self.key('arm_angle_max')} is {self.arm_angle_max:g} rad, but at "
@@ -139,7 +140,8 @@ class PitmanArm(SteeringSection):
         return self.idler_pivot or (x, -y, z), self.idler_joint or (u, -v, w)
 
     def in_plane(self, point: Coordinates) -> complex:
-        """Projection of a point on the plane of the linkage, m; the real part is ahead. `point`: as drawn, m."""
+        """Projection of a point on the plane of the linkage, m; the real part is ahead. `point`: position as drawn,
+        m."""
         ahead, left = self.plane
         return complex(ahead @ np.array(point), left @ np.array(point))
 
@@ -172,7 +174,7 @@ class PitmanArm(SteeringSection):
         return way * math.copysign(1.0, (self.four_bar.joint - self.four_bar.pivot).real)
 
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
-        """Points of the link, moved in its plane by tables over the angle of the arm."""
+        """Points of the link, moved in its plane by tables against the angle of the arm."""
 
         angles, turn = self._angles, self.turn(way)
 
@@ -216,7 +218,7 @@ class PitmanArm(SteeringSection):
         sense_guide = m.sense_guide
 
         def outputs() -> None:
-            text = "angle of the Pitman arm, positive where it steers to the left"
+            text = "angle of the Pitman arm, positive if it steers to the left"
             sense_guide("steering_arm_angle", arm, description=text)
             text = "angle of the steering wheel, positive to the left"
             sense_guide("steering_wheel_angle", arm, scale=self.ratio, description=text)
@@ -226,7 +228,7 @@ class PitmanArm(SteeringSection):
             per_arm = 1.0 / self.ratio
             sense_guide("steering_wheel_torque", arm, "force", scale=per_arm, unit="N.m", description=WHEEL_TORQUE)
             sense_guide("steering_wheel_speed", arm, order=1, scale=self.ratio, unit="rad/s", description=WHEEL_SPEED)
-            text = "torque of the tie rods on the Pitman arm, positive where it would steer to the left"
+            text = "torque of the tie rods on the Pitman arm, positive if it would steer to the left"
             sense_guide("steering_arm_torque", arm, "force", joints=_rods(m), scale=-1.0, description=text)
             demand_outputs(m, demand, arm, self.ratio)
             if self.friction == 0.0:  # with friction the ratio is in an equation, which has no parameters

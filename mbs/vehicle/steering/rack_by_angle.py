@@ -19,7 +19,7 @@ from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import rack_outputs, rack_torque_outputs, tie_ratio
 
 
-def _not_required(schema: dict[str, Any]) -> None:
+def _make_optional(schema: dict[str, Any]) -> None:
     """Make `rack_per_turn` optional in the JSON schema, as a table can give it."""
     schema["required"].remove("rack_per_turn")
 
@@ -27,7 +27,7 @@ def _not_required(schema: dict[str, Any]) -> None:
 class RackByAngle(RackSection):
     """Rack that follows the angle of the steering wheel."""
 
-    model_config = ConfigDict(json_schema_extra=_not_required)
+    model_config = ConfigDict(json_schema_extra=_make_optional)
 
     rack_port: ClassVar[str] = "rack_position"
 

@@ -23,7 +23,7 @@ class RackTable:
     It is a monotone cubic between the rows, with angles scaled so that its slope straight ahead is the travel per turn
     of the file or of the parameter.
 
-    `rows`: angle, deg, and travel, mm, of one side from (0, 0) on, without faults; `per_radian`: travel per radian
+    `rows`: angle, deg, and travel, mm, of one side from (0, 0), without faults; `per_radian`: travel per radian
     straight ahead, m/rad.
     """
 
@@ -35,7 +35,7 @@ class RackTable:
         self.slope = float(self._curve(0.0, 1))
         """Travel per radian straight ahead in the table, m/rad."""
         self.factor = per_radian / self.slope
-        """Angle in the table over the angle of the steering wheel."""
+        """Angle in the table divided by the angle of the steering wheel."""
 
     def angle(self, travel: float) -> float:
         """Angle in the table at a travel of the rack, rad; linear beyond the last row. `travel`: m."""
@@ -54,7 +54,8 @@ class RackTable:
 
 
 def table_faults(key: str, rows: Rows, travel_key: str, travel: float) -> Iterator[str]:
-    """Yield a sentence for a fault of a table. `travel_key`, `travel`: of the travel at full lock, m."""
+    """Yield a sentence for a fault of a table. `travel_key`, `travel`: key path and value of the travel at full lock,
+    m."""
     if len(rows) < 2:
         yield f"{key} has {len(rows)} rows; it must have two or more."
         return

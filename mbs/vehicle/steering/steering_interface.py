@@ -21,4 +21,4 @@ class Steered:
     torque_outputs: Callable[[], None]
     """Adds the outputs of speed, force and torque, after all other outputs."""
     travel: Callable[[], Coordinate] | None = None
-    """Adds the travel of the rack, m, as a coordinate in place of its ends; None: there is none."""
+    """Adds the travel of the rack, m, as a coordinate instead of its ends; None: there is none."""

@@ -1,4 +1,4 @@
-"""Outputs of steerings: those of every steering, and those of a rack."""
+"""Outputs of steerings: outputs of every steering, and further ones of a rack."""
 
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
@@ -18,7 +18,7 @@ TORQUE_OUTPUT = "steering_wheel_torque"
 def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
     """Add the demand as used, and the part of both demands beyond full lock.
 
-    `demand`: from `angle_demand`; `guide`: follows the demand; `scale`: radians of the steering wheel per unit of
+    `demand`: result of `angle_demand`; `guide`: follows the demand; `scale`: radians of the steering wheel per unit of
     the guide.
     """
     m.sense_input(f"used.{demand.name}", demand, description=f"{demand.name} as used")
@@ -58,7 +58,7 @@ def rack_torque_outputs(m: Model, rack: Guide, held: Guide, per_radian: float, d
 def _tie_rods(m: Model, guide: Guide) -> list[Joint]:
     """Rods with an end moved by a guide, or the drive of the rack if it is a coordinate.
 
-    `m`: with the suspension.
+    `m`: model with the suspension.
     """
     return [
         joint

@@ -18,7 +18,7 @@ class SteeringSection(Section):
     motion: ClassVar[str] = "rack_travel"
     """Name of the motion among the quantities of kinematic curves."""
     without_travel: ClassVar[str] = ""
-    """Why it has no travel for tables over that of a rack; empty if it has."""
+    """Why tables against the travel of a rack are impossible; empty if they are possible."""
 
     rack_port: ClassVar[str] = ""
     """Kind of the port by which another program can move the rack; empty if there is none."""
@@ -52,7 +52,7 @@ class SteeringSection(Section):
     def signed(self, way: float) -> float:
         """Sign of the motion that steers to the left.
 
-        `way`: 1 if a rack that moves to the left steers to the left, else -1.
+        `way`: 1 if a rack that moves to the left steers to the left, otherwise -1.
         """
         return way
 
@@ -60,7 +60,7 @@ class SteeringSection(Section):
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
         """Owner of the inner ends of the tie rods, moved by a guide.
 
-        `guide`: m or rad; `way`: as in `signed`.
+        `guide`: guide, m or rad; `way`: as in `signed`.
         """
 
     @property

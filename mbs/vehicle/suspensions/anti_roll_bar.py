@@ -1,6 +1,7 @@
 """Anti-roll bar of an axle: a torsion spring between two levers on the chassis, drop links to the suspension.
 
-Levers and links have no mass of their own; that of the bar is in the chassis, that of the links in what they hang on.
+Levers and links have no mass of their own: the chassis includes the bar, and the parts that hold the links include
+them.
 """
 
 import math
@@ -10,13 +11,13 @@ from mbs.elements.record import ElementRecord
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
-from mbs.vehicle.geometry import LEAST_LENGTH
+from mbs.vehicle.geometry import MIN_LENGTH
 from mbs.vehicle.quantities import Factor, Point, TorsionalStiffness
 from mbs.vehicle.section import Section
 
 LINK = "anti-roll link "
 """Prefix of the names of drop links and of the angles of their levers, before the name of the wheel."""
-LEAST_SINE = 0.2  # of the angle between lever and link, seen along the bar
+MIN_SINE = 0.2  # of the angle between lever and link, seen along the bar
 
 
 class AntiRollBarPoints(Section):
@@ -34,15 +35,15 @@ class AntiRollBarPoints(Section):
         lever = self.lever_end[0] - self.pivot[0], self.lever_end[2] - self.pivot[2]  # seen along the bar
         link = self.link_end[0] - self.lever_end[0], self.link_end[2] - self.lever_end[2]
         length, rod = math.hypot(*lever), math.dist(self.link_end, self.lever_end)
-        if length < LEAST_LENGTH:
+        if length < MIN_LENGTH:
             yield (
                 f"{self.key('lever_end')} lies {length:.3g} m from the axis of the bar; "
-                f"a lever is {LEAST_LENGTH:g} m long or more."
+                f"a lever is {MIN_LENGTH:g} m long or more."
             )
-        elif rod < LEAST_LENGTH or abs(lever[0] * link[1] - lever[1] * link[0]) < LEAST_SINE * length * rod:
+        elif rod < MIN_LENGTH or abs(lever[0] * link[1] - lever[1] * link[0]) < MIN_SINE * length * rod:
             yield (
                 f"{self.key('link_end')} is where the drop link cannot turn its lever; "
-                f"the link must be {LEAST_LENGTH:g} m long or more and stand across the lever."
+                f"the link must be {MIN_LENGTH:g} m long or more and stand across the lever."
             )
 
 

@@ -28,15 +28,16 @@ from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK
 
 STEER_ANGLES = np.linspace(-0.06, 0.06, 7)  # rad, in the table
 FORWARD = (1.0, 0.0, 0.0)
-LEAST_HEIGHT, LARGEST_HEIGHT = 0.05, 1.5  # m, of the longitudinal axis
-BASE_SHARE = 1e-3  # mass of the base body over that of the carrier
+MIN_HEIGHT = 0.05  # m, of the longitudinal axis
+MAX_HEIGHT = 1.5  # m, of the longitudinal axis
+BASE_FRACTION = 1e-3  # mass of the base body, relative to the carrier
 
 
 class Compliance(Section):
     """Steer angle of the left wheel, positive to the left, per force and moment of the road; the right one mirrors it.
 
-    Camber and ways are those of a lean about an axis along the car, and of a slide along it. That axis is the way per
-    camber over the contact, or under it where the camber is positive.
+    Camber and ways are modelled as a lean about an axis along the car and a slide along it. That axis is the way per
+    camber above the contact, or below it if the camber is positive.
 
     Of an axle that steers the moment alone is given: it turns the wheel as the rack does, against a spring at the end
     of the rack, so that forces turn it by their levers about the steering axis.
@@ -51,9 +52,9 @@ class Compliance(Section):
     camber_per_lateral_force: SteerPerForce = 0.0
     """Camber angle, positive with the top outwards, per lateral force, positive to the left."""
     lateral_per_lateral_force: DisplacementPerForce = 0.0
-    """Displacement of the contact to the left per lateral force, besides that of the turn; with a camber only."""
+    """Displacement of the contact to the left per lateral force, without the turn; with a camber only."""
     longitudinal_per_longitudinal_force: DisplacementPerForce = 0.0
-    """Displacement of the wheel forward per longitudinal force, besides that of the turn."""
+    """Displacement of the wheel forward per longitudinal force, without the turn."""
     loss_time: LossTime = 0.001
     """Damping over stiffness."""
 
@@ -74,26 +75,26 @@ class Compliance(Section):
     def faults(self) -> Iterator[str]:
         """Yield a fault of the height of the longitudinal axis."""
         camber, lateral = self.camber_per_lateral_force, self.lateral_per_lateral_force
-        if not LEAST_HEIGHT * abs(camber) <= lateral <= LARGEST_HEIGHT * abs(camber):
+        if not MIN_HEIGHT * abs(camber) <= lateral <= MAX_HEIGHT * abs(camber):
             yield (
                 f"{self.key('lateral_per_lateral_force')} is {lateral:g} m/N and "
                 f"{self.key('camber_per_lateral_force')} {camber:g} rad/N; their ratio is the height of "
-                f"the axis about which the wheel leans, which must be {LEAST_HEIGHT:g} to {LARGEST_HEIGHT:g} m over "
+                f"the axis about which the wheel leans, which must be {MIN_HEIGHT:g} to {MAX_HEIGHT:g} m over "
                 f"or under the contact."
             )
 
     def base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
-        """Add the base body of the table of a wheel; return it with the share of the carrier's mass on the table.
+        """Add the base body of the table of a wheel; return it with the fraction of the carrier's mass on the table.
 
-        `centre`: of the left wheel, m.
+        `centre`: centre of the left wheel, m.
         """
         chassis, slide = b.chassis.frame, self.longitudinal_per_longitudinal_force
         lean, lateral = -self.camber_per_lateral_force, self.lateral_per_lateral_force
         if not (lean or slide):
             return chassis, 1.0
         w = side.wheel
-        inertia = [BASE_SHARE * value for value in part.inertia]
-        base = b.m.body(f"compliance {w}", mass=BASE_SHARE * part.mass, com=side.point(part.com), inertia=inertia)
+        inertia = [BASE_FRACTION * value for value in part.inertia]
+        base = b.m.body(f"compliance {w}", mass=BASE_FRACTION * part.mass, com=side.point(part.com), inertia=inertia)
         point = side.point((centre[0], centre[1], lateral / lean if lean else centre[2]))
         for name, end in (("rear", point), ("front", np.add(point, FORWARD))):  # without redundant equations
             b.m.point_on_line(f"compliance axis {w} {name}", (base, end), (chassis, point), axis=FORWARD)
@@ -109,7 +110,7 @@ class Compliance(Section):
                 b.m.spring_damper(spring, *ends, stiffness=stiffness, damping=self.loss_time * stiffness)
             else:
                 b.m.distance(f"rod against {name} {w}", *ends)
-        return base, 1.0 - BASE_SHARE
+        return base, 1.0 - BASE_FRACTION
 
     def rack_end(self, b: CarBuilder, side: Side, rack: Coordinate, steer_per_rack: float) -> Coordinate:
         """Add the travel of the end of the rack at a wheel, on a spring.
@@ -130,12 +131,13 @@ class Compliance(Section):
         return turn
 
     def turned(self, curves: WheelCurves, side: Side) -> WheelCurves:
-        """Curves over travel and rotation from curves over travel alone, with one point of the second variable."""
+        """Curves against travel and rotation from curves against travel alone, with one point of the second
+        variable."""
         c, s = np.cos(STEER_ANGLES), np.sin(STEER_ANGLES)
         steer_rotations = np.zeros((len(STEER_ANGLES), 3, 3))
         steer_rotations[:, 0, 0] = steer_rotations[:, 1, 1] = c
         steer_rotations[:, 0, 1], steer_rotations[:, 1, 0], steer_rotations[:, 2, 2] = -s, s, 1.0
-        # the right wheel is mirrored: y of the shift is that of the left one, x has the opposite sign
+        # the right wheel is mirrored: y of the shift is the same, x has the opposite sign
         mirror = np.array([side.sign, 1.0, 0.0])
         shift = mirror * [self.per_longitudinal_force, self.per_lateral_force, 0.0] / self.per_moment
         centres = curves.centres + STEER_ANGLES[:, None] * shift

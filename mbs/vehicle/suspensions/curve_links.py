@@ -1,7 +1,7 @@
 """Arms and rods of an axle given by curves: bodies that rotate so that their outer ends follow points of the carrier.
 
 With half of the mass m of a uniform rod in the carrier the weight would be right, but the kinetic energy would be that
-of m/2 at the end of the rod in place of m/3.
+of m/2 at the end of the rod instead of m/3.
 """
 
 from collections.abc import Iterator, Sequence
@@ -20,7 +20,7 @@ from mbs.vehicle.suspensions.curve_poses import WheelCurves
 
 Array = NDArray[np.float64]
 
-LEAST_LENGTH = 0.05  # m
+MIN_LENGTH = 0.05  # m
 
 
 class LinkPoints(Section):
@@ -37,14 +37,14 @@ class LinkPoints(Section):
         """Point about which the link rotates, m: its inner end, or the point of its axis nearest to its outer end."""
         inner = np.array(self.inner)
         axis = np.subtract(self.second_inner or self.inner, inner)
-        return np.asarray(inner + axis * (axis @ (np.array(self.outer) - inner)) / max(axis @ axis, LEAST_LENGTH**2))
+        return np.asarray(inner + axis * (axis @ (np.array(self.outer) - inner)) / max(axis @ axis, MIN_LENGTH**2))
 
     def faults(self) -> Iterator[str]:
         """Yield a fault of a link that is too short."""
         length = float(np.linalg.norm(np.array(self.outer) - self.foot()))
-        if length < LEAST_LENGTH:
+        if length < MIN_LENGTH:
             reference = "the axis of both inner ends" if self.second_inner else self.key("inner")
-            yield f"{self.key('outer')} is {length:.3g} m from {reference}; it must be {LEAST_LENGTH:g} m or more."
+            yield f"{self.key('outer')} is {length:.3g} m from {reference}; it must be {MIN_LENGTH:g} m or more."
 
 
 class CurveLink(Part):

@@ -37,7 +37,7 @@ class WheelCurves:
     """Columns of the table for lengths of spring and damper, m, and the angle of the lever, rad, shape (n, k)."""
 
 
-def axes_of(steer: Array, inclination: Array) -> Array:
+def wheel_axes(steer: Array, inclination: Array) -> Array:
     """Unit vectors of wheels as columns (..., 3, 3): forward and level, axis to the left, up in the wheel plane.
 
     `steer`, `inclination`: rad, positive to the left and with the top to the right.
@@ -51,7 +51,7 @@ def axes_of(steer: Array, inclination: Array) -> Array:
 
 
 def pitch_rotation(pitch: Array) -> Array:
-    """Rotation of a carrier about the wheel axis in the axes of `axes_of`, top forward positive, (..., 3, 3)."""
+    """Rotation of a carrier about the wheel axis in the axes of `wheel_axes`, top forward positive, (..., 3, 3)."""
     matrices = np.zeros((*pitch.shape, 3, 3))
     matrices[..., 1, 1] = 1.0
     matrices[..., 0, 0] = matrices[..., 2, 2] = np.cos(pitch)
@@ -60,9 +60,9 @@ def pitch_rotation(pitch: Array) -> Array:
 
 
 def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
-    """Curves of a wheel; those of the right wheel are mirrored if the table has no columns for it.
+    """Curves of a wheel; for the right wheel they are mirrored if the table has no columns for it.
 
-    Angles and positions are relative to those of the table at the drawing.
+    Angles and positions are relative to the table's at the drawing.
 
     `hub`: the left wheel as drawn.
     """
@@ -108,9 +108,9 @@ def _centres_and_rotations(table: CurveTable, name: str, sign: float, hub: Hub) 
         caster = column_of("caster_angle")
         assert caster is not None, "checked by the reader"
         pitch = -np.broadcast_to(caster[:, k : k + 1], caster.shape) if table.second_name == RACK else -caster
-    axes = axes_of(steer, inclination) @ pitch_rotation(pitch - pitch[i, k])
+    axes = wheel_axes(steer, inclination) @ pitch_rotation(pitch - pitch[i, k])
     rotations = axes @ axes[i, k].T
-    up = axes_of(steer, inclination)[..., 2]
+    up = wheel_axes(steer, inclination)[..., 2]
     radius = hub.centre[2] / up[i, k, 2]
     contact = -radius * (up - up[i, k])  # displacement of the contact centre relative to the wheel centre
     drawn = np.array([hub.centre[0], sign * hub.centre[1], hub.centre[2]])

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from ali3.tables import TextTable
 from mbs.model.smooth_table import MIN_POINTS, SPACING_TOLERANCE
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 
 Array = NDArray[np.float64]
 
@@ -50,18 +50,19 @@ REQUIRED_GROUPS = (
 )
 """Groups of columns of which one is required; the first one is used."""
 OPTIONAL_COLUMNS = ("spring_length", "damper_length", "anti_roll_bar_angle")
-LARGEST_ANGLE = 1.6  # rad
-LARGEST_RATES = {"m": 1.0, "rad": 10.0}
+MAX_ANGLE = 1.6  # rad
+MAX_RATES = {"m": 1.0, "rad": 10.0}
 """Largest change per m of travel, by unit: a larger one is an error in a cell; twice as much for the track."""
-RACK_FACTOR, LEVER_FACTOR = 20.0, 10.0  # on these rates: over the travel of a rack; of springs, dampers and bars
+RACK_FACTOR = 20.0  # on these rates, per travel of a rack
+LEVER_FACTOR = 10.0  # on these rates, of springs, dampers and bars
 POINT_TOLERANCE = 1e-9  # m, of equal points
-MOST_INTERVALS = 200  # of a variable; a table with more is thinned
-LARGEST_SPACINGS = {WHEEL_TRAVEL: 0.0125, RACK: 0.0065, OTHER_TRAVEL: 0.0125}  # m; a coarser table is interpolated
+MAX_INTERVALS = 200  # of a variable; a table with more is thinned
+MAX_SPACINGS = {WHEEL_TRAVEL: 0.0125, RACK: 0.0065, OTHER_TRAVEL: 0.0125}  # m; a coarser table is interpolated
 
 
 @dataclass(frozen=True)
 class CurveTable:
-    """Curves of the left wheel, or of both wheels, over one or two variables."""
+    """Curves of the left wheel, or of both wheels, against one or two variables."""
 
     travel: Array
     """Travel of the left wheel centre, m, positive in bump, shape (n,); equidistant, with 0 among the points."""
@@ -94,13 +95,13 @@ class CurveTable:
 def read_curves(folder: Path, name: str, key: str, size: float) -> CurveTable:
     """Read the table of an axle.
 
-    `key`: key path of the name, for messages; `size`: of the axle, m, the largest change of positions and lengths.
+    `key`: key path of the name, for messages; `size`: size of the axle, m, the largest change of positions and lengths.
 
-    Raises `CarFileError`: there is no such file, or it is not such a table.
+    Raises `CarFileError` if there is no such file, or it is not such a table.
     """
     what = f"{key} ({name})"
     table = TextTable(
-        beside(folder, name, key), CarFileError, what, known=(WHEEL_TRAVEL, f"{WHEEL_TRAVEL}_left"), units=True
+        car_file_path(folder, name, key), CarFileError, what, known=(WHEEL_TRAVEL, f"{WHEEL_TRAVEL}_left"), units=True
     )
     file_columns = dict(zip(table.names, table.values(finite=False).T, strict=True))
     used = [n for n in file_columns if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER_TRAVEL))]
@@ -134,7 +135,7 @@ def _travel(what: str, file_columns: Iterable[str], columns: dict[str, Array]) -
             k = int(np.argmax(different))
             raise CarFileError(
                 f"{what}, row {k + 1} has a {names[0]} of {travel[k]:g} m and a {name} of {values[k]:g} m; both wheels "
-                f"must travel alike, or give {OTHER_TRAVEL} in place of {name}."
+                f"must travel alike, or give {OTHER_TRAVEL} instead of {name}."
             )
     return travel
 
@@ -160,7 +161,7 @@ def _check_sides(what: str, file_columns: Iterable[str], columns: Mapping[str, A
 
 
 def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array:
-    """Convert a column to SI units. Raises `CarFileError`: its unit or its values are not valid."""
+    """Convert a column to SI units. Raises `CarFileError` if its unit or its values are not valid."""
     base = _base(name)
     available = [u for u, (si, _) in UNITS.items() if si == COLUMNS[base]]
     if unit not in available:
@@ -169,19 +170,19 @@ def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array
             f"{' or '.join(available)}."
         )
     si_values = values * UNITS[unit][1]
-    if COLUMNS[base] == "m":  # the origin may be that of a test rig
+    if COLUMNS[base] == "m":  # the origin may belong to a test rig
         if not (change := float(np.ptp(si_values))) <= size:
             raise CarFileError(
                 f"{what}, column {name} changes by {change:g} m from its least to its largest value; it must be less "
                 f"than {size:.3g} m, the way from the middle of the axle on the ground to the wheel centre."
             )
-    elif not (largest := float(np.max(np.abs(si_values), initial=0.0))) <= LARGEST_ANGLE:
-        raise CarFileError(f"{what}, column {name} reaches {largest:g} rad; it must be within {LARGEST_ANGLE:g} rad.")
+    elif not (largest := float(np.max(np.abs(si_values), initial=0.0))) <= MAX_ANGLE:
+        raise CarFileError(f"{what}, column {name} reaches {largest:g} rad; it must be within {MAX_ANGLE:g} rad.")
     return np.asarray(si_values)
 
 
 def _grid(what: str, travel: Array, second: Array | None, second_name: str, columns: Mapping[str, Array]) -> CurveTable:
-    """Make the table over equidistant points from the rows of a file."""
+    """Make the table at equidistant points from the rows of a file."""
     if second is None:
         if len(_distinct_points(travel)) < len(travel):
             raise CarFileError(
@@ -189,9 +190,9 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
                 f"the axle steers, {OTHER_TRAVEL} where its wheels move each other."
             )
         _check_axis(what, WHEEL_TRAVEL, travel)
-        points = _equidistant(travel, LARGEST_SPACINGS[WHEEL_TRAVEL])
+        points = _equidistant(travel, MAX_SPACINGS[WHEEL_TRAVEL])
         return CurveTable(
-            points, np.zeros(1), "", {n: _resampled(travel, points, v[:, None], 0) for n, v in columns.items()}
+            points, np.zeros(1), "", {n: _resample(travel, points, v[:, None], 0) for n, v in columns.items()}
         )
     along, across = _distinct_points(travel), _distinct_points(second)
     for name, points in ((WHEEL_TRAVEL, along), (second_name, across)):
@@ -219,16 +220,16 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
     # rows of the two curves through the drawing
     travel_rows, other_rows = order[second_index[order] == k], order[travel_index[order] == i]
     axes, resampled = (
-        (_equidistant(along, LARGEST_SPACINGS[WHEEL_TRAVEL]), _equidistant(across, LARGEST_SPACINGS[second_name])),
+        (_equidistant(along, MAX_SPACINGS[WHEEL_TRAVEL]), _equidistant(across, MAX_SPACINGS[second_name])),
         {},
     )
     for name, values in columns.items():
         if is_cross:
-            changes = _resampled(across, axes[1], values[other_rows][None] - values[travel_rows[i]], 1)
-            resampled[name] = _resampled(along, axes[0], values[travel_rows][:, None], 0) + changes
+            changes = _resample(across, axes[1], values[other_rows][None] - values[travel_rows[i]], 1)
+            resampled[name] = _resample(along, axes[0], values[travel_rows][:, None], 0) + changes
         else:
             grid = values[order].reshape(len(along), len(across))
-            resampled[name] = _resampled(across, axes[1], _resampled(along, axes[0], grid, 0), 1)
+            resampled[name] = _resample(across, axes[1], _resample(along, axes[0], grid, 0), 1)
     return CurveTable(*axes, second_name, resampled)
 
 
@@ -237,7 +238,7 @@ def _check_rates(what: str, table: CurveTable) -> None:
     for axis, (name, points) in enumerate(((WHEEL_TRAVEL, table.travel), (table.second_name, table.second))):
         for column, values in table.columns.items() if len(points) > 1 else ():
             unit, rates = COLUMNS[_base(column)], np.abs(np.diff(values, axis=axis)) / np.diff(points).mean()
-            largest_rate = LARGEST_RATES[unit] * (RACK_FACTOR if name == RACK else 1.0)
+            largest_rate = MAX_RATES[unit] * (RACK_FACTOR if name == RACK else 1.0)
             if _base(column) in OPTIONAL_COLUMNS:
                 largest_rate *= LEVER_FACTOR
             if _base(column) == "track_change":
@@ -268,10 +269,10 @@ def _check_axis(what: str, name: str, points: Array) -> None:
         raise CarFileError(
             f"{what} has {name} from {points[0]:g} to {points[-1]:g} m; 0, the drawing, must lie between them."
         )
-    if min(-points[0], points[-1]) < (points[-1] - points[0]) / MOST_INTERVALS:
+    if min(-points[0], points[-1]) < (points[-1] - points[0]) / MAX_INTERVALS:
         raise CarFileError(
             f"{what} has {name} from {points[0]:g} to {points[-1]:g} m; both ends must be farther from 0 than a "
-            f"{MOST_INTERVALS}th of the range."
+            f"{MAX_INTERVALS}th of the range."
         )
 
 
@@ -285,13 +286,13 @@ def _equidistant(points: Array, largest_spacing: float) -> Array:
     if (
         np.ptp(steps) <= SPACING_TOLERANCE * steps.max()
         and abs(points[zero]) < POINT_TOLERANCE
-        and len(steps) <= MOST_INTERVALS
+        and len(steps) <= MAX_INTERVALS
     ):
         count = math.ceil(steps.max() / largest_spacing)
         step = steps.mean() / count
         return points if count == 1 else step * np.arange(-zero * count, (len(points) - 1 - zero) * count + 1)
     span = points[-1] - points[0]
-    step = max(min(float(steps.min()), largest_spacing), span / MOST_INTERVALS, POINT_TOLERANCE)
+    step = max(min(float(steps.min()), largest_spacing), span / MAX_INTERVALS, POINT_TOLERANCE)
     step = -points[0] / max(1, round(-points[0] / step))
     low, high = round(-points[0] / step), math.floor(points[-1] / step + 1e-9)
     while low + high + 1 < MIN_POINTS or high < 1:
@@ -300,7 +301,7 @@ def _equidistant(points: Array, largest_spacing: float) -> Array:
     return np.asarray(step * np.arange(-low, high + 1), float)
 
 
-def _resampled(points: Array, new_points: Array, values: Array, axis: int) -> Array:
+def _resample(points: Array, new_points: Array, values: Array, axis: int) -> Array:
     """Values interpolated along an axis by a cubic spline."""
     if len(points) == len(new_points) and np.max(np.abs(points - new_points)) < POINT_TOLERANCE:
         return values

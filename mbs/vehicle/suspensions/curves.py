@@ -27,7 +27,7 @@ from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
 from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK, Array, CurveTable, read_curves
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
-LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the origin belongs to the rear axle
+MIN_WHEELBASE = 0.5  # m: a wheel farther behind the origin belongs to the rear axle
 ANGLE_TOLERANCE = 0.1  # largest deviation of the declared angle from the table, relative to the angle
 
 
@@ -35,9 +35,9 @@ class CurvesBodies(Section):
     """Parts of the left side."""
 
     carrier: Part
-    """All that moves with the wheel without turning about its axis: hub carrier, brake, shares of springs."""
+    """All that moves with the wheel without turning about its axis: hub carrier, brake, parts of springs."""
     links: dict[Name, CurveLink] = Field(default_factory=dict)
-    """Arms and rods by name; of one that is not here a share must be in the carrier, the rest in the chassis."""
+    """Arms and rods by name; of one that is not here a part must be in the carrier, the rest in the chassis."""
 
 
 class NoPoints(Section):
@@ -52,19 +52,20 @@ class CurveBar(RollStiffness):
 
 
 class Curves(SuspensionSection):
-    """Suspension by a table of where its wheels stand, in place of links.
+    """Suspension by a table of where its wheels stand, instead of links.
 
     Columns, with units (m, mm, rad or deg) in the headings: `wheel_travel`, positive in bump; of an axle that steers
-    `rack_travel`, positive to the left, of one whose wheels move each other `other_wheel_travel`; `wheel_centre_x` and
-    `wheel_centre_y`, or those of the contact centre, or `wheelbase_change` and `track_change`, both of the contact
-    centres, the latter of both wheels together, twice that of one; `toe_angle` or `steer_angle`; `camber_angle` or
-    `inclination_angle`; `carrier_pitch_angle`, the turn of the carrier about the wheel's axis, positive with the top
-    forward, or `caster_angle`; if there are any `spring_length`, `damper_length`, `anti_roll_bar_angle`. One row for
-    each pair of travels, or of a rack those where one is 0. They are those of the left wheel, which the right one
-    mirrors, or of both with `_left` and `_right` behind the names. A row of both is one place of the axle:
-    `wheel_travel` is that of both wheels, or, where there is `other_wheel_travel`, that of the left wheel, and
-    `other_wheel_travel` that of the right one. All counts from the row of no travel, the drawing, whose toe and camber
-    stand in `alignment`.
+    also `rack_travel`, positive to the left; of an axle whose wheels move each other also `other_wheel_travel`;
+    `wheel_centre_x` and `wheel_centre_y`, or `contact_centre_x` and `contact_centre_y`, or `wheelbase_change` and
+    `track_change`, both of the contact centres, the latter of both wheels together, twice that of one; `toe_angle` or
+    `steer_angle`; `camber_angle` or `inclination_angle`; `carrier_pitch_angle`, the turn of the carrier about the
+    wheel's axis, positive with the top forward, or `caster_angle`; if there are any `spring_length`, `damper_length`,
+    `anti_roll_bar_angle`. One row for each pair of travels; with a rack, pairs of which one travel is 0 suffice.
+
+    The values belong to the left wheel, which the right one mirrors, or to both with `_left` and `_right` behind the
+    names. A row of both is one position of the axle: `wheel_travel` belongs to both wheels, or, with
+    `other_wheel_travel`, to the left wheel and `other_wheel_travel` to the right one. All values count from the row
+    without travel, the drawing, whose toe and camber stand in `alignment`.
     """
 
     kind: Literal["curves"]
@@ -72,7 +73,7 @@ class Curves(SuspensionSection):
     file: str
     """Name of the table (CSV)."""
     spring_length: Length = 0.4
-    """Length of spring and damper as drawn where the table has none; they then change as the wheel travels."""
+    """Length of spring and damper as drawn if the table has none; they then change as the wheel travels."""
     bodies: CurvesBodies
     """Masses and inertias."""
     bar: CurveBar | None = None
@@ -89,7 +90,7 @@ class Curves(SuspensionSection):
 
     def open(self, folder: Path, centre: Point) -> None:
         """Read the table."""
-        ahead = -1.0 if centre[0] < -LEAST_WHEELBASE else 1.0
+        ahead = -1.0 if centre[0] < -MIN_WHEELBASE else 1.0
         self._table = read_curves(folder, self.file, self.key("file"), float(np.hypot(centre[1], centre[2])))
         self._hub = Hub(centre, ahead)
 
@@ -185,7 +186,7 @@ class Curves(SuspensionSection):
                 )
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
-        """Yield a sentence if the declared wheel angle at full lock is not that of the table."""
+        """Yield a sentence if the declared wheel angle at full lock is not the table's."""
         table_angle, declared = self.steered_angle(steering.full), steering.front_wheel_angle_max
         if abs(table_angle - declared) > ANGLE_TOLERANCE * declared:
             yield (
@@ -209,9 +210,9 @@ class Curves(SuspensionSection):
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
-            base, share = b.chassis.frame, 1.0
+            base, fraction = b.chassis.frame, 1.0
             if self.compliance is not None:
-                base, share = self.compliance.base(b, side, self.hub.centre, part)
+                base, fraction = self.compliance.base(b, side, self.hub.centre, part)
             carrier = b.m.tabled_body(
                 f"carrier {w}",
                 base=base,
@@ -219,9 +220,9 @@ class Curves(SuspensionSection):
                 axes=_axes(curves, variables),
                 places=_flat(curves.centres + curves.rotations @ (com - centre), variables),
                 rotations=_flat(curves.rotations, variables),
-                mass=share * part.mass,
+                mass=fraction * part.mass,
                 com=com,
-                inertia=[share * value for value in part.inertia],
+                inertia=[fraction * value for value in part.inertia],
             )
             for name, link in self.bodies.links.items():
                 link.build(b, side, name, centre, rigid, variables if self.table.second_name else [travel])
@@ -283,5 +284,5 @@ def _axes(curves: WheelCurves, over: Sequence[Coordinate]) -> list[Array]:
 
 
 def _flat(values: Array, over: Sequence[Coordinate]) -> Array:
-    """Values of the table over one or two variables."""
+    """Values of the table against one or two variables."""
     return values if len(over) == 2 else values[:, 0]

@@ -32,7 +32,7 @@ class DoubleWishbonePoints(Section):
     upper_ball_joint: Point
     """Ball joint of the upper wishbone and the upright."""
     tie_rod_inner: Point
-    """Inner end of the tie rod: on the rack where the axle steers, else on the chassis."""
+    """Inner end of the tie rod: on the rack if the axle steers, otherwise on the chassis."""
     tie_rod_outer: Point
     """Outer end of the tie rod on the upright."""
     spring_lower: Point
@@ -70,7 +70,7 @@ class SteeringStop(Section, of=EndStops):
     length: Length
     """Distance of the two points below which it acts."""
     stiffness: StopStiffness
-    """Stiffness where the contact begins."""
+    """Stiffness at the start of contact."""
     travel: SmallLength
     """Compression at which metal meets metal."""
     metal_stiffness: MetalStiffness
@@ -96,7 +96,7 @@ class DoubleWishbone(IndependentSuspension):
 
     @property
     def stop_left_out(self) -> str:
-        """Key path of the steering stop if it is missing, else empty."""
+        """Key path of the steering stop if it is missing, otherwise empty."""
         return self.key("steering_stop") if self.steering_stop is None else ""
 
     def faults(self) -> Iterator[str]:

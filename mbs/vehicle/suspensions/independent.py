@@ -14,7 +14,7 @@ from mbs.vehicle.springs import AxleSprings
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
-LARGEST_RATIO = 1.6
+MAX_RATIO = 1.6
 """Accepted ratio of the declared and the estimated wheel angle: the estimate neglects the angle of the tie rods and the
 inclination of the steering axis."""
 
@@ -43,7 +43,7 @@ class IndependentSuspension(SuspensionSection):
         key, travel = steering.lateral_travel
         length = abs(self.rod_point("outer")[0] - centre[0])
         estimate = math.asin(min(1.0, travel / max(length, 1e-3)))
-        if not estimate / LARGEST_RATIO <= angle <= estimate * LARGEST_RATIO:
+        if not estimate / MAX_RATIO <= angle <= estimate * MAX_RATIO:
             yield (
                 f"{angle_key} is {angle:g} rad, but {key}, {travel:.3g} m to the side, on a steering arm {length:.3g} "
                 f"m long gives about {estimate:.2g} rad."

@@ -20,7 +20,7 @@ class LowerArmStrutPoints(Section):
     lower_ball_joint: Point
     """Ball joint of arm and upright, lower end of the spring."""
     toe_link_inner: Point
-    """Inner end of the toe link: on the chassis, or on the rack where the axle steers."""
+    """Inner end of the toe link: on the chassis, or on the rack if the axle steers."""
     toe_link_outer: Point
     """Outer end of the toe link on the upright."""
     strut_top: Point

@@ -24,7 +24,7 @@ class MacPhersonPoints(Section):
     strut_top: Point
     """Top mount on the chassis, through which the strut slides and turns; upper end of spring and steering axis."""
     tie_rod_inner: Point
-    """Inner end of the tie rod: on the rack where the axle steers, else on the chassis."""
+    """Inner end of the tie rod: on the rack if the axle steers, otherwise on the chassis."""
     tie_rod_outer: Point
     """Outer end of the tie rod on the upright."""
 

@@ -20,9 +20,9 @@ class SuspensionSection(Section):
     """Names of the points on the wheel carrier."""
 
     def open(self, folder: Path, centre: Point) -> None:
-        """Read the files of the suspension. `centre`: of the left wheel as drawn, m.
+        """Read the files of the suspension. `centre`: centre of the left wheel as drawn, m.
 
-        Raises `CarFileError`: a file is missing or not valid.
+        Raises `CarFileError` if a file is missing or not valid.
         """
 
     def require_links(self) -> None:
@@ -49,7 +49,7 @@ class SuspensionSection(Section):
         return None
 
     def steers_left(self, centre: Point) -> bool:
-        """Whether a rack that moves to the left steers to the left. `centre`: of the left wheel as drawn, m."""
+        """Whether a rack that moves to the left steers to the left. `centre`: centre of the left wheel as drawn, m."""
         rod = self.rod_point("outer")
         assert rod is not None, "an axle that cannot steer is refused with the file"
         return rod[0] > centre[0]
@@ -59,5 +59,5 @@ class SuspensionSection(Section):
         yield from ()
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
-        """Yield a sentence if the wheel angle at full lock is not that of the file. `centre`: of the left wheel, m."""
+        """Yield a sentence if the wheel angle at full lock is not the file's. `centre`: centre of the left wheel, m."""
         yield from ()

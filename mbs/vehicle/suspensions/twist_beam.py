@@ -17,7 +17,7 @@ from typing import Literal
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
-from mbs.vehicle.geometry import LEAST_LENGTH, apart, farther
+from mbs.vehicle.geometry import MIN_LENGTH, apart, farther
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point, TorsionalStiffness
 from mbs.vehicle.section import Section
@@ -51,10 +51,10 @@ class TwistBeamPoints(Section):
             yield from apart(self, lower, upper, f"the {part}", 0.05)
             yield from farther(self, "z", upper, lower, "above", f"the {part} stands on the axle")
             arm = math.hypot(*(getattr(self, lower)[k] - self.pivot[k] for k in (0, 2)))
-            if arm < LEAST_LENGTH:
+            if arm < MIN_LENGTH:
                 yield (
                     f"{self.key(lower)} is {arm:.3g} m from the axis of {self.key('pivot')}; the lever of the {part} "
-                    f"is {LEAST_LENGTH:g} m long or more."
+                    f"is {MIN_LENGTH:g} m long or more."
                 )
 
 

@@ -14,7 +14,7 @@ from mbs.elements.magic_tyre import FACTORS, MagicTyre
 from mbs.elements.tyre_bore import TyreBore
 from mbs.tyre_files import TyreFileError, read_tyre
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
 from mbs.vehicle.tyres.bore_torque import Bore
 from mbs.vehicle.tyres.tyre_section import TyreSection
@@ -37,9 +37,9 @@ class MagicFormula(TyreSection, of=MagicTyre):
     file: str
     """Name of the tyre property file (.tir)."""
     signs: Literal["iso", "sae", "adapted_sae"] = Field(
-        "iso", description="Axes of the coefficients: ISO, SAE, or those of Pacejka's book."
+        "iso", description="Axes of the coefficients: ISO, SAE, or the axes of Pacejka's book."
     )
-    pressure: InflationPressure | None = Field(None, description="Inflation pressure; by default that of the file.")
+    pressure: InflationPressure | None = Field(None, description="Inflation pressure; by default as in the file.")
     reference_friction: ReferenceFriction = 1.0
     grip: Factor = 1.0
     """Factor on the friction of the road under the tyres of this axle."""
@@ -55,7 +55,7 @@ class MagicFormula(TyreSection, of=MagicTyre):
     def open(self, folder: Path) -> None:
         """Read the tyre property file."""
         try:
-            self._read = read_tyre(beside(folder, self.file, self.key("file")))
+            self._read = read_tyre(car_file_path(folder, self.file, self.key("file")))
             self._tyre = self.tyre("left")
         except TyreFileError as error:
             raise CarFileError(f"{self.key('file')}: {error}") from None
@@ -145,14 +145,14 @@ class MagicFormula(TyreSection, of=MagicTyre):
     def carcass(self) -> tuple[float, float, float, float]:
         """Longitudinal properties of the carcass.
 
-        Slip stiffness at the nominal load, N; stiffness, N/m; damping over stiffness at rest, s, and its decrease with
+        Slip stiffness at the nominal load, N; stiffness, N/m; damping / stiffness at rest, s, and its decrease with
         the square of the speed, s2/m2.
         """
         slip_stiffness, stiffness = self._left_tyre.along
         return slip_stiffness, stiffness, self._left_tyre.settling, 1.0
 
     def rolling_radius(self, loaded_radius: float) -> float:
-        """Rolling radius of a free wheel at low speed, m. `loaded_radius`: in m."""
+        """Rolling radius of a free wheel at low speed, m. `loaded_radius`: m."""
         t, c = self._left_tyre, self._left_tyre.coefficients
         free = self.radius
         deflection, pressure_factor = free - loaded_radius, 1.0 + c.get("PFZ1", 0.0) * t.pressure

@@ -60,7 +60,7 @@ class TMeasy(TyreSection, of=Tyre):
     """Tyre after W. Hirschberg, G. Rill, H. Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119.
 
     The curves hold on a road of the friction `reference_friction`. On a road of another friction, largest and sliding
-    forces and the slips where they are reached are those of the file times r, the friction of the road times `grip`
+    forces and the slips at which they are reached are the file's times r, the friction of the road times `grip`
     over `reference_friction`; initial slopes stay. So the forces of the file set the grip. `ali3 car` and `ali3 build`
     print the coefficients that each axle reaches on the car's road. With the largest longitudinal force over the
     nominal load as reference friction, the friction of a road is the coefficient that the tyre reaches on it.
@@ -109,7 +109,7 @@ class TMeasy(TyreSection, of=Tyre):
 
     @property
     def friction(self) -> tuple[float, float]:
-        """Largest longitudinal and lateral force over the load, at the nominal load and the reference friction."""
+        """Largest longitudinal and lateral force / load, at the nominal load and the reference friction."""
         longitudinal, lateral = (c.max_force[0] / self.nominal_load for c in (self.longitudinal, self.lateral))
         return longitudinal, lateral
 
@@ -117,14 +117,14 @@ class TMeasy(TyreSection, of=Tyre):
     def carcass(self) -> tuple[float, float, float, float]:
         """Longitudinal properties of the carcass.
 
-        Slip stiffness at the nominal load, N; stiffness, N/m; damping over stiffness at rest, s, and its decrease with
+        Slip stiffness at the nominal load, N; stiffness, N/m; damping / stiffness at rest, s, and its decrease with
         the square of the speed, s2/m2.
         """
         stiffness = self.carcass_stiffness[0]
         return self.longitudinal.slope[0], stiffness, self.carcass_damping[0] / stiffness, 0.0
 
     def rolling_radius(self, loaded_radius: float) -> float:
-        """Rolling radius of a free wheel, m. `loaded_radius`: in m."""
+        """Rolling radius of a free wheel, m. `loaded_radius`: m."""
         return (2.0 * self.radius + loaded_radius) / 3.0
 
     def tyre(self, side: str = "left") -> Tyre:

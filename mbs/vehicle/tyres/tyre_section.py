@@ -11,5 +11,5 @@ class TyreSection(Section):
     def open(self, folder: Path) -> None:
         """Read the tyre property file, if the formula has one; called once by the reader of the car.
 
-        Raises `CarFileError`: the file is missing or not valid.
+        Raises `CarFileError` if the file is missing or not valid.
         """

@@ -360,9 +360,9 @@ def test_another_range_of_plausible_quantities_makes_another_world(tmp_path, mon
         source, copy = world_cache.ROOT / place, tmp_path / place
         copy.parent.mkdir(parents=True, exist_ok=True)
         (shutil.copytree if source.is_dir() else shutil.copyfile)(source, copy)
-    before = world_cache.key_of([])
+    before = world_cache.cache_key([])
     monkeypatch.setattr(world_cache, "ROOT", tmp_path)
-    assert world_cache.key_of([]) == before
+    assert world_cache.cache_key([]) == before
     with (tmp_path / "ali3/plausibility/quantities.csv").open("a", encoding="utf-8") as table:
         table.write("\n")
-    assert world_cache.key_of([]) != before
+    assert world_cache.cache_key([]) != before

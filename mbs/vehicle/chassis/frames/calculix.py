@@ -6,7 +6,7 @@ from typing import Literal
 from mbs.flexible.calculix import read_calculix
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 
 
 class CalculixFrame(MatrixFrame):
@@ -19,7 +19,7 @@ class CalculixFrame(MatrixFrame):
 
     def files(self, folder: Path) -> tuple[Path, ...]:
         """Files of the matrices, all of which exist."""
-        return (beside(folder, self.deck, self.key("deck")),)
+        return (car_file_path(folder, self.deck, self.key("deck")),)
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the deck, which must have no supports, and its matrices."""

@@ -52,7 +52,7 @@ class FrameSection(Section):
     dynamic_modes: Count = 5
     """Number of dynamic modes of fidelity 3."""
     loads: str | None = None
-    """Table of the load paths: interface, axis, load_1 and on; without it there is no fidelity 2."""
+    """Table of the load paths: interface, axis, load_1, load_2, ...; without it there is no fidelity 2."""
     or_rigid: bool = False
     """A frame that does not fit the hard points or the mass of the car leaves it rigid, with a warning, and is not
     refused."""
@@ -63,16 +63,16 @@ class FrameSection(Section):
     """Left joints that take the reaction of the drive: front, rear, top; by default the two pivots of an arm of the
     driven axle and its highest joint."""
     ground_mounts: tuple[str, ...] | None = None
-    """Left joints through which forces of the ground on the chassis enter the frame; by default those of the drive and
-    the first one of the axle that is not driven."""
+    """Left joints through which forces of the ground on the chassis enter the frame; by default the joints of the drive
+    and the first one of the axle that is not driven."""
 
     @abstractmethod
     def structure(self, folder: Path) -> Structure:
-        """Read it. Raises `ModelError`: a file is missing or does not describe a frame."""
+        """Read it. Raises `ModelError` if a file is missing or does not describe a frame."""
 
     @abstractmethod
     def check(self, folder: Path) -> None:
         """Refuse at once what can be seen without reading large files.
 
-        Raises `ModelError`: a file is missing, or a table is not right.
+        Raises `ModelError` if a file is missing, or a table is not right.
         """

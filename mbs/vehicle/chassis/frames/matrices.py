@@ -8,10 +8,10 @@ from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.matrix_files import external_model, read_matrix
 from mbs.flexible.sparse_matrices import Sparse
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 from mbs.vehicle.table import read_table
 
-LARGEST_COORDINATE = 1e3  # m
+MAX_COORDINATE = 1e3  # m
 
 
 class MatricesFrame(MatrixFrame):
@@ -28,18 +28,18 @@ class MatricesFrame(MatrixFrame):
 
     def files(self, folder: Path) -> tuple[Path, ...]:
         """Files of the matrices, all of which exist."""
-        return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
+        return tuple(car_file_path(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the files."""
         stiffness, mass, _ = self.files(folder)
         rows = read_table(folder, self.nodes, self.key("nodes"), ("name", "x", "y", "z"))
-        positions = [[row.number(axis, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m") for axis in "xyz"] for row in rows]
+        positions = [[row.number(axis, -MAX_COORDINATE, MAX_COORDINATE, "m") for axis in "xyz"] for row in rows]
         matrices = self._matrix("stiffness", stiffness), self._matrix("mass", mass)
         return external_model(*matrices, positions, [row["name"] for row in rows])
 
     def _matrix(self, field: str, path: Path) -> Sparse:
-        """Read the matrix of a field. Raises `ModelError`: it cannot be read."""
+        """Read the matrix of a field. Raises `ModelError` if it cannot be read."""
         try:
             return read_matrix(path)
         except ModelError:

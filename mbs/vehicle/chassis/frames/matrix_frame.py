@@ -28,7 +28,7 @@ class MatrixFrame(FrameSection):
 
     @abstractmethod
     def finite_elements(self, folder: Path) -> FiniteElementModel:
-        """Read the matrices. Raises `ModelError`: a file is missing, or the body has supports."""
+        """Read the matrices. Raises `ModelError` if a file is missing, or the body has supports."""
 
     def structure(self, folder: Path) -> Structure:
         """Read the matrices and the gauges, each of which must be on their nodes."""

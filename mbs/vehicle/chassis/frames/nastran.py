@@ -6,7 +6,7 @@ from typing import Literal
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.nastran import read_nastran
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 
 
 class NastranFrame(MatrixFrame):
@@ -25,7 +25,7 @@ class NastranFrame(MatrixFrame):
 
     def files(self, folder: Path) -> tuple[Path, ...]:
         """Files of the matrices, all of which exist."""
-        return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("bulk_data", "matrices"))
+        return tuple(car_file_path(folder, getattr(self, f), self.key(f)) for f in ("bulk_data", "matrices"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read grid points, which must have no axes of their own, and matrices."""

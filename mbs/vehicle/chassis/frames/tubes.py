@@ -18,7 +18,7 @@ class TubesFrame(TubeTables):
     """
 
     def tubular(self, folder: Path) -> TubularFrame:
-        """Tables of the frame. `folder`: of the car file."""
+        """Tables of the frame. `folder`: folder of the car file."""
         return TubularFrame(self, folder)
 
     def structure(self, folder: Path) -> Structure:
@@ -27,7 +27,7 @@ class TubesFrame(TubeTables):
         frame, tubes = tubular.frame()
         gauges = tubular.strain_gauges(tubes)
         readings = [r for gauge in gauges for r in self.gauges[gauge.name].readings(gauge, frame)]
-        return Structure(_assembled(pickle.dumps(frame)), in_order(readings), tubular.joint_places(), tubular.riding())
+        return Structure(_assemble(pickle.dumps(frame)), in_order(readings), tubular.joint_places(), tubular.riding())
 
     def check(self, folder: Path) -> None:
         """Read the tables and the places of the gauges, each of which must be on a tube."""
@@ -36,7 +36,7 @@ class TubesFrame(TubeTables):
 
 
 @lru_cache(maxsize=4)
-def _assembled(frame: bytes) -> FiniteElementModel:
+def _assemble(frame: bytes) -> FiniteElementModel:
     """Finite-element model of a pickled `Frame`, cached: cars that differ in other numbers share it."""
     model: FiniteElementModel = pickle.loads(frame).finite_element_model()
     return model

@@ -26,7 +26,10 @@ class NodePair(Section):
     """Young's modulus: the stress is it times the strain."""
 
     def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
-        """Stress that the gauge reports. Raises `ModelError`: there is no such node, or both ends are at one place."""
+        """Stress that the gauge reports.
+
+        Raises `ModelError` if there is no such node, or both ends are at one place.
+        """
         a, b = self.nodes
         row, text = self._strain(model, "nodes"), f"E times the strain from node {a} to node {b} at gauge {name}"
         if self.opposite is not None:
@@ -35,7 +38,7 @@ class NodePair(Section):
         yield Reading(STRESS, name, "Pa", text, self.E * row, self.nodes)
 
     def _strain(self, model: FiniteElementModel, field: str) -> np.ndarray:
-        """Row of the strain between the nodes of a field over the nodal displacements, shape (n_dof,)."""
+        """Row of the strain between the nodes of a field by nodal displacements, shape (n_dof,)."""
         ends = getattr(self, field)
         for node in ends:
             if node not in model.names:

@@ -19,7 +19,7 @@ QUANTITIES = {
     "torsional_moment": ("N.m", "torsional moment at gauge {}"),
     STRESS: ("Pa", "stress at gauge {}"),
 }
-LARGEST_FACTOR = 1e18  # N, N m or Pa per m or rad
+MAX_FACTOR = 1e18  # N, N m or Pa per m or rad
 RIGID = 1e-4  # of what a rigid motion would give if all factors had one sign: printed factors pass
 
 
@@ -35,7 +35,7 @@ class RecoveryRows(Section):
     def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
         """Readings of the gauge.
 
-        Raises `ModelError`: the table is missing or does not fit the nodes, or a rigid motion would be read as a
+        Raises `ModelError` if the table is missing or does not fit the nodes, or a rigid motion would be read as a
         stress.
         """
         columns = ("gauge", "quantity", "node", "axis", "factor")
@@ -47,7 +47,7 @@ class RecoveryRows(Section):
                 available = ", ".join(QUANTITIES)
                 raise ModelError(f"{line.where}: quantity is {line['quantity']!r}; it must be one of {available}.")
             row = rows.setdefault(line["quantity"], np.zeros(model.n_dof))
-            row[_freedom(line, model)] += line.number("factor", -LARGEST_FACTOR, LARGEST_FACTOR, "per m or rad")
+            row[_freedom(line, model)] += line.number("factor", -MAX_FACTOR, MAX_FACTOR, "per m or rad")
         if not rows:
             raise ModelError(f"{self.key('table')} ({self.table}) has no line of gauge {name}.")
         rigid = model.rigid_motions(model.positions.mean(axis=0))
@@ -63,7 +63,7 @@ class RecoveryRows(Section):
 
 
 def _freedom(line: Row, model: FiniteElementModel) -> int:
-    """Number of the freedom of a line. Raises `ModelError`: the node or the freedom does not exist."""
+    """Number of the freedom of a line. Raises `ModelError` if the node or the freedom does not exist."""
     node, axis = line["node"], line["axis"]
     if node not in model.names:
         raise ModelError(f"{line.where}: the frame has no node {node!r}.")

@@ -29,7 +29,7 @@ WAYS = {
     "front": (1.0, 0.0, 0.0),
     "rear": (-1.0, 0.0, 0.0),
 }
-LEAST_SINE = 0.3  # of the angle between a tube and the direction of a fibre
+MIN_SINE = 0.3  # of the angle between a tube and the direction of a fibre
 
 
 class TubeGauge(Section):
@@ -58,7 +58,7 @@ class TubeGauge(Section):
         """Make the gauge on the elements of its tube.
 
         `ends`: first and last joint of the tube, m, shape (3,); `radius`: outer radius of the tube, m; `elements`: of
-        the tube from the first joint on. Raises `ModelError`: the direction of the fibre is that of the tube.
+        the tube from the first joint. Raises `ModelError` if the fibre and the tube have the same direction.
         """
         position = self.place * len(elements)
         number = min(int(position), len(elements) - 1)
@@ -68,7 +68,7 @@ class TubeGauge(Section):
     def readings(self, gauge: StrainGauge, frame: Frame) -> Iterator[Reading]:
         """Readings of the gauge.
 
-        `gauge`: from `strain_gauge`; `frame`: with its tube.
+        `gauge`: result of `strain_gauge`; `frame`: frame with its tube.
         """
         name = gauge.name
         fibre = self.fibre if isinstance(self.fibre, str) else f"{self.fibre:g} deg"
@@ -107,7 +107,7 @@ class TubeGauge(Section):
             return -math.sin(angle), math.cos(angle)
         _, y, z = axes @ np.array(WAYS[self.fibre])
         norm = math.hypot(y, z)
-        if norm < LEAST_SINE:
+        if norm < MIN_SINE:
             raise ModelError(
                 f"{self.key('fibre')} is '{self.fibre}', but the tube from {self.tube[0]} to {self.tube[1]} runs in "
                 "that direction; name another fibre or its angle."
