@@ -61,7 +61,7 @@ static void good(fmi2Status status, const char *what) {
   if (status > fmi2Warning) stop(4, "%s: status %d", what, (int)status);
 }
 
-/* A whole number of the command line from `least` on; anything else ends the program. */
+/* A whole number of the command line, at least `least`; anything else ends the program. */
 static long whole(const char *text, const char *what, long least) {
   char *end;
   errno = 0;

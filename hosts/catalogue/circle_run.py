@@ -52,13 +52,13 @@ class CircleRun:
     largest: float
     """Largest lateral acceleration to the side of the run, mean over 1 s, m/s²."""
     end: str
-    """Cause of the end of the run other than the grip of the tyres, as a clause; else empty."""
+    """Cause of the end of the run other than the grip of the tyres, as a clause; otherwise empty."""
     steering_note: str
-    """A sentence on unknown angles of the steering wheel; else empty."""
+    """A sentence on unknown angles of the steering wheel; otherwise empty."""
 
 
 class _RunMonitor:
-    """Determines the begin of the increase of speed or steering, after steady driving, and the end of the run."""
+    """Determines the start of the increase of speed or steering, after steady driving, and the end of the run."""
 
     def __init__(self, side: float, method: float, first: float, rate: float, tolerance: float) -> None:
         self.side, self.method, self.first, self.rate, self.tolerance = side, method, first, rate, tolerance

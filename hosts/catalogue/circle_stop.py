@@ -121,7 +121,7 @@ class Stop:
 
     @property
     def shown(self) -> NDArray[np.bool_]:
-        """Whether a sample is drawn, from `STEADY` before the onset on, shape (n,)."""
+        """Whether a sample is drawn: at most `STEADY` before the onset; shape (n,)."""
         return np.asarray(self.result.time >= self.onset - STEADY)
 
     def over_time(self, name: str) -> NDArray[np.float64]:

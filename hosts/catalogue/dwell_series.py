@@ -27,7 +27,7 @@ class DwellRun:
     amplitude: float
     """Requested amplitude, rad."""
     run: SteeredRun
-    """The run with filtered signals, less their means before the steering."""
+    """The run with filtered signals, minus their means before the steering."""
     measures: SineWithDwell
 
     @property
@@ -59,7 +59,7 @@ def sine_with_dwell_table(amplitude: float) -> tuple[NDArray[np.float64], NDArra
 
 
 def filtered_run(run: SteeredRun) -> SteeredRun:
-    """The run with phaseless low-pass filters (steering wheel 10 Hz, others 6 Hz, 12 poles), less means before it."""
+    """The run with phaseless low-pass filters (steering wheel 10 Hz, others 6 Hz, 12 poles), minus means before it."""
     if len(run.time) < 20:
         return run
     is_before = (run.time < -0.1) if (run.time < -0.1).any() else run.time <= 0.0
@@ -93,8 +93,8 @@ def drive_series(
 ) -> list[DwellRun]:
     """Drive runs with increasing amplitudes until the car is lost.
 
-    `speed`: at the begin of steer, coasting, m/s; `side`: 1: first to the left, -1: first to the right; `amplitudes`:
-    in rad.
+    `speed`: at the beginning of steer, coasting, m/s; `side`: 1: first to the left, -1: first to the right;
+    `amplitudes`: in rad.
     """
     runs: list[DwellRun] = []
     for k, amplitude in enumerate(amplitudes):

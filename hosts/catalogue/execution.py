@@ -21,7 +21,7 @@ Reason: TypeAlias = str
 def settings_of_test(test: StandardTest, values: Mapping[str, float]) -> dict[str, float]:
     """All settings of a test, by default or of `values`.
 
-    Raises `HostError`: a name is unknown, or a value is out of its range.
+    Raises `HostError` if a name is unknown, or a value is out of its range.
     """
     by_name = {s.name: s for s in test.settings}
     for name, value in values.items():
@@ -65,7 +65,7 @@ def perform(
 ) -> TestRecord:
     """Run a standard test with a car.
 
-    `settings`: other than the defaults; `progress`: called with the share that is done, 0 to 1. Raises `HostError`: a
+    `settings`: other than the defaults; `progress`: called with the fraction done, 0 to 1. Raises `HostError` if a
     setting is wrong, or the test cannot be done with the car.
     """
     test_settings = settings_of_test(test, settings or {})

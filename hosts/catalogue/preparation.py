@@ -70,5 +70,5 @@ class RunUp:
 
 
 def early_end_notes(run: str, result: Result) -> tuple[str, ...]:
-    """A sentence if the FMU refused a step; else none. `run`: name of the run."""
+    """A sentence if the FMU refused a step; otherwise empty. `run`: name of the run."""
     return (f"{run}: {result.refusal}; what follows is not evaluated.",) if result.refusal else ()

@@ -25,7 +25,7 @@ class Clause:
     text: str
     """Its requirement, in our words."""
     checked: bool = False
-    """Whether it was checked against the text of the standard; else it is from public summaries."""
+    """Whether it was checked against the text of the standard; otherwise it is from public summaries."""
 
 
 @dataclass(frozen=True)
@@ -116,4 +116,4 @@ class StandardTest:
     needs: tuple[str, ...] = ()
     """Variables by our names without which the test cannot be done."""
     why_not: WhyNot = no_reason
-    """``why_not(car, settings)`` returns a sentence if the settings do not fit each other or the car, else None."""
+    """``why_not(car, settings)`` returns a sentence if the settings do not fit each other or the car, or None."""

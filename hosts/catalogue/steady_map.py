@@ -114,7 +114,7 @@ def _lag_angle(angle: NDArray[np.float64], acceleration: NDArray[np.float64], ra
 def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
     """The map at a speed or, for a car that does not reach it, at a lower one.
 
-    `speed`, `lower`: in m/s; `acceleration`: upper end of the map, m/s². Raises `HostError`: the car reaches neither
+    `speed`, `lower`: in m/s; `acceleration`: upper end of the map, m/s². Raises `HostError` if the car reaches neither
     speed, its FMU refuses a step, or signs or units of its signals are implausible.
     """
     result = steady_map(car, speed, acceleration)

@@ -25,7 +25,7 @@ _LEAST_SHARE = 0.97  # of a requested angle
 
 
 class Pedals(Enum):
-    """Pedals from the begin of the steering on."""
+    """Pedals since the start of the steering."""
 
     HOLD_SPEED = "speed is held"
     FIXED = "pedals are held"
@@ -35,7 +35,7 @@ class Pedals(Enum):
 class SteeredPilot:
     """A pilot that holds the speed until the car runs steadily, then steers by a table.
 
-    `speed`: at the begin of the steering, m/s; `time`, `angle`: table of the steering-wheel angle, s from the begin and
+    `speed`: at the start of the steering, m/s; `time`, `angle`: table of the steering-wheel angle, s from the start and
     rad, shape (n,), linear in between; `longest`: longest time of the approach, s. `begin`: of the steering, s; NaN
     before; `gave_up`: whether the approach took too long.
     """
@@ -93,14 +93,14 @@ class SteeredPilot:
 
 @dataclass(frozen=True)
 class SteeredRun:
-    """Signals of a steered run at equally spaced times; time 0 is the begin of the steering."""
+    """Signals of a steered run at equally spaced times; time 0 is the start of the steering."""
 
     result: Result
     """The record, with intervals of at least 5 ms."""
     begin: float
     """Begin of the steering in the time of `result`, s; NaN if the car did not reach its speed."""
     time: NDArray[np.float64]
-    """Shape (n,), s; from at most 1 s before the begin on. Empty if the steering did not begin."""
+    """Shape (n,), s; starts at most 1 s before the steering. Empty if the steering did not begin."""
     steering: NDArray[np.float64]
     yaw_rate: NDArray[np.float64]
     acceleration: NDArray[np.float64]
@@ -113,7 +113,7 @@ class SteeredRun:
     """Whether the table was driven to its end."""
 
     def shortfall(self, amplitude: float) -> str:
-        """A sentence if the steering wheel did not reach a requested angle, rad; else empty."""
+        """A sentence if the steering wheel did not reach a requested angle, rad; otherwise empty."""
         reached = float(np.abs(self.steering).max()) if len(self.steering) else math.nan
         if not reached < _LEAST_SHARE * amplitude:
             return ""
@@ -128,7 +128,7 @@ class SteeredRun:
         return float(self.time[1] - self.time[0])
 
     def thinned(self, interval: float = 0.02) -> Result:
-        """The record from 1 s before the begin of the steering on, with rows at least an interval, s, apart."""
+        """The record since 1 s before the start of the steering, with rows at least an interval, s, apart."""
         r = self.result
         step = float(r.time[1] - r.time[0]) if len(r.time) > 1 else interval
         first = int(np.searchsorted(r.time, self.begin - 1.0 - 1e-9)) if math.isfinite(self.begin) else 0
@@ -147,7 +147,7 @@ def steer(
 ) -> SteeredRun:
     """Drive the car straight up to a speed, then steer it by a table.
 
-    `speed`: in m/s; `time`, `angle`: table, s from the begin of the steering and rad, shape (n,); `lateral_limit`:
+    `speed`: in m/s; `time`, `angle`: table, s from the start of the steering and rad, shape (n,); `lateral_limit`:
     lateral acceleration at which the run ends, m/s².
     """
     start = start_at_speed(car, speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0))
@@ -183,7 +183,7 @@ def _steered_run(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun
         return SteeredRun(result, math.nan, empty, empty, empty, empty, empty, empty, empty, False)
     row_interval = float(result.time[1] - result.time[0])
     interval = max(_INTERVAL, row_interval)
-    # The grid has a sample at the begin of the steering.
+    # The grid has a sample at the start of the steering.
     first = pilot.begin - interval * math.floor(min(1.0, pilot.begin) / interval)
     selected = result.time > first - 1.5 * row_interval
     time, missing = result.time[selected], np.full(len(result.time), math.nan)

@@ -13,7 +13,7 @@ CHECK = "archive"
 def archive_findings(fmu: Path) -> list[Finding]:
     """Faults of the archive of an FMU: bad where a standard forbids them, else notes; empty if it can be unpacked.
 
-    Raises `HostError`: it is not a readable archive.
+    Raises `HostError` if it is not a readable archive.
     """
     if not is_file(fmu):
         raise HostError(no_file(fmu))

@@ -145,7 +145,7 @@ def remedies(
 ) -> list[str]:
     """Sentences on how signals beyond their bounds would agree: in another unit, with another sign, time or start.
 
-    `result`, `times`, `columns`: as of `deviations`; `bad`: its results beyond their bounds.
+    `result`, `times`, `columns`: as in `deviations`; `bad`: its results beyond their bounds.
     """
     table_rows, rows = compared_rows(result, times)
     references = {d.name: columns[d.name][table_rows] for d in bad}
@@ -157,7 +157,7 @@ def remedies(
     for d in bad:
         by_unit = [(1.0 / m.factor, m.words) for m in misread(d.unit)]
         by_factor = [(1.0 / m.factor, "another unit") for m in misread("")]
-        candidates = [(f, f"{f:.4g} times as large: {message}?") for f, message in (*by_unit, *by_factor)] + [
+        candidates = [(f, f"{f:.4g} times as large: {words}?") for f, words in (*by_unit, *by_factor)] + [
             (-1.0, _OTHER_SIGN)
         ]
         fits = [
@@ -182,6 +182,6 @@ def remedies(
     off_at_start = [d.name for d in remaining if not agrees(d, result[d.name][rows[:1]], references[d.name][:1])]
     if off_at_start:
         lines.append(
-            f"off from the first row on: {some_of(off_at_start)}; does the FMU start as the reference did? (--set)"
+            f"off since the first row: {some_of(off_at_start)}; does the FMU start as the reference did? (--set)"
         )
     return lines

@@ -248,7 +248,7 @@ class Instance(instance.Instance):
         self.set({self.subject.scalars[variable.name]: value})
 
     def run(self, steps: int, begin: int = 0, origin: float = 0.0) -> list[list[float]]:
-        """Outputs after each of `steps` steps from number `begin` on, up to an end that the FMU asks for.
+        """Outputs after each of `steps` steps from number `begin`, up to an end that the FMU asks for.
 
         `origin`: start time, s.
         """

@@ -237,7 +237,7 @@ def check_messages(subject: Subject) -> Finding:
         letters = set(_FORMAT.findall(text))
         if "n" in letters or (subject.is_fmi3 and letters & set("sn")):
             message = (
-                f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
+                f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is not a format"
             )
             verdict: Literal["note", "bad"] = "note" if subject.is_fmi3 else "bad"
             return Finding("messages", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")

@@ -47,10 +47,10 @@ class ReferenceOptions:
     """Options for the runs that are compared with references."""
 
     manoeuvre: str | None
-    """Name or file of a manoeuvre that drives the FMU in place of columns of the table."""
+    """Name or file of a manoeuvre that drives the FMU instead of columns of the table."""
     step: float | None
-    """Communication step, s; None: that of the record beside a table, else of the FMU, shortened such that rows are
-    communication points."""
+    """Communication step, s; None: that of the record beside a table, otherwise of the FMU, shortened such that rows
+    are communication points."""
     fidelity: float | None
     fmu_options: FmuOptions
     """Parameters and start values."""
@@ -120,8 +120,8 @@ def check_references(
     ------
     HostError
         There is no table, or a bound names no output of a table. Of errors of single tables the first is raised after
-        all are done: a table has no output of the FMU, its times are no communication points, or the FMU does not start
-        with its values.
+        all are done: a table has no output of the FMU, its times are not communication points, or the FMU does not
+        start with its values.
     """
     files = sorted(tables.glob("*.csv")) if tables.is_dir() else [tables]
     if not files:

@@ -13,7 +13,7 @@ _ROW_KEYS = {"nrms": "normalised", "corr.": "correlation"}
 
 
 def signal_rows(comparison: Comparison, none: str) -> list[dict[str, str]]:
-    """Numbers of each signal as text by the headings of tables. `none`: text in place of a missing number."""
+    """Numbers of each signal as text by the headings of tables. `none`: text for a missing number."""
 
     def number(value: float, spec: str) -> str:
         return format(value, spec) if math.isfinite(value) else none

@@ -29,7 +29,7 @@ class Parts:
     number: NDArray[np.intp]
     """Shape (n,): number of the part in which each residual lies."""
     begins: Array
-    """Shape (k,): begin of each part in the log, s."""
+    """Shape (k,): start of each part in the log, s."""
     length: float
     """Length of a part, s."""
 

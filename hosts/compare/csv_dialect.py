@@ -43,7 +43,7 @@ class DetectedDialect:
 def detect_dialect(path: Path, stated: Dialect) -> DetectedDialect:
     """Detect the dialect of a file from its first lines, as far as it is not stated.
 
-    Raises `HostError`: the file holds no table, or does not have the stated dialect.
+    Raises `HostError` if the file holds no table, or does not have the stated dialect.
     """
     lines, encoding = _first_lines(path, stated.encoding)
     if not any(line.strip() for line in lines):

@@ -26,7 +26,7 @@ class Deviations:
     """Pearson's coefficient; NaN where one of both is constant."""
     samples: int
     note: str = ""
-    """Why a number is NaN, else empty."""
+    """Why a number is NaN, otherwise empty."""
 
 
 def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> Deviations:

@@ -55,7 +55,7 @@ def fit(
     unknowns : sequence of Unknown
         Those of the FMU first.
     simulate : callable
-        Function of the parameters of the FMU by name; a sentence in place of a result where the FMU refuses them.
+        Function of the parameters of the FMU by name; a sentence instead of a result if the FMU refuses them.
     evaluations : int
         Largest number of evaluations of a search.
     starts : int

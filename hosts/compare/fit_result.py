@@ -18,7 +18,7 @@ class FittedUnknown:
     half_width: float
     """Half the width of its 95 % confidence interval; infinite: the log does not determine it."""
     bound: str = ""
-    """``lower`` or ``upper``: it lies at this bound; else empty."""
+    """``lower`` or ``upper``: it lies at this bound; otherwise empty."""
     without: float = math.nan
     """Residual on parts left out of the fit if the unknown keeps its start value, over that with the unknown fitted; to
     first order."""

@@ -20,7 +20,7 @@ def fitted_parameters(
     """Parameters to be fitted.
 
     `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `set_values`: values that the user sets, at which the search begins. Raises
-    `HostError`: a name, kind or range is wrong.
+    `HostError` if a name, kind or range is wrong.
     """
     results: list[Unknown] = []
     for text in texts:

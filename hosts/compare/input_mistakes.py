@@ -31,7 +31,7 @@ def inverted_signals(compared: Comparison) -> dict[str, ComparedSignal]:
 
 
 def inverted_input(task: Task, compared: Comparison, inverted: dict[str, ComparedSignal]) -> str:
-    """A sentence on the input whose inversion gives all signals the sign of the simulation; else empty.
+    """A sentence on the input whose inversion gives all signals the sign of the simulation; otherwise empty.
 
     Each input that can be inverted is tried in a run. `inverted`: of `inverted_signals`.
     """
@@ -58,7 +58,7 @@ def inverted_input(task: Task, compared: Comparison, inverted: dict[str, Compare
 
 
 def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> str:
-    """A sentence on the unit of the measured speed with which all other signals correlate; else empty.
+    """A sentence on the unit of the measured speed with which all other signals correlate; otherwise empty.
 
     Units are tried where no other signal correlates. `right`: signals that agree with others of the log.
     """

@@ -53,7 +53,7 @@ def log_for(
     """The signals that a log and an FMU have in common; tunable parameters of the FMU count as inputs.
 
     `overridden`: parameters that are set or fitted, which the log does not drive; `noted`: outputs whose notes are
-    kept; empty: all. Raises `HostError`: a column is missing, is not a signal of the FMU, or its unit or clock is
+    kept; empty: all. Raises `HostError` if a column is missing, is not a signal of the FMU, or its unit or clock is
     wrong.
     """
     tunable = fmu.tunable

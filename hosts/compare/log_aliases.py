@@ -40,7 +40,7 @@ class Column(_Scaled):
 
     name: str = Field(title="the name of a column")
     unit: str | None = Field(default=None, title="a unit as text")
-    """None: the unit of the table's heading, else that of the FMU."""
+    """None: the unit of the table's heading, otherwise that of the FMU."""
     time: str | None = Field(default=None, title="the name of a column")
     """Column of times of this column; None: that of the table."""
 

@@ -24,7 +24,7 @@ _SLOWEST = 0.5  # s: longest interval of a test drive, unless the user has named
 
 
 def time_column(raw: RawLog, aliases: LogAliases) -> str:
-    """The name of the column of times. Raises `HostError`: there is none."""
+    """The name of the column of times. Raises `HostError` if there is none."""
     present = [str(c) for c in raw.table.columns]
     name = aliases.clock.name
     if name is not None:
@@ -48,7 +48,7 @@ def log_times(
     """Times of a column, s, after the first time of the log, their rows, shape (n,) each, and that first time.
 
     `name`: of the column; `origin`: first time of the log, s; None: that of this column; `notes`: are added to. Raises
-    `HostError`: times are too few, decrease or are not readable.
+    `HostError` if times are too few, decrease or are not readable.
     """
     clock = aliases.clock
     heading_unit = raw.units.get(name, "").strip()

@@ -59,7 +59,7 @@ def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
 
 
 def scale_mistake(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
-    """A sentence where a measured signal seems to have another unit or the opposite sign; else empty.
+    """A sentence if a measured signal seems to have another unit or the opposite sign; otherwise empty.
 
     `delay`: of the signal, s.
     """
@@ -77,14 +77,14 @@ def scale_mistake(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     ratio = float(np.std(y) / np.std(x))
     by_unit = [(m, f'it looks like {m.words}: unit = "{m.unit}" in the alias file.') for m in misread(signal.unit)]
     by_factor = [(m, "is it in another unit, or is a factor missing?") for m in misread("")]
-    for m, message in (*by_unit, *by_factor):
+    for m, text in (*by_unit, *by_factor):
         if m.usual and 1.0 / _RATIO_TOLERANCE < ratio * m.factor < _RATIO_TOLERANCE:
-            return f"{label} is {ratio:.4g} times as large as in the simulation: {message}"
+            return f"{label} is {ratio:.4g} times as large as in the simulation: {text}"
     return ""
 
 
 def inverted_correlation(signal: Signal, curve: Curve, delay: float = 0.0) -> float | None:
-    """The negative correlation of a measured signal with the opposite sign of the simulation; else None.
+    """The negative correlation of a measured signal with the opposite sign of the simulation; otherwise None.
 
     `delay`: of the signal, s.
     """

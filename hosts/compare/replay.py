@@ -44,7 +44,7 @@ def replay_manoeuvre(
         Communication step, s.
     hold_inputs : bool
         Whether the FMU holds its inputs during a step. Each then has the measured value of the middle of the step, so
-        that there is no mean delay; else that of the beginning.
+        that there is no mean delay; otherwise that of the beginning.
     integers : collection of str
         Integer inputs, which keep the value of a sample up to the next.
     follower_frequencies : mapping of str to float, optional
@@ -151,10 +151,10 @@ class Replay(Closable):
         self._progress = None
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive all segments. `values`: start values by our names, in place of those of the manoeuvres.
+        """Drive all segments. `values`: start values by ALi3 names, instead of those of the manoeuvres.
 
-        Returns the result under our names; several segments are `joined`. Raises `FailedFmuError`: a process has ended;
-        `StartRefusedError`: the FMU refuses the start values.
+        Returns the result under ALi3 names; several segments are `joined`. Raises `FailedFmuError` if a process has
+        ended, `StartRefusedError` if the FMU refuses the start values.
         """
         tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.segments))]
         with Progress(self._experiment, 1.0) if self._progress is None else nullcontext(self._progress) as progress:
@@ -166,7 +166,8 @@ class Replay(Closable):
         return results[0] if len(results) == 1 else joined(results, self.segments)
 
     def check_reset(self) -> bool:
-        """Check by two drives of the first segment whether a reset reproduces a run; else each drive loads the FMU.
+        """Check by two drives of the first segment whether a reset reproduces a run; otherwise each drive loads the
+        FMU.
 
         Returns whether the FMU is reproducible to the last bit, by a reset or by loading it again.
         """

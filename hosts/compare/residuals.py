@@ -40,7 +40,7 @@ class Residuals:
     noise: dict[str, float]
     """By signal, in its unit."""
     simulate: Callable[[Mapping[str, float]], Result | str]
-    """Function of the parameters of the FMU; a sentence in place of a result where it refuses them."""
+    """Function of the parameters of the FMU; a sentence instead of a result if it refuses them."""
     steps: Array = field(default_factory=lambda: np.zeros(0))
     """Steps of central differences by the parameters of the FMU, shape (`count`,)."""
     _curve_cache: dict[tuple[float, ...], dict[str, Curve] | str] = field(default_factory=dict)

@@ -35,7 +35,7 @@ class Outcome:
 
     @property
     def best(self) -> Comparison:
-        """The comparison with fitted parameters if there are any, else that before."""
+        """The comparison with fitted parameters if there are any, otherwise that before."""
         return self.before if self.after is None else self.after
 
 

@@ -32,7 +32,7 @@ def mean_angle(signals: Mapping[str, Signal]) -> Signal | None:
 def steering_at_angle(fmu: FmuSource, start: Mapping[str, Value], angle: Signal) -> Signal:
     """The input ``steering`` at which the front wheels of the standing car have the measured mean angle.
 
-    `angle`: of `mean_angle`. Raises `HostError`: the wheels of the FMU do not follow its steering, or the measured
+    `angle`: of `mean_angle`. Raises `HostError` if the wheels of the FMU do not follow its steering, or the measured
     angle lies beyond both locks.
 
     Notes

@@ -23,7 +23,7 @@ class Segment:
     manoeuvre: Manoeuvre
     """Measured inputs and start values."""
     speed: Signal | None = None
-    """Measured speed, from time 0 on, if a driver holds it in place of the measured pedals."""
+    """Measured speed since time 0, if a driver holds it instead of the measured pedals."""
     pedal: float = 0.0
     """Initial pedal of that driver; negative: brake."""
     begin: float = 0.0
@@ -40,7 +40,7 @@ class Segment:
 def parse_spans(text: str | None) -> Spans | None:
     """Read spans of time from a text of the form ``A:B,C:D``, s; None for all times.
 
-    Raises `HostError`: the text is not of that form, or the times do not increase.
+    Raises `HostError` if the text is not of that form, or the times do not increase.
     """
     if text is None:
         return None

@@ -21,7 +21,7 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
     -----
     The distance of a spike from the median of the two samples before and the two after it exceeds four times their
     range plus 30 times the median distance (of those that are not zero). Two equal samples, a step, the two samples at
-    either end, and samples more than 20 ms from a neighbour are no spikes.
+    either end, and samples more than 20 ms from a neighbour are not spikes.
     """
     is_spike = np.zeros(len(values), dtype=np.bool_)
     if len(values) <= 2 * _NEIGHBOURS:

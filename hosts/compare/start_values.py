@@ -10,7 +10,7 @@ from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.signal import Signal
 
-_AVERAGED = 0.1  # s at the begin of a log
+_AVERAGED = 0.1  # s at the start of a log
 _AT_REFERENCE = " (where the reference point is to be)"
 _LEAST_SPEED = 0.5  # m/s
 _LEAST_YAW_RATE = 0.02  # rad/s
@@ -92,7 +92,7 @@ def _start_values_of_run(
 def _notes_on_missing_values(
     fmu: NamedFmu, speed: float | None, rate: float | None, values: Mapping[str, Value]
 ) -> list[str]:
-    """Notes on a measured speed, m/s, or yaw rate, rad/s, that is no start value, and on a missing speed."""
+    """Notes on a measured speed, m/s, or yaw rate, rad/s, that is not a start value, and on a missing speed."""
     notes = []
     if speed is not None and abs(speed) > _LEAST_SPEED and "initial.speed" not in values:
         notes.append(

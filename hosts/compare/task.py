@@ -60,7 +60,7 @@ class Task:
     fmu: FmuSource
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
-    """`inputs`, `outputs`: from time 0 on; outputs of windows on the time axis of the comparison."""
+    """`inputs`, `outputs`: since time 0; outputs of windows on the time axis of the comparison."""
     segments: list[Segment]
     step: float
     """Communication step, s."""
@@ -219,14 +219,14 @@ def _is_invertible(values: NDArray[np.float64], variable: Variable) -> bool:
 
 
 def _missed_input_notes(manoeuvre: Manoeuvre, step: float, slopes: bool, integers: Set[str], begin: float) -> list[str]:
-    """A sentence if an input has a corner or a jump inside a communication step; else none."""
+    """A sentence if an input has a corner or a jump inside a communication step; otherwise empty."""
     missed = missed_inputs(manoeuvre, step, manoeuvre.inputs if slopes else (), integers)
     origin = f" after {begin:g} s of the log" if begin else ""
     return [] if missed is None else [f"{missed[0]}{origin}: {missed[1]}."]
 
 
 def outputs_from_begin(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
-    """All outputs of the log from time 0 on, also those that are not compared, for start values."""
+    """All outputs of the log since time 0, also those that are not compared, for start values."""
     return {n: s for n, s in _cut_to_options(log.outputs, options).items() if len(s.time) >= FEWEST_SAMPLES}
 
 
@@ -245,7 +245,7 @@ def _speed_to_hold(fmu: NamedFmu, log: Log, inputs: dict[str, Signal], notes: li
 
 
 def _preferred_step(fmu: NamedFmu, inputs: Mapping[str, Signal], options: argparse.Namespace) -> float | None:
-    """The requested communication step, s; else a multiple of that of the FMU, up to the log's interval or 10 ms."""
+    """The requested communication step, s, or a multiple of that of the FMU, up to the log's interval or 10 ms."""
     if options.step is not None:
         return float(options.step)
     fmu_step = default_step(fmu.description)

@@ -73,7 +73,7 @@ def window_text(windows: Sequence[Window]) -> str:
 
 
 def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
-    """Measured speed and absolute value of the lateral acceleration: yaw rate times speed, else as measured."""
+    """Measured speed and absolute value of the lateral acceleration: yaw rate times speed, otherwise as measured."""
     speed = next((signals[n] for n in ("speed", "chassis.vx") if n in signals), None)
     results = {} if speed is None else {"speed": speed}
     rate, ay = signals.get("chassis.wz"), signals.get("chassis.ay")

@@ -87,7 +87,7 @@ def car_digest(car: str) -> str:
     """A digest of the files of a car and of the program that builds it.
 
     `car`: a folder with a file ``car.toml``, or such a file, of which all files of the folder and those it names
-    elsewhere count; else the name of a car of the package.
+    elsewhere count; otherwise the name of a car of the package.
     """
     digest = hashlib.sha256(program_version().encode())
     path = Path(car)

@@ -27,7 +27,7 @@ _DEPTH_OF_VARIABLES = 3
 
 
 def opened(path: Path) -> Archive:
-    """Open an FMU as an archive. Raises `HostError`: the file does not exist, or has a fault of `ali3.archives`."""
+    """Open an FMU as an archive. Raises `HostError` if the file does not exist, or has a fault of `ali3.archives`."""
     if not is_file(path):
         hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
         raise HostError(no_file(path, hint))
@@ -39,7 +39,7 @@ def read_description(
 ) -> tuple[ModelDescription, list[ScalarVariable], dict[str, Scalar]]:
     """Read the description of an FMU of any version that FMPy reads.
 
-    `validate`: whether it must follow its schema. Raises `HostError`: the FMU cannot be read, or exceeds a limit.
+    `validate`: whether it must follow its schema. Raises `HostError` if the FMU cannot be read, or exceeds a limit.
 
     Returns
     -------
@@ -91,7 +91,7 @@ class _LimitCheck:
         self._parser.StartDoctypeDeclHandler = self._doctype
 
     def check(self, content: bytes) -> None:
-        """Raises `HostError`: the content is not XML, is nested too deep, or has too many elements."""
+        """Raises `HostError` if the content is not XML, is nested too deep, or has too many elements."""
         try:
             self._parser.Parse(content, True)
         except expat.ExpatError as error:

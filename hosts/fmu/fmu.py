@@ -1,4 +1,4 @@
-"""An FMU opened through FMPy: names in place of value references, statuses and messages collected."""
+"""An FMU opened through FMPy: names instead of value references, statuses and messages collected."""
 
 import math
 import sys
@@ -77,7 +77,7 @@ class Fmu(Closable, NamedScalars):
         self._remove: weakref.finalize[..., Fmu] | None = None
 
     def load(self) -> Instance:
-        """Load the library and instantiate the FMU unless it is loaded. Raises `HostError`: it cannot be loaded."""
+        """Load the library and instantiate the FMU unless it is loaded. Raises `HostError` if it cannot be loaded."""
         if self._loaded is not None:
             return self._loaded
         path = self.path
@@ -188,7 +188,7 @@ class Fmu(Closable, NamedScalars):
         return set_slopes
 
     def _interpolating_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        """The same in FMI 3.0: intermediate updates interpolate linearly from the values at the begin of the step."""
+        """The same in FMI 3.0: intermediate updates interpolate linearly from the values at the start of the step."""
         instance, set_values, get_values = (
             self._instance,
             self._instance.setter(self.scalars(names)),

@@ -106,7 +106,7 @@ class FmuSource:
 
     @contextmanager
     def opened(self) -> Iterator[Fmu | NamedFmu]:
-        """A context with the opened FMU under our names. Raises `HostError`: it cannot be read."""
+        """A context with the opened FMU under ALi3 names. Raises `HostError` if it cannot be read."""
         with Fmu(self.path) as fmu:
             yield self.seen(fmu)
 

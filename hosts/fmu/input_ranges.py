@@ -11,7 +11,7 @@ from hosts.fmu.variables import Variable
 
 ROUNDING = 1e-6  # of the range
 LEAST = 0.02  # of the range, which values in another unit must reach
-CLIPPED = 1.2  # times the range, up to which a factor or an offset is assumed in place of another unit
+CLIPPED = 1.2  # times the range, up to which a factor or an offset is assumed instead of another unit
 
 
 def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "row") -> str:
@@ -27,7 +27,7 @@ def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "
         return ""
     count, first = int((excess > ROUNDING * span).sum()), int(np.argmax(excess > ROUNDING * span))
     unit = unit_text(typeset(variable.unit))
-    count_text = f"from {where} {first + 1} on {count} of {len(values)} are beyond"
+    count_text = f"{count} of {len(values)} are beyond, the first in {where} {first + 1}"
     reached = f"reaches {values[worst]:.6g}{unit} in {where} {worst + 1} ({count_text})"
     return f"{reached}; the range of the FMU's input is {variable.range}{_hint(variable, values)}"
 

@@ -52,8 +52,8 @@ _NUMBERS: dict[int, dict[str, tuple[str, Any]]] = {
 class Instance:
     """An instance of an FMU of FMI 2.0 or 3.0; a call with an error status raises `FMICallException` of FMPy.
 
-    `on_message`: called with status, category and text of each message; `token`: in place of that of the description;
-    `resources`: a location in place of that of the resources, a URI in FMI 2.0, a path in FMI 3.0.
+    `on_message`: called with status, category and text of each message; `token`: instead of that of the description;
+    `resources`: a location instead of that of the resources, a URI in FMI 2.0, a path in FMI 3.0.
 
     `is_fmi3`: whether the FMU follows FMI 3.0; `raw_messages`: the last messages as the FMU sent them;
     `incomplete_messages`: number of those without category or text; `set_inputs_at`: called with the times within the
@@ -267,7 +267,7 @@ class Instance:
         (self.slave.freeFMUState if self.is_fmi3 else self.slave.freeFMUstate)(state)
 
     def state_bytes(self) -> bytes:
-        """The present state as bytes. Raises `HostError`: it is larger than a file of a state may be."""
+        """The present state as bytes. Raises `HostError` if it is larger than a file of a state may be."""
         state, size = self.state(), ctypes.c_size_t()
         get_size = self.slave.fmi3SerializedFMUStateSize if self.is_fmi3 else self.slave.fmi2SerializedFMUstateSize
         try:

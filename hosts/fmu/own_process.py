@@ -39,7 +39,7 @@ def in_own_process(
 ) -> R:
     """The result of one task. `work`, `answer`, `reads`: see `Isolated`; `tell`: called with its progress.
 
-    Raises `HostError`: the work has raised a `UserError`; `FailedFmuError`: the process has ended.
+    Raises `HostError` if the work has raised a `UserError`, `FailedFmuError` if the process has ended.
     """
     process: Isolated[T, R] = Isolated(work, answer, reads=reads)
     with closing(process):

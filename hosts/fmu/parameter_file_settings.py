@@ -14,7 +14,7 @@ from hosts.fmu.variables import Variable, Variables, kind_text
 def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
     """Settings of an SSV file, in the units of the FMU.
 
-    Raises `HostError`: a name, value, type or unit is wrong. Raises `ParameterSetError`: it is not a parameter set.
+    Raises `HostError` if a name, value, type or unit is wrong, `ParameterSetError` if it is not a parameter set.
     """
     parameters = read_parameter_set(file)
     return [_setting_of_entry(entry, parameters, variables, file.name) for entry in parameters.entries]

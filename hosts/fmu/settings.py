@@ -39,7 +39,7 @@ class Settings:
     def add_numbers(self, values: Mapping[str, Value], source: str) -> None:
         """Add values in the units of the FMU. `source`: of the values, for messages.
 
-        Raises `HostError`: a name, value or type is wrong.
+        Raises `HostError` if a name, value or type is wrong.
         """
         self._put([self._checked(name, value, source) for name, value in values.items()])
 
@@ -86,7 +86,7 @@ class Settings:
             self.add_numbers({"fidelity": fidelity}, "--fidelity")
 
     def discard_overwritten(self, names: Iterable[str], reason: str) -> None:
-        """Drop settings of variables that are overwritten from the start on, with a note. `reason`: for the note."""
+        """Drop settings of variables that are overwritten at the start, with a note. `reason`: for the note."""
         for name in names:
             if name in self._settings:
                 setting = self._settings.pop(name)
@@ -125,7 +125,7 @@ class Settings:
 
 
 def settings_of(variables: Variables, fmu_options: FmuOptions) -> Settings:
-    """The settings of the command line for an FMU. Raises `HostError`: a name, value, type or unit is wrong."""
+    """The settings of the command line for an FMU. Raises `HostError` if a name, value, type or unit is wrong."""
     settings = Settings(variables)
     settings.add_options(fmu_options)
     return settings

@@ -67,7 +67,7 @@ class Variable:
 
     @property
     def may_be_set(self) -> bool:
-        """Whether it is a parameter or an input that is no constant."""
+        """Whether it is a parameter or an input, and not a constant."""
         return self.causality in ("parameter", "input") and self.variability != "constant"
 
     @property
@@ -81,7 +81,7 @@ class Variable:
         """The checked value of a text.
 
         `source`: of the text, for messages; `with_unit`: whether a unit may follow the number, as on the command line
-        but not in files. Raises `HostError`: it is not a value of this variable.
+        but not in files. Raises `HostError` if it is not a value of this variable.
         """
         if self.kind == "String":
             return text
@@ -101,7 +101,7 @@ class Variable:
     def check(self, value: Value, source: str) -> Value:
         """The value, converted to the type of the variable.
 
-        Raises `HostError`: it has another type or is out of the range.
+        Raises `HostError` if it has another type or is out of the range.
         """
         if self.kind == "String" or isinstance(value, str):
             if self.kind != "String" or not isinstance(value, str):
@@ -125,7 +125,7 @@ class Variable:
     def from_display(self, value: float, unit: str, source: str) -> float:
         """A value converted from a display unit of the FMU to the unit of the variable.
 
-        Raises `HostError`: the variable has no such display unit.
+        Raises `HostError` if the variable has no such display unit.
         """
         if unit not in self.displays:
             raise HostError(
@@ -155,7 +155,7 @@ class Variables:
     def settable(self, name: str, source: str) -> Variable:
         """A variable that may be set before the start. `source`: of the name, for messages.
 
-        Raises `HostError`: the variable does not exist, or may not be set.
+        Raises `HostError` if the variable does not exist, or may not be set.
         """
         variable = self._variables.get(name)
         if variable is None and (elements := [n for n in self.names if n.startswith(f"{name}[")]):
@@ -224,7 +224,7 @@ def _start(text: Any, kind: str) -> Value | None:
 
 
 def check_co_simulation(path: Path, description: ModelDescription) -> None:
-    """Raises `HostError`: the FMU is not for co-simulation of FMI 2.0 or 3.0."""
+    """Raises `HostError` if the FMU is not for co-simulation of FMI 2.0 or 3.0."""
     if description.coSimulation is None or description.fmiVersion[0] not in "23":
         kind = "" if description.coSimulation is not None else " for model exchange"
         raise HostError(

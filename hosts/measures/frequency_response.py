@@ -51,7 +51,7 @@ def frequency_response(
     Parameters
     ----------
     excitation, answer : ndarray of shape (n,)
-        Input and output at even times, less their values at rest.
+        Input and output at even times, minus their values at rest.
     interval : float
         Between samples, s.
     frequency : ndarray of shape (m,)

@@ -17,7 +17,7 @@ class StepResponse:
     """Measures of one quantity; NaN where the record does not yield them."""
 
     steady: float
-    """Mean over the window of the steady state, less the mean before the step, in the unit of the quantity."""
+    """Mean over the window of the steady state, minus the mean before the step, in the unit of the quantity."""
     response_time: float
     """From the reference time to 90 % of `steady`, s."""
     peak: float

@@ -34,8 +34,8 @@ _MOST_ROW_BYTES = 1 << 24
 class Car(Closable):
     """An FMU that runs in its own process; it begins paused, at time 0.
 
-    `names`: numeric inputs, then numeric outputs; `units`: by name; `step`: communication step, s. Raises `HostError`:
-    the FMU cannot be started. Every method raises it after the process has ended unexpectedly.
+    `names`: numeric inputs, then numeric outputs; `units`: by name; `step`: communication step, s. Raises `HostError`
+    if the FMU cannot be started. Every method raises it after the process has ended unexpectedly.
     """
 
     def __init__(self, settings: CarSettings) -> None:
@@ -98,7 +98,7 @@ class Car(Closable):
         """Request values of inputs.
 
         `values`: by input, its value, which is limited to the range of the model description, and its largest change
-        per second of simulated time; integers always change at once, as with an infinite rate. Raises `HostError`: an
+        per second of simulated time; integers always change at once, as with an infinite rate. Raises `HostError` if an
         input does not exist or a number cannot be used; then no input changes.
         """
         checked = []
@@ -125,7 +125,7 @@ class Car(Closable):
 
         `name`: ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
         simulated over wall time), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``. Raises
-        `HostError`: the command does not exist, or its value cannot be used.
+        `HostError` if the command does not exist, or its value cannot be used.
         """
         commands = COMMANDS[:-1]
         if name not in commands:
@@ -144,8 +144,8 @@ class Car(Closable):
     def restart(self, changes: Mapping[str, Value]) -> None:
         """Start again at time 0 with other start values, which later resets keep.
 
-        `changes`: parameters and start values that replace present ones. Raises `HostError`: a parameter or input does
-        not exist, or cannot have this value.
+        `changes`: parameters and start values that replace present ones. Raises `HostError` if a parameter or input
+        does not exist, or cannot have this value.
         """
         checked = {n: self._table.settable(n, "start values").check(v, "start values") for n, v in changes.items()}
         with self._lock:

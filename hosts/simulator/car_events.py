@@ -24,7 +24,7 @@ class CarSettings:
     step: float = 0.002
     """Communication step, s."""
     paced: bool = True
-    """Whether steps are made in real time, else as fast as possible."""
+    """Whether steps are made in real time, otherwise as fast as possible."""
     record: Path | None = None
     interval: float | None = None
     """Between recorded outputs, s; default: see `hosts.recordings.recorded_columns`."""
@@ -58,7 +58,7 @@ class CarState:
     worst: float
     lateness: float
     """`cost`, `worst`, `lateness`: wall time of the last step, the largest of about the last second, and delay of the
-    begin of the last step, s."""
+    start of the last step, s."""
     missed: int
     """Deadlines missed so far."""
     saved: float

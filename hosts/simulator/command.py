@@ -61,7 +61,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "Ctrl-C ends with a report of the step times. With --recording: say what a recording holds, repeat\n"
         "it, or make a manoeuvre of it.",
     )
-    add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype; of a recording: the one that was recorded")
+    add_fmu(parser, "?", "dist/PrototypeCar.fmu, otherwise prototype; of a recording: the one that was recorded")
     add_option(parser, "--world", "proving_ground")
     parser.add_argument("--place", metavar="NAME", help="of the world, where the car starts; default: its first")
     add_option(parser, "--step", "0.002", default=0.002)
@@ -73,7 +73,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(parser, "--interval", "about 0.025 of what is drawn, 0.1 of other outputs; inputs at every step")
     add_option(parser, "--json")
     page = parser.add_argument_group("with a page")
-    page.add_argument("--port", type=int, metavar="N", help="port of the server; default: the first free from 8765 on")
+    page.add_argument("--port", type=int, metavar="N", help="port of the server; default: the first free >= 8765")
     page.add_argument(
         "--listen",
         default=_LOCAL_ADDRESS,

@@ -45,7 +45,7 @@ class ConnectedPage:
         return name
 
     def heard(self) -> None:
-        """Note a received message. Raises `HostError`: the page sends too many."""
+        """Note a received message. Raises `HostError` if the page sends too many."""
         now = self._now()
         self._message_allowance = (
             min(BURST, self._message_allowance + (now - self._last_message) * MESSAGES_PER_SECOND) - 1.0
@@ -56,7 +56,7 @@ class ConnectedPage:
             raise HostError(f"A page may send {MESSAGES_PER_SECOND:g} messages a second; this one sent more.")
 
     def malformed(self) -> None:
-        """Note a malformed message. Raises `HostError`: the page has sent too many."""
+        """Note a malformed message. Raises `HostError` if the page has sent too many."""
         self._malformed += 1
         if self._malformed > MOST_MALFORMED:
             raise HostError(f"More than {MOST_MALFORMED} messages of this page were wrong.")

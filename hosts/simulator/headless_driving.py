@@ -38,7 +38,7 @@ class ConstantInputs:
 class ManoeuvreDriver:
     """A driver with the inputs of a manoeuvre: of its table and of its driver, if it has one.
 
-    Raises `HostError`: the car lacks a variable, or the manoeuvre needs a run before.
+    Raises `HostError` if the car lacks a variable, or the manoeuvre needs a previous run.
     """
 
     def __init__(self, manoeuvre: Manoeuvre, car: AliasedCar) -> None:

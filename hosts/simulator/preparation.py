@@ -90,7 +90,7 @@ class Prepared:
 def prepare(request: DriveRequest, tell: Callable[[str], None]) -> Prepared:
     """Find, check and read what a drive needs. `tell`: called with messages.
 
-    Raises `HostError`: something is wrong or cannot be used; with a remedy.
+    Raises `HostError` with a remedy if something is wrong or cannot be used.
     """
     if request.record is not None:
         check_folder(request.record)

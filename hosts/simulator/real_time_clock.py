@@ -52,7 +52,7 @@ class RealTimeClock:
         self._causes.restart()
 
     def wait(self) -> bool:
-        """Sleep towards the begin of the next step, for at most 20 ms; whether it is reached."""
+        """Sleep towards the start of the next step, for at most 20 ms; whether it is reached."""
         now = self._clock.now()
         if not self._paced:
             self._began = now
@@ -68,7 +68,7 @@ class RealTimeClock:
     def done(self) -> str:
         """Count a step that was made, and schedule the next.
 
-        Returns a message if the car begins or ends to be behind, else an empty text.
+        Returns a message if the car begins or ends to be behind, otherwise an empty text.
         """
         now, times, period = self._clock.now(), self._times, self.period
         self.cost = now - self._began

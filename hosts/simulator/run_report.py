@@ -64,8 +64,8 @@ class RunReport:
             "settings": prepared.settings.records(),
             "built": prepared.fmu.built,
         }
-        for name, message in prepared.settings.rows():
-            self.tell(f"{name}: {message}")
+        for name, text in prepared.settings.rows():
+            self.tell(f"{name}: {text}")
         self.tell(f"Inputs are held over each step of {1e3 * step:g} ms: they act {500.0 * step:g} ms late on average.")
 
     def ready(self) -> None:
@@ -79,7 +79,7 @@ class RunReport:
         self.tell(f"First frame sent to a page {self.passed('first frame'):.2f} s after the start of the command.")
 
     def finish(self, times: StepTimes, file: Path | None) -> None:
-        """Show the report, and write it. `file`: JSON. Raises `FileError`: it cannot be written."""
+        """Show the report, and write it. `file`: JSON. Raises `FileError` if it cannot be written."""
         self.tell(times.text())
         if self._kinds:
             counts = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))

@@ -50,7 +50,7 @@ class TimesRecord:
         return self._values[_INDICES[name]]
 
     def add_step(self, cost: float, lateness: float) -> None:
-        """Count a step. `cost`: its wall time, s; `lateness`: of its begin, s."""
+        """Count a step. `cost`: its wall time, s; `lateness`: delay of its start, s."""
         values = self._values
         values[_COST + bin_of(cost)] += 1.0
         values[_LATENESS + bin_of(lateness)] += 1.0
@@ -131,7 +131,7 @@ class StepTimes:
     paused: float
     """`wall`, `paused`: wall time in which the car ran and in which it was paused, s."""
     missed: int
-    """Number of steps that ended after the scheduled begin of the next."""
+    """Number of steps that ended after the scheduled start of the next."""
     missed_by: dict[str, int]
     """Their number by each of `CAUSES`; all zero if the system does not report causes."""
     skipped: int
@@ -140,7 +140,7 @@ class StepTimes:
     """Wall time by which the schedule was moved, s."""
     cost: Spread
     lateness: Spread
-    """`cost`, `lateness`: wall time of a step, and delay of its begin."""
+    """`cost`, `lateness`: wall time of a step, and delay of its start."""
     mean: float
     """Mean cost, s."""
     capped: int

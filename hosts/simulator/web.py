@@ -74,9 +74,9 @@ class _FloodGuard(socket.socket):
 
 
 def listening_socket(address: str, port: int | None) -> socket.socket:
-    """A listening socket. `port`: by default the first free one from `DEFAULT_PORT` on.
+    """A listening socket. `port`: by default the first free one, `DEFAULT_PORT` or above.
 
-    Raises `HostError`: the port is not available, with the next free one; or the address does not exist.
+    Raises `HostError` if the port is not available, with the next free one, or if the address does not exist.
     """
     if port is not None and not 0 <= port <= 65535:
         raise HostError(f"The port is {port}; it must be from 1 to 65535, or 0 for any that is free.")
@@ -86,9 +86,7 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
             result = _bound_socket(address, number)
         except OSError as error:
             if error.errno == errno.EACCES and port is not None:
-                raise HostError(
-                    f"The system does not allow you to use the port {port}; give one from 1024 on."
-                ) from None
+                raise HostError(f"The system does not allow you to use the port {port}; give 1024 or above.") from None
             if error.errno not in _UNAVAILABLE:
                 raise HostError(f"The server cannot listen on {address}: {reason(error)}.") from None
             continue

@@ -109,7 +109,7 @@ class StudyRecord(_Table):
 
 
 def read_record(folder: Path) -> dict[str, Any] | None:
-    """The record of the study in a folder; None where there is none. Raises `HostError`: the record is damaged."""
+    """The record of the study in a folder; None where there is none. Raises `HostError` if the record is damaged."""
     file = folder / RECORD
     if not file.exists():
         return None
@@ -134,7 +134,7 @@ def check_no_link(folder: Path) -> None:
 
 
 def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
-    """The FMU in a folder of results. Raises `HostError`: it is missing, or is not the FMU of the rows."""
+    """The FMU in a folder of results. Raises `HostError` if it is missing, or is not the FMU of the rows."""
     file = folder / str(record["fmu"])
     if not file.is_file():
         raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")

@@ -49,7 +49,7 @@ class Job:
 
 
 def named_manoeuvre(name: str, file: Path) -> Manoeuvre:
-    """A manoeuvre of the package, else of a file beside the study file. Raises `HostError` where there is neither."""
+    """A manoeuvre of the package, otherwise of a file beside the study file. Raises `HostError` if there is neither."""
     names = manoeuvre_names()
     if name in names:
         return load_manoeuvre(name)
@@ -64,8 +64,8 @@ def checked_test(
 ) -> tuple[str, dict[str, float]]:
     """Name and settings of a test that can be done with an FMU.
 
-    `set_values`: settings other than the defaults; `where`: name of the entry in messages. Raises `HostError`: there is
-    no such test or setting, or the FMU lacks a variable that the test needs.
+    `set_values`: settings other than the defaults; `where`: name of the entry in messages. Raises `HostError` if there
+    is no such test or setting, or the FMU lacks a variable that the test needs.
     """
     try:
         test = standard_test(name)
@@ -94,7 +94,7 @@ def perform_test(
 def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequence[str]) -> list[Job]:
     """The jobs at each point. `parameters`: those that the study varies.
 
-    Raises `HostError`: a manoeuvre cannot be driven with this FMU, or overwrites a parameter.
+    Raises `HostError` if a manoeuvre cannot be driven with this FMU, or overwrites a parameter.
     """
     jobs: list[Job] = []
     for number, entry in enumerate(study.manoeuvres, start=1):

@@ -52,7 +52,7 @@ class Share:
     """Share of `within` in `within` and `outside`, 0 to 1; NaN where both are 0."""
     share_low: float
     share_high: float
-    """`share_low`, `share_high`: its interval, see `interval_of_share`; NaN where the runs are no random sample."""
+    """`share_low`, `share_high`: its interval, see `interval_of_share`; NaN if the runs are not a random sample."""
 
 
 def shares(frame: pd.DataFrame) -> list[Share]:
@@ -107,7 +107,7 @@ def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
 
 
 def _manoeuvres_of(column: str, about: Mapping[str, Any]) -> list[str]:
-    """Manoeuvres whose runs have a measure: the test of its name, else all that are no tests."""
+    """Manoeuvres whose runs have a measure: the test of its name, otherwise all that are not tests."""
     tests = [n for n in about["tests"] if column.startswith(f"{n}.")]
     return [max(tests, key=len)] if tests else [n for n in about["manoeuvres"] if n not in about["tests"]]
 

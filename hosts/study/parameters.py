@@ -64,7 +64,7 @@ class Parameter:
         numbers[0], numbers[-1] = self.low, self.high
         if self.kind != "Real" and (numbers != np.round(numbers)).any():
             raise HostError(
-                f"parameters.'{self.name}': {self.count} equal steps from {self.low:g} to {self.high:g} are no whole "
+                f"parameters.'{self.name}': {self.count} equal steps from {self.low:g} to {self.high:g} are not whole "
                 "numbers; list them as values."
             )
         values = numbers.tolist() if self.kind == "Real" else [int(x) for x in numbers]
@@ -85,7 +85,7 @@ class Parameter:
 def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str) -> Parameter:
     """A parameter, checked against its variable. `file`: name of the study file in messages.
 
-    Raises `HostError`: a value is of another kind or out of the range of the FMU, with a remedy.
+    Raises `HostError` with a remedy if a value is of another kind or out of the range of the FMU.
     """
     label = f"{file}: parameters.'{name}'"
     if entry.range is not None:

@@ -53,7 +53,7 @@ def grid_points(lengths: Sequence[int]) -> UnitPoints:
 def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, file: str) -> Points:
     """Points of a grid, or random ones. `file`: name of the study file in messages.
 
-    Raises `HostError`: there are too many points.
+    Raises `HostError` if there are too many points.
     """
     if sampling.method == "grid":
         parameters = tuple(p.with_grid_values() for p in parameters)

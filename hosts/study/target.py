@@ -31,7 +31,7 @@ def target_of(text: str, by: str, range_text: str | None) -> Target:
     """Read the target of the options.
 
     `text`: ``MEASURE=VALUE``, the value with or without a unit; `by`: the parameter; `range_text`: ``LOW:HIGH``. Raises
-    `HostError`: a text is not of this form.
+    `HostError` if a text is not of this form.
     """
     name, _, value = (part.strip() for part in text.partition("="))
     match = _VALUE.fullmatch(value)
@@ -52,7 +52,7 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     """Seek the value of a parameter, print and write the result. Returns whether the measure has the target value.
 
     `file`: a study file; its other parameters keep the values of the FMU; `out`: folder of the files. Raises
-    `HostError`: there is no such parameter or measure, or the unit is one of another quantity.
+    `HostError` if there is no such parameter or measure, or the unit is one of another quantity.
     """
     study, _ = read_study_file(file)
     fmu = fmu_of_study(study, file)
@@ -82,7 +82,7 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
 
 
 def _plan_of_parameter(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
-    """The plan of the study with one parameter; its range is that of the option, else of the file, else of the FMU."""
+    """The plan of the study with one parameter; its range is that of the option, or of the file, or of the FMU."""
     entry = study.parameters.get(target.by, ParameterEntry())
     variables = Variables(described(fmu))
     is_named = target.by in variables.names or study.aliases is None  # else it may be a name of the alias file

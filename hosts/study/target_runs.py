@@ -29,7 +29,7 @@ class Target:
     by: str
     """Name of the parameter."""
     range: tuple[float, float] | None
-    """Range of the parameter in the unit of the FMU; None: that of the study file, else of the FMU."""
+    """Range of the parameter in the unit of the FMU; None: that of the study file, otherwise of the FMU."""
 
 
 class TargetRuns:

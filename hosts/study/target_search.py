@@ -26,7 +26,7 @@ class Run:
     y: float
     """Value of the measure; NaN where the run does not yield it."""
     reason: str = ""
-    """Reason for a NaN, else empty."""
+    """Reason for a NaN, otherwise empty."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ class _Search:
         return math.log(x / low) / math.log(high / low) if self._log else (x - low) / (high - low)
 
     def _residual(self, u: float) -> float:
-        """The measure less the target at a position; NaN where the run fails."""
+        """The measure minus the target at a position; NaN if the run fails."""
         if u not in self._runs:
             if len(self._runs) >= self._most_runs:
                 raise _SearchEnd

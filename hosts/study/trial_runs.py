@@ -31,9 +31,9 @@ class Trial:
 
 
 def make_trial_runs(plan: Plan) -> Trial:
-    """Make runs of the first point, and where they fail of the middle and the last one, in a separate process.
+    """Make runs of the first point, and if they fail of the middle and the last one, in a separate process.
 
-    Raises `HostError`: all runs of a job fail, with the reason of the last.
+    Raises `HostError` if all runs of a job fail, with the reason of the last.
     """
     work, notes = replace(plan.work, reuse=False), list[str]()
     columns: dict[str, str] = {}
@@ -85,7 +85,7 @@ def _outcomes_at(work: Work, plan: Plan, number: int, points: Sequence[int]) -> 
 
 
 def _check_reuse(plan: Plan, completed: list[tuple[int, Job, int, Outcome]]) -> tuple[bool, float | None]:
-    """Whether a reset instance reproduces a run to the last bit, and the time of that run, s; else None."""
+    """Whether a reset instance reproduces a run to the last bit, and the time of that run, s; otherwise None."""
     manoeuvre_runs = [run for run in completed if run[1].manoeuvre is not None]
     if not manoeuvre_runs:
         return False, None

@@ -111,7 +111,8 @@ def find_limit(
 
 
 def try_drivers(car: TestedCar, layout: _CourseSettings, speed: float, passed: Passage | None) -> Passage:
-    """Drive a course by several drivers, the last successful one first, until a passage is clean; else the best one.
+    """Drive a course by several drivers, the last successful one first, until a passage is clean; otherwise the best
+    one.
 
     `speed`: in km/h; `passed`: the last clean passage.
     """

@@ -39,7 +39,7 @@ def drive(sheet: Sheet) -> None:
 
 
 def _one_period(run: SteeredRun, values: NDArray[np.float64], period: float) -> OnePeriod:
-    """Measures of the period and the time after it, of signals less their means before the steering."""
+    """Measures of the period and the time after it, of signals minus their means before the steering."""
     if not run.whole:
         return NOTHING
     before, during = run.time < 0.0, (run.time >= 0.0) & (run.time <= period + _AFTER)

@@ -35,7 +35,7 @@ def is_si(variable: Variable) -> bool:
 def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
     """The factor from SI units to a unit of an alias file.
 
-    `variable`: of the FMU; its definition of a unit of this name takes precedence. Raises `HostError`: the unit is
+    `variable`: of the FMU; its definition of a unit of this name takes precedence. Raises `HostError` if the unit is
     unknown, or the FMU declares another.
     """
     declared_unit = variable.definition if variable is not None and variable.unit == unit else None

@@ -14,7 +14,7 @@ _CALL = re.compile(r"\s*(\w+)\s*\(([^()]*)\)\s*")
 def parse_derived(ours: str, text: str, constants: Mapping[str, float], where: str) -> Derived:
     """The derived variable of an entry of an alias file.
 
-    `constants`: replace their names in `text`; `where`: subject of messages. Raises `HostError`: the formula does not
+    `constants`: replace their names in `text`; `where`: subject of messages. Raises `HostError` if the formula does not
     exist, or takes other arguments.
     """
     match = _CALL.fullmatch(text)

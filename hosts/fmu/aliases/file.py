@@ -20,7 +20,7 @@ _RECORDED = ("input", "output")
 def find_aliases(name: str | Path, variables: Variables) -> Aliases:
     """The aliases of a file of the package, by its name, or of another file.
 
-    `name`: such as ``chrono``, or a path; a file of this name takes precedence. Raises `HostError`: see `read_aliases`.
+    `name`: such as ``chrono``, or a path; a file of this name takes precedence. Raises `HostError` as `read_aliases`.
     """
     try:
         path = alias_file(name)

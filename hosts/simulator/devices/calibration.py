@@ -134,7 +134,7 @@ class Assignment:
 
     name: str
     base: Reading
-    """Reading at the begin."""
+    """Reading at the start."""
     until: float
     """Time at which the assignment ends without a result, s."""
 
@@ -142,7 +142,7 @@ class Assignment:
     """Least movement of an axis that is assigned."""
 
     def feed(self, reading: Reading) -> InputMapping | None:
-        """Take the next values; the mapping once an axis or button was moved far enough, else None.
+        """Take the next values; the mapping once an axis or button was moved far enough, otherwise None.
 
         An axis for the steering must be moved to the left.
         """

@@ -9,8 +9,8 @@ MOST_OF_A_MODEL = 8
 class Identities:
     """The `id` of each connected device: its GUID, followed by ``-2`` for a second device of the same model.
 
-    A device that is reconnected gets its former `id`. Devices of one model are distinguished by serial number, else by
-    port, else by their order.
+    A device that is reconnected gets its former `id`. Devices of one model are distinguished by serial number, by
+    port, or by their order, the first that is known.
 
     `stored_serial`: serial number in the file of an `id`, or empty.
     """

@@ -47,8 +47,8 @@ class InputMapping:
     def value(self, name: str, reading: Reading) -> float | None:
         """The value of an input for a reading. `name`: of the input.
 
-        Result: from -1 to 1 for `CENTRED` inputs, else from 0 to 1, exactly at the ends of the axis; None if the device
-        reports no value.
+        Result: from -1 to 1 for `CENTRED` inputs, otherwise from 0 to 1, exactly at the ends of the axis; None if the
+        device reports no value.
         """
         source = Source.read(self.source)
         position = source.position(reading)
@@ -118,7 +118,7 @@ class DeviceMapping:
 def read_input(name: str, table: object) -> InputMapping:
     """The mapping of an input from a table of its fields; missing ones have their defaults.
 
-    Raises `HostError`: a field is unknown or has an invalid value.
+    Raises `HostError` if a field is unknown or has an invalid value.
     """
     label = f"The mapping of '{name}'"
     if name not in (*CENTRED, *PEDALS, *SELECTOR):
@@ -153,7 +153,7 @@ def read_input(name: str, table: object) -> InputMapping:
 def read_settings(table: object, base: DeviceSettings | None = None) -> DeviceSettings:
     """Settings from a table; missing ones are those of `base`.
 
-    Raises `HostError`: a field is unknown or has an invalid value.
+    Raises `HostError` if a field is unknown or has an invalid value.
     """
     subject, base = "The settings of the device", base or DeviceSettings()
     fields = _checked_fields(subject, table, asdict(base))

@@ -52,7 +52,7 @@ class MappingFiles:
     def read(self, device: str) -> DeviceMapping | None:
         """The mapping of a device; None if it has no file.
 
-        Raises `HostError`: the file cannot be read or is damaged.
+        Raises `HostError` if the file cannot be read or is damaged.
         """
         file = self.file(device)
         if not file.exists():
@@ -66,7 +66,7 @@ class MappingFiles:
     def write(self, device: str, mapping: DeviceMapping, name: str, serial: str = "") -> None:
         """Write the file of a device. A damaged one is kept, with `.damaged` added to its name.
 
-        Raises `FileError`: it cannot be written.
+        Raises `FileError` if it cannot be written.
         """
         file = self.file(device)
         inputs = {k: {f: v for f, v in asdict(m).items() if v is not None} for k, m in mapping.inputs.items()}

@@ -15,8 +15,8 @@ _CONDITIONS = {"damper": "SDL_HAPTIC_DAMPER", "spring": "SDL_HAPTIC_SPRING"}
 class Motor:
     """The motor of a device, for use by one thread.
 
-    `joystick`: of SDL; it must stay open until the motor is closed. Raises `HostError`: the motor has no constant force
-    or cannot be opened.
+    `joystick`: of SDL; it must stay open until the motor is closed. Raises `HostError` if the motor has no constant
+    force or cannot be opened.
     """
 
     def __init__(self, sdl: Any, joystick: Any) -> None:
@@ -42,7 +42,7 @@ class Motor:
     def push(self, level: int) -> None:
         """Set the constant force. `level`: from -32767 to 32767, positive to the left.
 
-        Raises `HostError`: the device refuses it.
+        Raises `HostError` if the device refuses it.
         """
         if self._levels.get("constant") == level:
             return
@@ -52,7 +52,7 @@ class Motor:
     def condition(self, kind: str, share: float) -> bool:
         """Set a damper or a centring spring; False if the device has none.
 
-        `kind`: ``damper`` or ``spring``; `share`: of the largest coefficient, 0 to 1. Raises `HostError`: the device
+        `kind`: ``damper`` or ``spring``; `share`: of the largest coefficient, 0 to 1. Raises `HostError` if the device
         refuses it.
         """
         number = getattr(self._sdl, _CONDITIONS[kind])

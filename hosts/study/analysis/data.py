@@ -31,7 +31,7 @@ class Parameter:
     log: bool = False
     """Whether its range is divided by the logarithm."""
     categories: tuple[str, ...] = ()
-    """Texts of the codes 0, 1, ... of a parameter that is not a number; else empty."""
+    """Texts of the codes 0, 1, ... of a parameter that is not a number; otherwise empty."""
 
     @property
     def title(self) -> str:

@@ -56,10 +56,7 @@ def saltelli_indices(names: Sequence[str], points: NDArray[np.int64], y: NDArray
     blocks.flat[points] = y
     whole = np.isfinite(blocks).all(axis=1)
     if whole.sum() < _FEWEST_BLOCKS:
-        return (
-            f"Only {whole.sum()} blocks of {width} runs of the design are whole; from {_FEWEST_BLOCKS} on indices are "
-            "given."
-        )
+        return f"Only {whole.sum()} blocks of {width} runs of the design are whole; indices need {_FEWEST_BLOCKS}."
     values = blocks[whole].ravel()
     if message := _constant_text(values):
         return message
@@ -106,7 +103,7 @@ def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[n
     correction of J.-Y. Tissot and C. Prieur, 2012; by SALib.
     """
     if len(y) < _FEWEST_FOR_ESTIMATE:
-        return f"{len(y)} runs yield the measure; from {_FEWEST_FOR_ESTIMATE} on indices are estimated."
+        return f"{len(y)} runs yield the measure; estimated indices need {_FEWEST_FOR_ESTIMATE}."
     if message := _constant_text(y):
         return message
     if len(y) > _MOST_FOR_ESTIMATE:
@@ -122,7 +119,7 @@ def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[n
 
 
 def _constant_text(values: NDArray[np.float64]) -> str:
-    """A sentence if values differ by rounding errors only; else empty."""
+    """A sentence if values differ by rounding errors only; otherwise empty."""
     if is_round_off(float(np.ptp(values)), float(np.abs(values).max())):
         return f"The measure is {values[0]:.6g} in all runs."
     return ""

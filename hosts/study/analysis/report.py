@@ -33,7 +33,7 @@ def write_report(folder: Path) -> list[Path]:
     """Write ``report.html``, and its plots and the table of effects into ``analysis``.
 
     `folder`: of a study, finished or not. Returns the paths of the report and of the folder ``analysis``. Raises
-    `HostError`: there is no study, no finished run, a link in the folder, or a damaged file of rows or signals.
+    `HostError` if there is no study or no finished run, the folder has a link, or a file of rows or signals is damaged.
     """
     frame = read_study(folder)
     check_signals(folder, study_record(folder))

@@ -29,9 +29,9 @@ def reason_without_distribution(data: StudyData, response: Response) -> str:
     """Why a distribution cannot be estimated from the values of a measure, as a clause; empty if it can."""
     count = len(response.values)
     if data.method in ("grid", "table"):
-        return f"{count} runs of a {data.method}, no random sample"
+        return f"{count} runs of a {data.method}, not a random sample"
     few = count < _FEWEST_FOR_DISTRIBUTION
-    return f"{count} runs, from {_FEWEST_FOR_DISTRIBUTION} on a distribution" if few else ""
+    return f"{count} runs; a distribution needs {_FEWEST_FOR_DISTRIBUTION}" if few else ""
 
 
 def statistics(response: Response) -> dict[str, float]:

@@ -36,7 +36,8 @@ class Reduction:
     def __call__(self, *arguments: Quantity, **window: Quantity) -> Quantity:
         """Reduce a signal.
 
-        Raises `HostError`: the arguments are not allowed; `NotYieldedError`: the signal has no sample in the window.
+        Raises `HostError` if the arguments are not allowed, `NotYieldedError` if the signal has no sample in the
+        window.
         """
         if len(arguments) != (2 if self.number else 1):
             arguments_text = f"a signal and {self.number}" if self.number else "one signal"

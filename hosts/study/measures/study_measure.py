@@ -23,8 +23,8 @@ def parse_measure(text: str, name: str = "", folder: Path = Path()) -> StudyMeas
     """Read a measure of a study.
 
     `text`: such as ``max(abs(chassis.ay), after=2.0)``, or ``file.py:function``; `name`: of its column; by default the
-    text, or the name of the function; `folder`: to which the path of the file is relative. Raises `HostError`: the text
-    cannot be read, or the file or function is missing.
+    text, or the name of the function; `folder`: to which the path of the file is relative. Raises `HostError` if the
+    text cannot be read, or the file or function is missing.
     """
     function = _FUNCTION.fullmatch(text.strip())
     if function is None:

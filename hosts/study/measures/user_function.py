@@ -110,8 +110,8 @@ class UserFunction:
 def read_user_function(file: Path, function: str, name: str = "") -> UserFunction:
     """Read the file and load it once, so that its mistakes are reported before the first run.
 
-    `name`: of the measure; by default that of the function. Raises `HostError`: no file, no function, or the file
-    cannot be run.
+    `name`: of the measure; by default that of the function. Raises `HostError` if the file or the
+    function is missing, or the file cannot be run.
     """
     if not function.isidentifier():
         raise HostError(f"'{file}:{function}' names no function; the form is file.py:function.")
