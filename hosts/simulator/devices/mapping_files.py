@@ -82,7 +82,7 @@ class MappingFiles:
             temporary.write_text(_HEAD + tomli_w.dumps(table), encoding="utf-8")
 
     def remove(self, device: str) -> None:
-        """Remove the file of a device, if there is one."""
+        """Remove the file of a device, if there is one. Raises `HostError` if it cannot be removed."""
         try:
             self.file(device).unlink(missing_ok=True)
         except OSError as error:
