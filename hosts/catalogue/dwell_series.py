@@ -11,13 +11,14 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.stop_conditions import SPUN
 from hosts.measures.filters import phaseless_low_pass
-from hosts.measures.sine_with_dwell import NOTHING, SineWithDwell, sine_with_dwell
+from hosts.measures.sine_with_dwell import SineWithDwell, measure_sine_with_dwell
 
 FREQUENCY = 0.7  # Hz
 DWELL = 0.5  # s
 AFTER = 2.0  # s, straight ahead
-_LEAST_LAST_AMPLITUDE = math.radians(270.0)
-_LARGEST_AMPLITUDE = math.radians(300.0)
+_MIN_LAST_AMPLITUDE = math.radians(270.0)
+_MAX_AMPLITUDE = math.radians(300.0)
+_MIN_SAMPLES = 20  # of a run that is filtered and measured
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ def series_amplitudes(a: float, first: float, increment: float, full_lock: float
     `a`: angle A at 0.3 g, rad; `first`, `increment`: over A; `full_lock`: largest angle of the steering wheel, rad. The
     last amplitude is the greater of 6.5 A and 270°, but at most 300° and full lock.
     """
-    last = min(_LARGEST_AMPLITUDE if 6.5 * a > _LARGEST_AMPLITUDE else max(6.5 * a, _LEAST_LAST_AMPLITUDE), full_lock)
+    last = min(_MAX_AMPLITUDE if 6.5 * a > _MAX_AMPLITUDE else max(6.5 * a, _MIN_LAST_AMPLITUDE), full_lock)
     multiples = a * (first + increment * np.arange(math.ceil(max(last / a - first, 0.0) / increment)))
     # An amplitude within 1 % of the last one is left out.
     return [float(x) for x in multiples if x < 0.99 * last] + [last]
@@ -60,7 +61,7 @@ def sine_with_dwell_table(amplitude: float) -> tuple[NDArray[np.float64], NDArra
 
 def filtered_run(run: SteeredRun) -> SteeredRun:
     """The run with phaseless low-pass filters (steering wheel 10 Hz, others 6 Hz, 12 poles), minus means before it."""
-    if len(run.time) < 20:
+    if len(run.time) < _MIN_SAMPLES:
         return run
     is_before = (run.time < -0.1) if (run.time < -0.1).any() else run.time <= 0.0
 
@@ -101,9 +102,10 @@ def drive_series(
         name = f"{math.degrees(amplitude):.0f} deg {'left' if side > 0.0 else 'right'}"
         run = filtered_run(steer(car, name, speed, *sine_with_dwell_table(side * amplitude), Pedals.COAST))
         progress((k + 1) / len(amplitudes))
-        is_long = len(run.time) >= 20
-        slip = None if np.isnan(run.sideslip).any() else run.sideslip
-        measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if is_long else NOTHING
+        measures = SineWithDwell()
+        if len(run.time) >= _MIN_SAMPLES:
+            slip = None if np.isnan(run.sideslip).any() else run.sideslip
+            measures = measure_sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip)
         runs.append(DwellRun(amplitude, run, measures))
         if runs[-1].is_lost:
             break

@@ -210,12 +210,12 @@ def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> in
     """Run the checks in an isolated process; one that has ended is replaced for the next check."""
     from ali3.isolated_processes import Lost
     from hosts.check.all_checks import CHECKS, Checker, checks_left_out, finding_of_loss
-    from hosts.check.archive import archive_findings
+    from hosts.check.archive import check_archive
     from hosts.check.instance import Finding
     from hosts.experiment.pool import Pool
     from hosts.fmu.own_process import files_of
 
-    if faults := archive_findings(fmu):
+    if faults := check_archive(fmu):
         for finding in faults:
             print_finding(finding)
             cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))

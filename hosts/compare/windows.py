@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.deviations import rms
-from hosts.compare.segment_fmu import SLIDING
+from hosts.compare.segment_fmu import SLIP_LIMIT
 from hosts.compare.segments import PEDALS, Segment
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
@@ -131,7 +131,7 @@ def _sliding(result: Result) -> NDArray[np.bool_]:
         np.minimum(result[left], result[right]) for left, right in slips if left in result and right in result
     ]
     return (
-        np.any([slip > SLIDING for slip in smaller_slips], axis=0)
+        np.any([slip > SLIP_LIMIT for slip in smaller_slips], axis=0)
         if smaller_slips
         else np.zeros(len(result.time), dtype=np.bool_)
     )

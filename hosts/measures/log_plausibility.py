@@ -29,7 +29,7 @@ PAIRS = (("chassis.ax", "chassis.ay"), PATH, *pairwise(WHEELS))
 
 
 def log_plausibility(what: str, signals: Signals) -> Plausibility:
-    """Plausibility of a log. `what`: its file; `signals`: by our names, in SI units."""
+    """Plausibility of a log. `what`: its file; `signals`: by ALi3 names, in SI units."""
 
     def values(signals: Signals) -> list[Value]:
         return [*log_values(signals), *sample_values(signals)]
