@@ -86,7 +86,7 @@ class TestRecord:
     measures: Sequence[Measure]
     plots: Sequence[Plot]
     runs: Mapping[str, Result]
-    """Results of all runs by a short name, with our names of variables, in SI units."""
+    """Results of all runs by a short name, with ALi3 names of variables, in SI units."""
     notes: Sequence[str] = field(default_factory=tuple)
     """Sentences on deviations from the request, each with a number and a remedy."""
 
@@ -114,6 +114,6 @@ class StandardTest:
     standards: tuple[Standard, ...] = ()
     settings: tuple[Setting, ...] = ()
     needs: tuple[str, ...] = ()
-    """Variables by our names without which the test cannot be done."""
+    """Variables, by ALi3 names, without which the test cannot be done."""
     why_not: WhyNot = no_reason
     """``why_not(car, settings)`` returns a sentence if the settings do not fit each other or the car, or None."""

@@ -65,7 +65,8 @@ def write_runs(task: Task, record: TestRecord) -> None:
     for name, result in record.runs.items():
         file = task.folder / run_file(task.test, task.car.label, name)
         write_csv(result, file)
-        settings = [{"name": variable, "new": value} for variable, value in task.car.fmu.theirs(result.start).items()]
+        fmu_values = task.car.fmu.fmu_values(result.start)
+        settings = [{"name": variable, "new": value} for variable, value in fmu_values.items()]
         view_record = {
             "fmu": str(task.car.path),
             "token": task.car.facts.token,

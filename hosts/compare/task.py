@@ -67,7 +67,7 @@ class Task:
     slopes: bool
     """Whether inputs change during a step."""
     parameters: dict[str, Variable]
-    """Parameters of the FMU, by our names."""
+    """Parameters of the FMU, by ALi3 names."""
     set_values: dict[str, Value]
     notes: list[str]
     windowed: bool = False
@@ -95,14 +95,14 @@ def prepare(options: argparse.Namespace) -> Task:
         source = FmuSource.named(opened.path, opened.table, options.aliases)
         fmu = source.around(opened)
         set_values = settings_of(opened.table, options_with_road(options, options.out)).start
-        our_values = source.ours(set_values)
+        ali3_values = source.ali3_values(set_values)
         fitted_names = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
         # Steering angles, which may drive the car, and the initial speed are used with any selection of signals.
         used_names = {*options.signals, "speed", _ANGLE, *ANGLES} if options.signals else ()
-        log = log_for(fmu, raw, log_aliases, {*our_values, *fitted_names}, used_names)
+        log = log_for(fmu, raw, log_aliases, {*ali3_values, *fitted_names}, used_names)
         notes = log.notes
         inputs, outputs = _selected_signals(log, fmu, options)
-        frequencies = _add_steering_input(fmu, log, inputs, outputs, notes, our_values, fitted_names)
+        frequencies = _add_steering_input(fmu, log, inputs, outputs, notes, ali3_values, fitted_names)
         measured_speed = _speed_to_hold(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and measured_speed is None:
             raise HostError(
@@ -125,19 +125,19 @@ def prepare(options: argparse.Namespace) -> Task:
         integers = {n for n in inputs if fmu.variables[n].type == "Integer"}
         slopes = opened.follows_slopes
         all_outputs = outputs | outputs_from_begin(log, options)
-        point = reference_point(source, our_values)
+        point = reference_point(source, ali3_values)
         segments: list[Segment] = []
         missed_notes: list[str] = []
         for begin, length in windows:
             run_start = None if begin or options.begin else log.run_start
             start, start_notes = start_values_of_log(
-                fmu, cut(all_outputs, begin, begin + length), our_values, run_start
+                fmu, cut(all_outputs, begin, begin + length), ali3_values, run_start
             )
             notes += start_notes if not segments else []
             manoeuvre = replay_manoeuvre(
                 options.log.stem,
                 cut(inputs, begin, begin + length),
-                start_values_of_origin(start | our_values, start if run_start is None else (), point),
+                start_values_of_origin(start | ali3_values, start if run_start is None else (), point),
                 length,
                 step,
                 not slopes,
@@ -179,7 +179,7 @@ def prepare(options: argparse.Namespace) -> Task:
         step,
         slopes,
         parameters,
-        our_values,
+        ali3_values,
         notes,
         windowed,
         plausibility,

@@ -28,5 +28,5 @@ class RenamedRun:
         self, manoeuvre: Manoeuvre, fmu_options: FmuOptions, fidelity: float | None = None
     ) -> tuple[Manoeuvre, Settings]:
         """See `hosts.driving.manoeuvre_settings.apply_settings`; settings have names and units of the FMU."""
-        fmu_manoeuvre, settings = apply_settings(self._own, manoeuvre, fmu_options, fidelity, self._source.theirs)
-        return replace(fmu_manoeuvre, start=self._source.ours(fmu_manoeuvre.start)), settings
+        fmu_manoeuvre, settings = apply_settings(self._own, manoeuvre, fmu_options, fidelity, self._source.fmu_values)
+        return replace(fmu_manoeuvre, start=self._source.ali3_values(fmu_manoeuvre.start)), settings

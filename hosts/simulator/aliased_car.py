@@ -1,4 +1,4 @@
-"""A car of the simulator under our names."""
+"""A car of the simulator under ALi3 names."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -41,7 +41,7 @@ class AliasedCar:
         self._car.command(name, value)
 
     def restart(self, changes: Mapping[str, Value]) -> None:
-        self._car.restart(self._source.theirs(changes))
+        self._car.restart(self._source.fmu_values(changes))
 
     def latest(self) -> CarState:
         moment = self._car.latest()

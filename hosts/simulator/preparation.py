@@ -66,7 +66,7 @@ class Prepared:
     def hello(
         self, constants: Mapping[str, float], columns: tuple[str, ...], step: float, record: str
     ) -> dict[str, Any]:
-        """The first message to a page, under our names."""
+        """The first message to a page, under ALi3 names."""
         record_of_fmu = description_record(self.description, self.variables)
         names = self.source.called([v["name"] for v in record_of_fmu["variables"]])
         for variable, name in zip(record_of_fmu["variables"], names, strict=True):
@@ -167,7 +167,7 @@ def _settings(request: DriveRequest, source: FmuSource, variables: Variables, wo
     place = request.place if request.place is not None else next(iter(places), None)
     if place is not None:
         start |= places[place]
-    start = {name: value for name, value in source.theirs(start).items() if name in variables.names}
+    start = {name: value for name, value in source.fmu_values(start).items() if name in variables.names}
     settings = Settings(variables)
     if ITERATIONS in variables.names:
         settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")

@@ -45,8 +45,8 @@ def fmu_source_of(name: str | None, file: Path, fmu: Fmu) -> FmuSource:
     )
 
 
-def variable_by_our_name(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
-    """A variable that can be set, by our name and in our unit; None where there is no such name.
+def variable_by_ali3_name(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
+    """A variable that can be set, by ALi3 name and in ALi3 units; None if there is no such name.
 
     Raises `HostError` if it is not a parameter or input.
     """
@@ -63,7 +63,7 @@ class PlannedRuns:
     """The FMU, points and jobs of a study."""
 
     fmu: SimulatedFmu
-    """Under our names if there is an alias file."""
+    """Under ALi3 names if there is an alias file."""
     source: FmuSource
     points: Points
     parameters: dict[str, Any]
@@ -95,7 +95,7 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
     """Points, and a record of each parameter."""
 
     def variable_of(name: str, where: str) -> Variable:
-        return variable_by_our_name(fmu, name, where) or opened.table.settable(name, where)
+        return variable_by_ali3_name(fmu, name, where) or opened.table.settable(name, where)
 
     for name, value in study.start.items():
         variable_of(name, f"{file}: start").check(value, f"{file}: start")

@@ -132,7 +132,7 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
     Returns the values that are not parameters, as ``NAME=VALUE``.
     """
     values: dict[str, Any] = {**study.start, by: value}
-    values = plan.work.fmu.theirs(values)
+    values = plan.work.fmu.fmu_values(values)
     description = described(plan.fmu)
     parameter_set = parameter_set_of(Variables(description), description.modelName, values)
     entries = [entry for entry in parameter_set.entries if entry.name in values]

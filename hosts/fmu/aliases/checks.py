@@ -59,22 +59,23 @@ def check_unit(alias: Alias, variable: Variable, unit: str | None, by_constant: 
 
     Raises `HostError` with the unit, the factor and the expected factor.
     """
-    ours, fmu_unit = unit_of(alias.ours), unit_definition(variable)
-    if ours is None or fmu_unit is None or by_constant:
+    unit_text, fmu_unit = unit_of(alias.name), unit_definition(variable)
+    if unit_text is None or fmu_unit is None or by_constant:
         return
-    our_unit = known_unit(ours)
-    if our_unit is not None and not same_quantity(our_unit, fmu_unit):
+    ali3_unit = known_unit(unit_text)
+    if ali3_unit is not None and not same_quantity(ali3_unit, fmu_unit):
         raise HostError(
-            f"{where} is in {ours}, but the FMU declares '{variable.name}' in {declared(variable)}, another quantity."
+            f"{where} is in {unit_text}, but the FMU declares '{variable.name}' in {declared(variable)}, another "
+            "quantity."
         )
-    if unit is not None or our_unit is None:
+    if unit is not None or ali3_unit is None:
         return
     expected = [1.0 / fmu_unit.factor]
-    if our_unit.exponents.get("rad") and not fmu_unit.exponents.get("rad") and "s" in fmu_unit.exponents:
+    if ali3_unit.exponents.get("rad") and not fmu_unit.exponents.get("rad") and "s" in fmu_unit.exponents:
         expected.append(1.0 / (2.0 * math.pi * fmu_unit.factor))  # revolutions
     if not any(math.isclose(abs(alias.factor), e, rel_tol=_TOLERANCE) for e in expected):
         raise HostError(
-            f"{where} is in {ours} and '{variable.name}' in the FMU in {declared(variable)}: its factor must be "
+            f"{where} is in {unit_text} and '{variable.name}' in the FMU in {declared(variable)}: its factor must be "
             f"{expected[0]:.6g} (or negative), it is {alias.factor:.6g}."
         )
 
