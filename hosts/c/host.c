@@ -24,7 +24,7 @@
 #include "fmi2FunctionTypes.h"
 #include "library.h"
 
-enum { MOST_VALUES = 4096, LONGEST = 512 };
+enum { MAX_VALUES = 4096, MAX_LENGTH = 512 };
 
 typedef struct { /* functions of the library */
   fmi2InstantiateTYPE *instantiate;
@@ -142,7 +142,7 @@ static bool attribute(const char *tag, const char *name, char *value, size_t siz
 /* The variable of a name; ends the program where there is none that may be set. */
 static variable look_up(const char *description, const char *name) {
   static const char *const types[] = {"Real", "Integer", "Boolean", "String", "Enumeration"};
-  char text[LONGEST];
+  char text[MAX_LENGTH];
   for (const char *tag = description; (tag = strstr(tag, "<ScalarVariable")) != NULL; tag++) {
     if (!attribute(tag, "name", text, sizeof text) || strcmp(text, name) != 0) continue;
     variable v = {0, "", "local", "continuous"};
@@ -169,7 +169,7 @@ static variable look_up(const char *description, const char *name) {
 static void set_by_name(const functions *f, fmi2Component c, const char *library, const char *assignment) {
   const char *equals = strchr(assignment, '=');
   if (equals == NULL || equals == assignment) stop(1, "'%s' is not of the form NAME=VALUE.", assignment);
-  char name[LONGEST];
+  char name[MAX_LENGTH];
   if ((size_t)(equals - assignment) >= sizeof name) stop(1, "the name in '%s' is too long.", assignment);
   memcpy(name, assignment, (size_t)(equals - assignment));
   name[equals - assignment] = '\0';
@@ -222,8 +222,8 @@ static functions functions_of(void *library) {
 }
 
 int main(int count, char **argument) {
-  static fmi2ValueReference reference[MOST_VALUES];
-  static double value[MOST_VALUES];
+  static fmi2ValueReference reference[MAX_VALUES];
+  static double value[MAX_VALUES];
   if (count < 8)
     stop(1, "usage: %s LIBRARY RESOURCES_URI GUID STEPS STEP FIRST LAST [REFERENCE=VALUE | --set NAME=VALUE ...]",
          argument[0]);
@@ -231,7 +231,7 @@ int main(int count, char **argument) {
   const double h = number(argument[5], "STEP");
   const long last = whole(argument[7], "LAST", first);
   if (h <= 0.0) stop(1, "STEP is '%s'; it must be positive.", argument[5]);
-  if (last - first >= MOST_VALUES) stop(1, "FIRST to LAST are more than %d variables.", MOST_VALUES);
+  if (last - first >= MAX_VALUES) stop(1, "FIRST to LAST are more than %d variables.", MAX_VALUES);
   void *library = open_library(argument[1]);
   if (library == NULL) stop(2, "%s cannot be loaded", argument[1]);
   const functions f = functions_of(library);

@@ -25,7 +25,7 @@ CONSTANT_ANGLE = 2.0
 CONSTANT_SPEED = 3.0
 _FIRST_ACCELERATION = 0.5  # m/s2, at the first speed
 _EXPECTED_ACCELERATION = 10.0  # m/s2, of complete progress
-_LARGEST_ACCELERATION = 20.0  # m/s2, of the longest run
+_MAX_ACCELERATION = 20.0  # m/s2, of the longest run
 _SETTLE = 3.0  # s at the first speed
 _LAG = 1.5  # m/s, of the speed behind its target at which a run ends
 _DECREASE = 1.0  # m/s2, of the lateral acceleration below its largest value at which a run ends
@@ -118,9 +118,7 @@ def drive_circle(
     rate = math.radians(settings["steering_rate"]) if by_steering else settings["speed_rise"]
     monitor = _RunMonitor(side, method, first_speed, rate, settings["tolerance"])
     pilot = _pilot(car, side, method, radius, ratio, steering, monitor)
-    ramp_time = (
-        steering.largest / rate if by_steering else (math.sqrt(_LARGEST_ACCELERATION * radius) - first_speed) / rate
-    )
+    ramp_time = steering.largest / rate if by_steering else (math.sqrt(_MAX_ACCELERATION * radius) - first_speed) / rate
     stop = _APPROACH_TIME + (min(ramp_time, 300.0) if math.isfinite(ramp_time) else 300.0)
     expected = 0.2 * ramp_time * rate if by_steering else math.sqrt(_EXPECTED_ACCELERATION * radius) - first_speed
     name = f"circle to the {'left' if side > 0.0 else 'right'}"

@@ -14,7 +14,7 @@ from hosts.measures.disturbed_turn import circle_through, distance_from_circle, 
 from hosts.measures.wheels import at_wheels
 
 STEADY = 1.0  # s before the onset, in which the circle is undisturbed
-SLOWEST = 2.0  # m/s, below which the sideslip is not evaluated
+MIN_SPEED = 2.0  # m/s, below which the sideslip is not evaluated
 
 COMPARED: Sequence[Mapping[str, Any]] = [
     {"name": name, "unit": unit, "neutral": neutral, "text": text}
@@ -100,7 +100,7 @@ class Stop:
     def values(self) -> dict[str, float]:
         """The values of `COMPARED` 1 s after the onset; empty where the car is slow or the run has ended by then."""
         speed = self.at("speed", 1.0)
-        if math.isnan(speed) or speed < SLOWEST:
+        if math.isnan(speed) or speed < MIN_SPEED:
             return {}
         t, reference = self.result.time, float(yaw_rate_on_circle(np.array([speed]), self.signed_radius)[0])
         first = (t >= self.onset) & (t <= self.onset + 1.0)
@@ -125,9 +125,11 @@ class Stop:
         return np.asarray(self.result.time >= self.onset - STEADY)
 
     def over_time(self, name: str) -> NDArray[np.float64]:
-        """An output at the samples that are drawn; NaN of a sideslip below the speed `SLOWEST`."""
+        """An output at the samples that are drawn; NaN of a sideslip below the speed `MIN_SPEED`."""
         values = self.result[name][self.shown]
-        return np.where(self.result["speed"][self.shown] > SLOWEST, values, math.nan) if name == "sideslip" else values
+        return (
+            np.where(self.result["speed"][self.shown] > MIN_SPEED, values, math.nan) if name == "sideslip" else values
+        )
 
     @property
     def locks(self) -> bool | None:

@@ -10,9 +10,9 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.common.errors import HostError
 
-_MOST_MESSAGES = 10
-_MOST_NAMES = 4
-_LONGEST_MESSAGE = 300
+_MAX_MESSAGES = 10
+_MAX_NAMES = 4
+_MAX_MESSAGE_LENGTH = 300
 
 Reason: TypeAlias = str
 """A sentence on the reason why a test of a car cannot be done."""
@@ -85,10 +85,10 @@ def _message_notes(record: TestRecord) -> list[str]:
         for message in dict.fromkeys(" ".join(m.split()) for m in result.messages):
             runs.setdefault(message, []).append(name)
     messages = []
-    for message, names in list(runs.items())[:_MOST_MESSAGES]:
-        where = "every run" if len(names) == len(record.runs) > 1 else some_of(names, _MOST_NAMES)
-        text = message if len(message) <= _LONGEST_MESSAGE else f"{message[:_LONGEST_MESSAGE]}..."
+    for message, names in list(runs.items())[:_MAX_MESSAGES]:
+        where = "every run" if len(names) == len(record.runs) > 1 else some_of(names, _MAX_NAMES)
+        text = message if len(message) <= _MAX_MESSAGE_LENGTH else f"{message[:_MAX_MESSAGE_LENGTH]}..."
         messages.append(f"The FMU reported in {where}: {text}")
-    if len(runs) > _MOST_MESSAGES:
-        messages.append(f"The FMU reported {len(runs) - _MOST_MESSAGES} other messages.")
+    if len(runs) > _MAX_MESSAGES:
+        messages.append(f"The FMU reported {len(runs) - _MAX_MESSAGES} other messages.")
     return messages

@@ -11,8 +11,8 @@ from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.fmu import described
 
-_LEAST_RUN_UP = 1.0  # s
-_LONGEST_RUN_UP = 120.0  # s, for a car that cannot be started at speed
+_MIN_RUN_UP = 1.0  # s
+_MAX_RUN_UP = 120.0  # s, for a car that cannot be started at speed
 
 
 def with_step_up_to(car: TestedCar, longest: float, quantity: str) -> tuple[TestedCar, tuple[str, ...]]:
@@ -61,12 +61,12 @@ class RunUp:
 
     def __init__(self, car: TestedCar, speed: float) -> None:
         self.start, self._speed = start_at_speed(car, speed), speed
-        self.longest = _LEAST_RUN_UP + 10.0 if self.start else _LONGEST_RUN_UP
+        self.longest = _MIN_RUN_UP + 10.0 if self.start else _MAX_RUN_UP
 
     def is_over(self, time: float, observation: Mapping[str, float]) -> bool:
         """Whether the speed is held."""
         tolerance = max(0.005 * self._speed, 0.05)
-        return time >= _LEAST_RUN_UP - 1e-9 and abs(observation["speed"] - self._speed) <= tolerance
+        return time >= _MIN_RUN_UP - 1e-9 and abs(observation["speed"] - self._speed) <= tolerance
 
 
 def early_end_notes(run: str, result: Result) -> tuple[str, ...]:

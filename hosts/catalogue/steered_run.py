@@ -21,7 +21,7 @@ _SPEED_TOLERANCE = 0.1  # m/s
 _LATE_SPEED_TOLERANCE = 0.5  # m/s, after 60 % of the time of the approach
 _COAST_FROM = 0.7  # m/s above the speed of the steering
 _INTERVAL = 0.005  # s
-_LEAST_SHARE = 0.97  # of a requested angle
+_MIN_FRACTION = 0.97  # of a requested angle
 
 
 class Pedals(Enum):
@@ -115,7 +115,7 @@ class SteeredRun:
     def shortfall(self, amplitude: float) -> str:
         """A sentence if the steering wheel did not reach a requested angle, rad; otherwise empty."""
         reached = float(np.abs(self.steering).max()) if len(self.steering) else math.nan
-        if not reached < _LEAST_SHARE * amplitude:
+        if not reached < _MIN_FRACTION * amplitude:
             return ""
         return (
             f"The steering wheel came to {math.degrees(reached):.3g}° where {math.degrees(amplitude):.3g}° were asked "

@@ -12,7 +12,7 @@ from hosts.common.errors import HostError
 
 _SUBSTEP_SHARE = 0.05  # of the range of an output, by which runs with other steps may differ
 _NEARLY_EQUAL = 1e-4  # of the largest value of an output: a usual tolerance of solvers
-_MOST_INSTANCES = 30
+_MAX_INSTANCES = 30
 _CREATION_TIME = 5.0  # s, in which they are made
 _ALTERED = "FMI speaks of states of the same FMU alone: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
 
@@ -250,7 +250,7 @@ def check_many_instances(subject: Subject) -> Finding:
     if subject.is_single:
         return Finding("many instances", "note", "one per process is allowed")
     instances, begin = list[Instance](), time.perf_counter()
-    while len(instances) < _MOST_INSTANCES and (len(instances) < 2 or time.perf_counter() - begin < _CREATION_TIME):
+    while len(instances) < _MAX_INSTANCES and (len(instances) < 2 or time.perf_counter() - begin < _CREATION_TIME):
         instances.append(Instance(subject).start())
     ends = [instance.run(3)[-1] for instance in instances]
     for instance in instances:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 _MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
 _NAME_WIDTH = 22
-_MOST_STEPS = 100_000
+_MAX_STEPS = 100_000
 _DEFAULT_STEPS = 50
 _THOROUGH_STEPS = 500
 _TIME_LIMIT = 20.0  # s for a check
@@ -122,8 +122,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 def _step_count(text: str) -> int:
     steps = count(text)
-    if steps > _MOST_STEPS:
-        raise argparse.ArgumentTypeError(f"the number of steps is {text}; it must be from 1 to {_MOST_STEPS}")
+    if steps > _MAX_STEPS:
+        raise argparse.ArgumentTypeError(f"the number of steps is {text}; it must be from 1 to {_MAX_STEPS}")
     return steps
 
 

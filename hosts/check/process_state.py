@@ -23,7 +23,7 @@ _LEAK = 8_000  # bytes per step
 _PER_INSTANCE = 30_000  # bytes per instance
 _INSTANCES = 20
 _REST = 0.3  # s, between calls
-_LONGEST_REST = 3.0  # s, between calls
+_MAX_REST = 3.0  # s, between calls
 _IDLE = 0.03  # s, largest processor time between calls
 _SLOW = 10.0  # largest wall time over the step
 LINUX = sys.platform == "linux"
@@ -147,9 +147,7 @@ def check_time_of_steps(subject: Subject) -> Finding:
             break
         times.append(time.perf_counter() - begin)
     busy, rest, begin = 0.0, 0.0, time.process_time()
-    while rest < _LONGEST_REST and (
-        rest == 0.0 or 0.1 * _IDLE < busy < _IDLE
-    ):  # a busy thread may wait for the processor
+    while rest < _MAX_REST and (rest == 0.0 or 0.1 * _IDLE < busy < _IDLE):  # a busy thread may wait for the processor
         time.sleep(_REST)
         busy, rest = time.process_time() - begin, rest + _REST
     clause = subject.clause("4.2.2", "4.2.1")

@@ -35,7 +35,7 @@ from hosts.fmu.variables import default_step
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 OUT = Path("out", "reference")
-_MOST_PRINTED = 10
+_MAX_PRINTED = 10
 _DIAGNOSTICS = "solver."
 _ROUND_OFF = 1e-4  # of a communication step, between the time of a row and a communication point
 
@@ -237,7 +237,7 @@ def _compare(
     nominals = {n: abs(float(fmu.variables[n].nominal or 1.0)) for n in columns}
     deviation_list = deviations(nominals, result, times, columns, bounds)
     lines = [f"{name}  {words}" for name, words in reference.settings.rows()]
-    lines += _table_lines(deviation_list[:_MOST_PRINTED])
+    lines += _table_lines(deviation_list[:_MAX_PRINTED])
     bad = [d for d in deviation_list if not d.good]
     lines += remedies(result, times, columns, bad)
     if constant_inputs := [

@@ -14,17 +14,17 @@ from scipy import signal as sp
 from scipy.optimize import least_squares
 
 from hosts.compare.correlated_residuals import covariance
-from hosts.compare.cross_validation import FEWEST_PARTS, Parts, jackknife, parts_of
+from hosts.compare.cross_validation import MIN_PARTS, Parts, jackknife, parts_of
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant
 from hosts.compare.noise import measured_noise
 from hosts.measures.signal import Signal
 
-_LEAST_CORRELATION = 0.5
+_MIN_CORRELATION = 0.5
 _AMBIGUOUS = 0.01
-_MOST_POINTS = 20_000
-_LARGEST_DRIFT = 0.05
-_LEAST_EXPLAINED = 0.25  # share of the squared residuals; a drift that explains less is an error of the model
+_MAX_POINTS = 20_000
+_MAX_DRIFT = 0.05
+_MIN_EXPLAINED_FRACTION = 0.25  # share of the squared residuals; a drift that explains less is an error of the model
 _NOISE_FACTOR = 1.2  # on the squared noise, which is an estimate
 _MODEL_FACTOR = 2.0  # on the residual of the model, of which another share may look like a delay
 
@@ -49,8 +49,8 @@ class Alignment:
     @property
     def has_drift(self) -> bool:
         """Whether the drift exceeds twice its error, explains enough and is below the limit of the search."""
-        certain = 2.0 * self.drift_error < abs(self.drift) < 0.99 * _LARGEST_DRIFT
-        return certain and self.explained >= _LEAST_EXPLAINED
+        certain = 2.0 * self.drift_error < abs(self.drift) < 0.99 * _MAX_DRIFT
+        return certain and self.explained >= _MIN_EXPLAINED_FRACTION
 
 
 def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = True) -> Alignment:
@@ -63,7 +63,7 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     if not pairs:
         return Alignment(*5 * (math.nan,), "no signal moves in both")
     first_delay, peak, other_delay, is_flat = _coarse_delay(pairs, longest)
-    if peak < _LEAST_CORRELATION:
+    if peak < _MIN_CORRELATION:
         return Alignment(*4 * (math.nan,), peak, f"the best correlation is {peak:.2f}: no delay can be determined")
     if is_flat:
         message = f"signals correlate by {peak:.3f}, and nearly as well with any delay that so short a log can have"
@@ -86,7 +86,7 @@ def _coarse_delay(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tupl
     a log that is shorter than the range of the search do so.
     """
     begin, end = min(s.time[0] for s, _ in pairs), max(s.time[-1] for s, _ in pairs)
-    interval = max(min(s.interval for s, _ in pairs), (end - begin) / _MOST_POINTS)
+    interval = max(min(s.interval for s, _ in pairs), (end - begin) / _MAX_POINTS)
     lags = np.zeros(0)
     total: NDArray[np.float64] = np.zeros(0)
     for measured, curve in pairs:
@@ -147,7 +147,7 @@ def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float
     length = max(s.time[-1] for s, _ in pairs)
     size = [interval, interval / length][: 1 + drift]
     start = [delay, 0.0][: 1 + drift]
-    limit = _LARGEST_DRIFT
+    limit = _MAX_DRIFT
     bounds = ([-np.inf, -limit][: 1 + drift], [np.inf, limit][: 1 + drift])
     solution = least_squares(residual, start, x_scale=size, bounds=bounds, jac=_central_differences(residual, size))
     rows, first = [], 0
@@ -184,7 +184,7 @@ def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float
 def _omitted_parts(signals: Sequence[Signal]) -> list[Parts]:
     """Parts that are left out in turn: tenths of the log, and each signal where there are enough of them."""
     results = [parts_of({str(k): s for k, s in enumerate(signals)}, ())]
-    if len(signals) >= FEWEST_PARTS:
+    if len(signals) >= MIN_PARTS:
         number = np.repeat(np.arange(len(signals)), [len(s.time) for s in signals])
         results.append(Parts(number, np.arange(len(signals), dtype=float), 1.0))
     return results

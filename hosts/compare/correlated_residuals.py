@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import matmul_toeplitz, solve_toeplitz
 
-_MOST_LAGS = 4000
+_MAX_LAGS = 4000
 
 
 def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -38,7 +38,7 @@ def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
             best, a = criterion, trial
     order = len(a)
     covariances[: order + 1] = sample[: order + 1]
-    for k in range(order + 1, min(n, _MOST_LAGS) if order else 0):
+    for k in range(order + 1, min(n, _MAX_LAGS) if order else 0):
         covariances[k] = a @ covariances[k - order : k][::-1]
     return covariances
 

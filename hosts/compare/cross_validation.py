@@ -17,7 +17,7 @@ from hosts.measures.signal import Signal
 
 Array = NDArray[np.float64]
 _PARTS_OF_RUN = 10
-FEWEST_PARTS = 4
+MIN_PARTS = 4
 """Smallest number of independent parts for a cross-validation."""
 FOLDS = 4
 

@@ -15,7 +15,7 @@ from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect
 
 _DELIMITERS = (";", "\t", ",", "|")
-_MOST_LINES = 60  # that are read: loggers write their settings first
+_MAX_LINES = 60  # that are read: loggers write their settings first
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _MISSING = ("", "nan", "na", "n/a", "null", "-", "#n/a", "--", "inf", "-inf")
 _DATE = re.compile(r"(\d{4}-\d\d-\d\d[T ]|\d\d?([./])\d\d?\2\d{4} ).*")  # other orders are refused later
@@ -106,7 +106,7 @@ def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
     for name in (encoding,) if encoding else ("utf-8-sig", "latin-1"):
         try:
             text = content[: content.rfind(b"\n") + 1 or None].decode(name)
-            return text.splitlines()[:_MOST_LINES], name
+            return text.splitlines()[:_MAX_LINES], name
         except (LookupError, ValueError):  # an unknown encoding, or not that of the file
             continue
     raise HostError(f"The log {path} is not written in {encoding}; [file] encoding of the alias file is wrong.")

@@ -12,7 +12,7 @@ from hosts.compare.comparison_text import common_notes, table
 from hosts.compare.curve import Curve
 from hosts.compare.fit_text import fit_notes, fit_problems, fit_table
 from hosts.compare.input_mistakes import inverted_input, inverted_signals, misread_speed
-from hosts.compare.log_times import FEWEST_SAMPLES
+from hosts.compare.log_times import MIN_SAMPLES
 from hosts.compare.plausibility import scale_mistake
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
@@ -20,7 +20,7 @@ from hosts.compare.task import Task, prepare
 from hosts.compare.windows import held_speed_text, window_text, windows
 from hosts.measures.log_plausibility import consistent
 
-_LEAST_FOR_PROCESSES = 60.0  # s of all windows: shorter drives end before other processes have started
+_MIN_TIME_FOR_PROCESSES = 60.0  # s of all windows: shorter drives end before other processes have started
 
 
 def perform(options: argparse.Namespace) -> int:
@@ -35,7 +35,7 @@ def perform(options: argparse.Namespace) -> int:
         request = fitting.fit_request(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    is_long = sum(s.length for s in task.segments) > _LEAST_FOR_PROCESSES
+    is_long = sum(s.length for s in task.segments) > _MIN_TIME_FOR_PROCESSES
     jobs = (available_cores() if is_long else 1) if options.jobs is None else options.jobs
     with Replay(task.fmu, task.segments, task.step, jobs) as replay:
         before, problems = _compare_unfitted(options, task, replay)
@@ -97,7 +97,7 @@ def _compare_unfitted(options: argparse.Namespace, task: Task, replay: Replay) -
     if message := result.not_finite():
         problems.append(message)
     finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}
-    outputs = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= FEWEST_SAMPLES}
+    outputs = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= MIN_SAMPLES}
     if not outputs:
         if problems:
             raise FailedFmuError(f"{' '.join(problems)} There is nothing to compare.")

@@ -18,7 +18,7 @@ from hosts.common.numbers import Value
 from hosts.common.units import unit_definition, unit_of
 from hosts.compare.log_aliases import Column, LogAliases
 from hosts.compare.log_file import RawLog
-from hosts.compare.log_times import FEWEST_SAMPLES, TIMES, log_times, name_hint, time_column
+from hosts.compare.log_times import MIN_SAMPLES, TIMES, log_times, name_hint, time_column
 from hosts.compare.repeated_samples import rows_of_a_value
 from hosts.compare.spikes import spike_text, spikes
 from hosts.driving.missed_inputs import count_text
@@ -78,10 +78,10 @@ def log_for(
         counts = count_text(jumps, np.concatenate([*jumps.values()]))
         notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {counts}.")
     for name, signal in signals.items():
-        if len(signal.time) < FEWEST_SAMPLES:
+        if len(signal.time) < MIN_SAMPLES:
             raise HostError(
                 f"The log {raw.path} has {len(signal.time)} samples of '{signal.source}' ({name}); at least "
-                f"{FEWEST_SAMPLES} are needed."
+                f"{MIN_SAMPLES} are needed."
             )
     driven = {n: s for n, s in signals.items() if n in inputs}
     if parameters := [n for n in driven if n in tunable]:

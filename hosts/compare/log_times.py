@@ -16,11 +16,11 @@ from hosts.compare.csv_dialect import CLOCK_TIME, unit_message
 from hosts.compare.log_aliases import TIME_UNITS, LogAliases
 from hosts.compare.log_file import RawLog
 
-FEWEST_SAMPLES = 10
+MIN_SAMPLES = 10
 TIMES = ("time", "t", "timestamp", "zeit", "time_s", "seconds", "elapsed")
 _UNSORTED = 5.0  # usual intervals: largest decrease of times by rows in a wrong order
 _HOUR = 3600.0
-_SLOWEST = 0.5  # s: longest interval of a test drive, unless the user has named the unit
+_MAX_INTERVAL = 0.5  # s: longest interval of a test drive, unless the user has named the unit
 
 
 def time_column(raw: RawLog, aliases: LogAliases) -> str:
@@ -60,9 +60,9 @@ def log_times(
     else:
         seconds = raw.numbers(name)
     rows = np.flatnonzero(np.isfinite(seconds))
-    if len(rows) < FEWEST_SAMPLES:
+    if len(rows) < MIN_SAMPLES:
         raise HostError(
-            f"The log {raw.path} has {len(rows)} times in the column '{name}'; at least {FEWEST_SAMPLES} are needed."
+            f"The log {raw.path} has {len(rows)} times in the column '{name}'; at least {MIN_SAMPLES} are needed."
         )
     # Seconds since 1970 leave few digits for milliseconds: the first time is subtracted before scaling.
     zero = scale * (float(seconds[rows[0]]) - clock.offset) / clock.factor
@@ -81,7 +81,7 @@ def log_times(
             "has the value of the last."
         )
     interval = float(np.median(intervals[intervals > 0.0])) if intervals.any() else 0.0
-    if clock.unit is None and unit == "s" and interval > _SLOWEST:
+    if clock.unit is None and unit == "s" and interval > _MAX_INTERVAL:
         raise HostError(
             f"The log {raw.path} has a sample every {interval:g} s in the column '{name}', if that is in seconds; for "
             f'other units the alias file says [time] unit = "ms" (or {", ".join(list(TIME_UNITS)[2:])}).'

@@ -10,8 +10,8 @@ _POINTS = 5
 _ORDER = 4
 _NARROW = 1e-7  # of a range, over which residuals are linear except for noise
 _PROBE = 0.01
-_FINEST = 1e-5
-_WIDEST = 0.02
+_MIN_STEP = 1e-5
+_MAX_STEP = 0.02
 
 
 def measured_noise(values: NDArray[np.float64]) -> float:
@@ -71,5 +71,5 @@ def difference_steps(
         q[k] += _PROBE * width if q[k] + _PROBE * width <= u.high else -_PROBE * width
         change = rms(residuals(q) - base) / _PROBE
         sensitivities.append(change)
-        steps.append(width * float(np.clip(np.cbrt(3.0 * noise / max(change, 1e-300)), _FINEST, _WIDEST)))
+        steps.append(width * float(np.clip(np.cbrt(3.0 * noise / max(change, 1e-300)), _MIN_STEP, _MAX_STEP)))
     return np.array(steps), np.array(sensitivities)

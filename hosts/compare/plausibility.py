@@ -13,7 +13,7 @@ from hosts.fmu.input_ranges import beyond_range
 from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.signal import Signal
 
-LONGEST_GAP = 0.2
+MAX_GAP = 0.2
 """Default of the longest gap between samples of an input that is bridged, s."""
 _GAP = 5.0  # median intervals
 _RATIO_TOLERANCE = 1.12
@@ -51,7 +51,7 @@ def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
     for name, signal in outputs.items():
         steps = np.diff(signal.time)
         k = int(np.argmax(steps))
-        if steps[k] > max(_GAP * signal.interval, LONGEST_GAP):
+        if steps[k] > max(_GAP * signal.interval, MAX_GAP):
             notes.append(
                 f"'{signal.source}' ({name}) has no samples from {signal.time[k]:.6g} s to {signal.time[k + 1]:.6g} s; "
                 "nothing is compared there."

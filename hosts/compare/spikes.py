@@ -9,7 +9,7 @@ from hosts.common.display_units import number_in
 _NEIGHBOURS = 2  # on either side
 _RANGES = 4.0  # of the neighbours
 _MEDIAN_DISTANCES = 30.0  # of the samples from their neighbours
-_LONGEST_INTERVAL = 0.0201  # s between neighbours: in a longer time a pedal or a wheel may move there and back
+_MAX_INTERVAL = 0.0201  # s between neighbours: in a longer time a pedal or a wheel may move there and back
 
 
 def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -37,7 +37,7 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
     steps = np.diff(time)
     is_near = (
         np.maximum(steps[_NEIGHBOURS - 1 : _NEIGHBOURS - 1 + count], steps[_NEIGHBOURS : _NEIGHBOURS + count])
-        < _LONGEST_INTERVAL
+        < _MAX_INTERVAL
     )
     is_spike[_NEIGHBOURS : _NEIGHBOURS + count] = (distance > threshold) & is_near
     return is_spike

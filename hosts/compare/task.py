@@ -16,7 +16,7 @@ from hosts.common.road import options_with_road
 from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
 from hosts.compare.log_file import read_log
-from hosts.compare.log_times import FEWEST_SAMPLES
+from hosts.compare.log_times import MIN_SAMPLES
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import replay_manoeuvre
 from hosts.compare.road_wheels import ANGLES, mean_angle, steering_at_angle
@@ -227,7 +227,7 @@ def _missed_input_notes(manoeuvre: Manoeuvre, step: float, slopes: bool, integer
 
 def outputs_from_begin(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
     """All outputs of the log since time 0, also those that are not compared, for start values."""
-    return {n: s for n, s in _cut_to_options(log.outputs, options).items() if len(s.time) >= FEWEST_SAMPLES}
+    return {n: s for n, s in _cut_to_options(log.outputs, options).items() if len(s.time) >= MIN_SAMPLES}
 
 
 def _speed_to_hold(fmu: NamedFmu, log: Log, inputs: dict[str, Signal], notes: list[str]) -> Signal:
@@ -350,10 +350,10 @@ def _cut_inputs_and_outputs(
             raise HostError(f"{name} is {value:g} s; the log's inputs lie between 0 and {last:.6g} s.")
     inputs, outputs = _cut_to_options(inputs, options), _cut_to_options(outputs, options)
     for signal in (*inputs.values(), *outputs.values()):
-        if len(signal.time) < FEWEST_SAMPLES:
+        if len(signal.time) < MIN_SAMPLES:
             raise HostError(
                 f"The log has {len(signal.time)} samples of '{signal.source}' ({signal.name}) between --from and --to; "
-                f"at least {FEWEST_SAMPLES} are needed."
+                f"at least {MIN_SAMPLES} are needed."
             )
     end = min(max(float(s.time[-1]) for s in signals.values()) for signals in (inputs or outputs, outputs))
     if not 0.0 <= options.skip < 0.9 * end:

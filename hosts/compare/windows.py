@@ -14,7 +14,7 @@ from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
 _FULL_PEDAL = 0.999
-_FEWEST_SAMPLES = 20  # of a bin
+_MIN_SAMPLES = 20  # of a bin
 _BINS: Mapping[str, tuple[str, float]] = {"speed": ("m/s", 10.0), "lateral acceleration": ("m/s2", 2.0)}
 
 
@@ -95,7 +95,7 @@ def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
             number = np.floor(np.interp(s.measured.time, scale.time, scale.values) / width)
             for k in np.unique(number):
                 e = error[number == k]
-                if len(e) >= _FEWEST_SAMPLES:
+                if len(e) >= _MIN_SAMPLES:
                     low = float(k * width)
                     results.append(Bin(name, quantity, unit, low, low + width, len(e), rms(e), float(np.mean(e))))
     return results

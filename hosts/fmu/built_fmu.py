@@ -18,9 +18,9 @@ from hosts.common.errors import HostError
 from hosts.fmu.car import CAR_FILE
 
 _SUFFIXES = (".py", ".c", ".h", ".toml", ".csv", ".npz", ".json", ".road", ".xml", ".txt")
-_MOST_FMUS = 10
+_MAX_FMUS = 10
 _IN_USE = 86400.0  # s, in which a command may still open an FMU
-_LARGEST_FOLDER = 500_000_000  # bytes of a car's folder
+_MAX_FOLDER_SIZE = 500_000_000  # bytes of a car's folder
 
 
 def fmu_of_car(car: str, tell: Callable[[str], None], ports: str | None = None) -> Path:
@@ -68,7 +68,7 @@ def _cached_fmu(subject: str, name: str, options: tuple[str, ...], tell: Callabl
         tell(f"The build of {subject} was stopped and nothing was run; the same command begins again.")
         raise
     with locked(cache):
-        forget_oldest(cache, _MOST_FMUS, _IN_USE)
+        forget_oldest(cache, _MAX_FMUS, _IN_USE)
     return sorted(folder.glob("*.fmu"))[0]
 
 
@@ -97,7 +97,7 @@ def car_digest(car: str) -> str:
         return digest.hexdigest()[:32]
     files = {f for f in file.parent.rglob("*") if is_file(f)} | set(_named_files(file))
     size = sum(f.stat().st_size for f in files)
-    if size > _LARGEST_FOLDER:
+    if size > _MAX_FOLDER_SIZE:
         raise HostError(
             f"The folder {file.parent} of the car has {1e-6 * size:.0f} MB of files; give the car a folder of its own."
         )
@@ -105,7 +105,7 @@ def car_digest(car: str) -> str:
     for source in sorted(files):
         try:
             digest.update(
-                os.path.relpath(source, file.parent).encode() + b"\n" + read_bytes(source, _LARGEST_FOLDER, HostError)
+                os.path.relpath(source, file.parent).encode() + b"\n" + read_bytes(source, _MAX_FOLDER_SIZE, HostError)
             )
         except OSError as error:
             raise HostError(f"{source} cannot be read: {reason(error)}.") from None

@@ -27,7 +27,7 @@ from hosts.fmu.instance import Instance, State, inputs_within_steps
 from hosts.fmu.scalars import TEXTS, NamedScalars, Scalar, constants_of
 from hosts.fmu.variables import Variables, check_co_simulation
 
-_MOST_MESSAGES = 10_000  # until the list is cleared
+_MAX_MESSAGES = 10_000  # until the list is cleared
 
 
 class StepRefusedError(Exception):
@@ -287,7 +287,7 @@ class Fmu(Closable, NamedScalars):
         return self.messages[-1] if self.messages else ""
 
     def _log(self, status: int, category: str, message: str) -> None:
-        if status > 0 and message and category != "logNotComputed" and len(self.messages) < _MOST_MESSAGES:
+        if status > 0 and message and category != "logNotComputed" and len(self.messages) < _MAX_MESSAGES:
             self.messages.append(shortened(message))
-            if len(self.messages) == _MOST_MESSAGES:
-                self.messages.append(f"The FMU has sent more than {_MOST_MESSAGES} messages; the others are left out.")
+            if len(self.messages) == _MAX_MESSAGES:
+                self.messages.append(f"The FMU has sent more than {_MAX_MESSAGES} messages; the others are left out.")

@@ -10,7 +10,7 @@ from ali3.units import misread, typeset
 from hosts.fmu.variables import Variable
 
 ROUNDING = 1e-6  # of the range
-LEAST = 0.02  # of the range, which values in another unit must reach
+MIN_FRACTION = 0.02  # of the range, which values in another unit must reach
 CLIPPED = 1.2  # times the range, up to which a factor or an offset is assumed instead of another unit
 
 
@@ -50,6 +50,6 @@ def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
         if m.taken == candidates[0].taken  # only units of the quantity of the input itself
         and low <= m.factor * float(values.min())
         and m.factor * float(values.max()) <= high
-        and m.factor * largest >= LEAST * limit
+        and m.factor * largest >= MIN_FRACTION * limit
     ]
     return f"; it looks like {' or '.join(units)}." if units else "; is its unit right?"

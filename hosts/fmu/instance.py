@@ -25,7 +25,7 @@ from hosts.fmu.array_values import ArrayValues
 from hosts.fmu.scalars import Scalar
 
 _WARNING = 1
-_MOST_RAW_MESSAGES = 256
+_MAX_RAW_MESSAGES = 256
 _GUARD = bytes(range(1, 65))  # behind the buffer of a state, to detect writes beyond it
 State: TypeAlias = ctypes.c_void_p
 """Pointer to a state in the memory of an FMU."""
@@ -79,7 +79,7 @@ class Instance:
             "instanceName": name,
         }
 
-        self.raw_messages: deque[str] = deque(maxlen=_MOST_RAW_MESSAGES)
+        self.raw_messages: deque[str] = deque(maxlen=_MAX_RAW_MESSAGES)
         self._last_message, self._as_described = "", token is None and resources is None
         self.incomplete_messages = 0
 

@@ -14,7 +14,7 @@ from hosts.fmu.variables import Variables
 
 START_OF = "start of "
 """Prefix of the source of start values of a manoeuvre."""
-_MOST_IN_TITLE = 2
+_MAX_SETTINGS_IN_TITLE = 2
 
 
 class Settings:
@@ -102,7 +102,7 @@ class Settings:
     def title(self, name: str) -> str:
         """A title: the name and the first changes of the user."""
         changes = [s for s in self.changes if not s.source.startswith(START_OF)]
-        texts = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in changes[:_MOST_IN_TITLE]]
+        texts = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in changes[:_MAX_SETTINGS_IN_TITLE]]
         suffix = [f"{len(changes) - len(texts)} more"] if len(changes) > len(texts) else []
         return ", ".join([name, *texts, *suffix])
 

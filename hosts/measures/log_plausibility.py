@@ -16,7 +16,7 @@ from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, 
 from hosts.measures.samples import joint_sample_values, sample_values
 from hosts.measures.signal import Signal
 
-LEAST_DELAY = 0.1  # s
+MIN_DELAY = 0.1  # s
 RATES = ("chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", STEERING)
 TIMES = (
     (2.0, "time twice as fast"),
@@ -154,7 +154,7 @@ def _shifted_logs(
 ) -> Iterator[tuple[str, set[str], Signals, bool]]:
     """The log without the delay of a signal, if all its relations agree on it, and without the offset of a rate."""
     delays = [-power * v.value for v, power in _relations_with_powers(plausibility, "_late", (s.name,))]
-    if delays and min(map(abs, delays)) > LEAST_DELAY and np.ptp(delays) <= 2.0 * LEAST_DELAY:
+    if delays and min(map(abs, delays)) > MIN_DELAY and np.ptp(delays) <= 2.0 * MIN_DELAY:
         delay = float(np.mean(delays))
         message = f"a delay of {delay:.2f} s (within {FINE:g} s) of {label}"
         yield message, {s.name}, {**signals, s.name: replace(s, time=s.time - delay)}, False

@@ -18,7 +18,7 @@ _STEP_LOW = 2.37
 _STEP_LOW_Q = 0.91
 _STEP_HIGH = 3.35
 _STEP_HIGH_Q = 0.91
-LONGEST_STEP = 0.005
+MAX_STEP = 0.005
 """Longest interval of samples, s: the error of the weighting is below 3 % up to 20 Hz, with 2 ms up to 45 Hz."""
 
 

@@ -24,11 +24,11 @@ from hosts.simulator.step_times import StepTimes
 
 __all__ = ["Car", "CarSettings", "CarState", "Event", "StepTimes"]
 
-SLOWEST = 0.05
+MIN_SPEED = 0.05
 """Least speed of slow motion, simulated over wall time."""
 _ROW_SECONDS = 8.0
-_LEAST_ROWS = 2000
-_MOST_ROW_BYTES = 1 << 24
+_MIN_ROWS = 2000
+_MAX_ROW_BYTES = 1 << 24
 
 
 class Car(Closable):
@@ -58,8 +58,8 @@ class Car(Closable):
         self._lock, self._request_count = threading.Lock(), 0
         self._requests = np.zeros(3 * len(self.inputs))
         self._closed = False
-        rows = max(_LEAST_ROWS, round(_ROW_SECONDS / settings.step)) if settings.record is not None else 1
-        rows = min(rows, max(1, _MOST_ROW_BYTES // (8 * (len(ROW) + len(self.names)))))
+        rows = max(_MIN_ROWS, round(_ROW_SECONDS / settings.step)) if settings.record is not None else 1
+        rows = min(rows, max(1, _MAX_ROW_BYTES // (8 * (len(ROW) + len(self.names)))))
         sizes = Sizes(len(self.inputs), len(self.names), rows)
         self._shared = SharedValues(sizes)
         self._shared.flags[RECORDING] = settings.record is not None
@@ -134,8 +134,8 @@ class Car(Closable):
             value = value or 1.0
             if not (1.0 <= value <= 1e9 and value == int(value)):
                 raise HostError(f"The number of steps is {value:g}; it must be a whole number of at least 1.")
-        elif name == "speed" and not SLOWEST <= value <= 1.0:
-            raise HostError(f"The speed is {value:g}; it must be from {SLOWEST:g} to 1.")
+        elif name == "speed" and not MIN_SPEED <= value <= 1.0:
+            raise HostError(f"The speed is {value:g}; it must be from {MIN_SPEED:g} to 1.")
         elif name == "rewind" and not (math.isfinite(value) and value > 0.0):
             raise HostError(f"The time to rewind is {value:g} s; it must be positive.")
         with self._lock:

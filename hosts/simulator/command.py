@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from hosts.simulator.run_report import RunReport
 
 _LOCAL_ADDRESS = "127.0.0.1"
-_LONGEST_RUN = 1e6
+_MAX_RUN_TIME = 1e6
 _TITLE = "ALi3: take the wheel"
 _BAR = "{desc}: {percentage:3.0f} % |{bar}| {elapsed}<{remaining}"
 _RECORDING_OPTIONS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu", "confined")
@@ -131,8 +131,8 @@ def _check_options(options: argparse.Namespace) -> None:
         )
     if options.headless and options.stop_time is None and options.manoeuvre is None:
         raise HostError("A run without a page needs its length: --headless --stop-time T, or a --manoeuvre.")
-    if options.stop_time is not None and not 0.0 < options.stop_time <= _LONGEST_RUN:
-        raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_LONGEST_RUN:g}.")
+    if options.stop_time is not None and not 0.0 < options.stop_time <= _MAX_RUN_TIME:
+        raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_MAX_RUN_TIME:g}.")
     if options.manoeuvre is not None and options.seed is not None:
         raise HostError("Inputs are given by --manoeuvre and by --seed; give one of them.")
 

@@ -10,10 +10,10 @@ from hosts.common.errors import HostError
 
 IN_FLIGHT = 2
 """Largest number of frames that a page has not acknowledged."""
-MOST_TEXTS = 200
+MAX_TEXTS = 200
 MESSAGES_PER_SECOND = 400.0
 BURST = 800.0
-MOST_MALFORMED = 20
+MAX_MALFORMED = 20
 STALLED = 2.0
 """Time without a message from a page with frames, s, after which its inputs are released."""
 
@@ -31,7 +31,7 @@ class ConnectedPage:
         self.watches_devices = False
         self.stalled = False
         self.watched = False  # has acknowledged a frame
-        self.texts: deque[str] = deque(maxlen=MOST_TEXTS)  # when full, the oldest is dropped
+        self.texts: deque[str] = deque(maxlen=MAX_TEXTS)  # when full, the oldest is dropped
         self._now = now
         self._unacknowledged: deque[tuple[float, float]] = deque()
         self._last_message = now()
@@ -58,8 +58,8 @@ class ConnectedPage:
     def malformed(self) -> None:
         """Note a malformed message. Raises `HostError` if the page has sent too many."""
         self._malformed += 1
-        if self._malformed > MOST_MALFORMED:
-            raise HostError(f"More than {MOST_MALFORMED} messages of this page were wrong.")
+        if self._malformed > MAX_MALFORMED:
+            raise HostError(f"More than {MAX_MALFORMED} messages of this page were wrong.")
 
     def sent(self, count: float) -> None:
         """Note that the frame of this count was sent."""

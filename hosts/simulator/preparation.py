@@ -25,7 +25,7 @@ from hosts.recordings.recording import check_folder
 from hosts.simulator.drivability import not_drivable
 
 ITERATIONS = "solver.step_iterations"
-_MOST_ITERATIONS = 6
+_MAX_ITERATIONS = 6
 """Limit for an inner step of about 2 ms; its residual is measured in docs/fmu.md."""
 _EMPTY_SCENE = {"format": "ALi3 scene", "version": 1, "extent": 5.0, "frames": {}, "shapes": []}
 
@@ -170,7 +170,7 @@ def _settings(request: DriveRequest, source: FmuSource, variables: Variables, wo
     start = {name: value for name, value in source.fmu_values(start).items() if name in variables.names}
     settings = Settings(variables)
     if ITERATIONS in variables.names:
-        settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")
+        settings.add_numbers({ITERATIONS: _MAX_ITERATIONS}, "real time")
     settings.add_numbers(start, f"the world {world.name}")
     settings.add_numbers(request.start(variables.names), f"{START_OF}{request.manoeuvre}")
     settings.add_options(request.fmu_options, request.fidelity)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from hosts.simulator.preparation import Prepared
     from hosts.simulator.step_times import StepTimes
 
-_MOST_EVENTS = 1000
+_MAX_EVENTS = 1000
 
 
 class RunReport:
@@ -43,7 +43,7 @@ class RunReport:
     def event(self, kind: str, text: str) -> None:
         """Show and store an event of the car."""
         self._kinds[kind] += 1
-        if len(self._events) < _MOST_EVENTS:
+        if len(self._events) < _MAX_EVENTS:
             self._events.append({"kind": kind, "text": text})
         self.tell(text)
 

@@ -36,7 +36,7 @@ _LABELS = {
     "points_sha256": "the points that are drawn",
     "measured": "the measures",
 }
-_MOST_DIFFERENCES = 3
+_MAX_DIFFERENCES = 3
 
 Hash: TypeAlias = Annotated[str, Field(pattern=_HASH)]
 
@@ -187,7 +187,7 @@ def check_same(folder: Path, earlier: Mapping[str, Any], now: Mapping[str, Any])
     if len(differences) > 1:
         differences = [key for key in differences if key not in ("points_sha256", "points", "runs")]
     message = some_of(
-        (_difference_text(key, earlier.get(key), new.get(key)) for key in differences), _MOST_DIFFERENCES, "; "
+        (_difference_text(key, earlier.get(key), new.get(key)) for key in differences), _MAX_DIFFERENCES, "; "
     )
     raise HostError(
         f"{folder} holds another study, whose rows stay as they are: {message}. Put it back as it was, or give another "

@@ -10,11 +10,11 @@ from scipy.optimize import brentq, minimize_scalar
 
 TOLERANCE = 1e-3
 """Of the target value; where that is zero, of the change of the measure over the range."""
-MOST_RUNS = 24
+MAX_RUNS = 24
 _RESOLUTION = 1e-4  # of the range
 _INSETS = (0.0, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0)  # of the range, from an end at which the run fails
 _EXTREMUM_TOLERANCE = 0.02  # of the range
-_MOST_EXTREMUM_RUNS = 8
+_MAX_EXTREMUM_RUNS = 8
 _SLOPE_STEP = 0.01  # of the value or of the range, the smaller one
 
 
@@ -69,7 +69,7 @@ def seek(
     high: float,
     log: bool = False,
     start: float = math.nan,
-    most_runs: int = MOST_RUNS,
+    most_runs: int = MAX_RUNS,
 ) -> SearchResult:
     """Seek a value of a parameter.
 
@@ -197,7 +197,7 @@ class _Search:
                 distance,
                 bounds=(first, last),
                 method="bounded",
-                options={"xatol": _EXTREMUM_TOLERANCE, "maxiter": _MOST_EXTREMUM_RUNS},
+                options={"xatol": _EXTREMUM_TOLERANCE, "maxiter": _MAX_EXTREMUM_RUNS},
             )
 
     def _brackets(self) -> list[tuple[float, float]]:

@@ -12,7 +12,7 @@ from hosts.study.plan import Plan
 from hosts.study.study_runs import SingleProcess
 from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome, Work
 
-_LONGEST = 2.0  # s of computing for a run of the test of reuse
+_MAX_RUN_TIME = 2.0  # s of computing for a run of the test of reuse
 _ROW_BYTES = 60.0  # of a row in a part beside its numbers
 _COMPRESSION = 1.0  # largest ratio of stored and raw bytes of signals
 
@@ -91,7 +91,7 @@ def _check_reuse(plan: Plan, completed: list[tuple[int, Job, int, Outcome]]) -> 
         return False, None
     number, job, point, outcome = manoeuvre_runs[0]
     assert job.manoeuvre is not None
-    share = min(1.0, _LONGEST / max(outcome.wall, 1e-9))
+    share = min(1.0, _MAX_RUN_TIME / max(outcome.wall, 1e-9))
     samples = max(1, math.floor(share * job.manoeuvre.stop_time / job.step)) + 1
     stop = (samples - 1) * job.step
     # All outputs at all steps are compared.

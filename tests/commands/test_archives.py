@@ -133,7 +133,7 @@ THREE = (
     ],
 )
 def test_descriptions_have_bounds(content: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(description_file, "MOST_VARIABLES", 100)
+    monkeypatch.setattr(description_file, "MAX_VARIABLES", 100)
     file = tmp_path / "a.fmu"
     with zipfile.ZipFile(file, "w") as archive:
         archive.writestr("modelDescription.xml", content)

@@ -10,7 +10,7 @@ REST_TIME = 1.0
 """Time without movement, s, after which the device counts as released."""
 STILL = 0.05
 """Largest movement of an axis at rest."""
-LEAST_MOVEMENT = 0.3
+MIN_MOVEMENT = 0.3
 """Least movement of an axis that is calibrated."""
 FIRST_MOVEMENT = 0.2
 """Movement that determines the first direction of the steering."""
@@ -95,7 +95,7 @@ class Calibration:
             if source.kind != "axis" or name not in (*CENTRED, *PEDALS):
                 continue
             k = source.number
-            if not self._first_movement or k >= len(self._span) or self._span[k][1] - self._span[k][0] < LEAST_MOVEMENT:
+            if not self._first_movement or k >= len(self._span) or self._span[k][1] - self._span[k][0] < MIN_MOVEMENT:
                 unmoved.append(name)
                 continue
             inputs[name] = self._steering(old, k) if name in CENTRED else self._pedal(old, k)
@@ -138,7 +138,7 @@ class Assignment:
     until: float
     """Time at which the assignment ends without a result, s."""
 
-    LEAST_MOVEMENT = 0.5
+    MIN_MOVEMENT = 0.5
     """Least movement of an axis that is assigned."""
 
     def feed(self, reading: Reading) -> InputMapping | None:
@@ -158,9 +158,9 @@ class Assignment:
             return None
         k = max(range(len(base)), key=lambda i: abs(reading.axes[i] - base[i]))
         movement = reading.axes[k] - base[k]
-        if abs(movement) < self.LEAST_MOVEMENT:
+        if abs(movement) < self.MIN_MOVEMENT:
             return None
         if self.name in CENTRED:
             return InputMapping(f"axis {k}", inverted=movement < 0.0)
-        low, high = (-1.0, 1.0) if abs(base[k]) > self.LEAST_MOVEMENT else (0.0, 1.0) if movement > 0.0 else (-1.0, 0.0)
+        low, high = (-1.0, 1.0) if abs(base[k]) > self.MIN_MOVEMENT else (0.0, 1.0) if movement > 0.0 else (-1.0, 0.0)
         return InputMapping(f"axis {k}", movement < 0.0, low, high, PEDAL_DEAD_ZONE)

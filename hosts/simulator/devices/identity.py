@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-MOST_OF_A_MODEL = 8
+MAX_DEVICES_OF_MODEL = 8
 """Largest number of devices of one model."""
 
 
@@ -22,7 +22,7 @@ class Identities:
 
     def take(self, guid: str, serial: str, path: str) -> str:
         """The `id` of a newly connected device."""
-        names = (_numbered_id(guid, k) for k in range(1, len(self._connected) + MOST_OF_A_MODEL + 1))
+        names = (_numbered_id(guid, k) for k in range(1, len(self._connected) + MAX_DEVICES_OF_MODEL + 1))
         free = [name for name in names if name not in self._connected]
         result = self._former_id(free, serial, path) or self._unclaimed_id(free, serial)
         self._connected.add(result)

@@ -17,9 +17,9 @@ ANGLE = "steering_wheel_angle_demand"
 PEDALS = ("throttle", "brake", "hand_brake")
 SELECTOR = {"selector drive": 1.0, "selector neutral": 0.0, "selector reverse": -1.0}
 """Values of the input `selector` by name of the mapping of a button."""
-NARROWEST = 0.05
+MIN_AXIS_RANGE = 0.05
 """Least distance between the ends of an axis."""
-LARGEST_DEAD_ZONE = 0.9
+MAX_DEAD_ZONE = 0.9
 
 
 def drivable(inputs: Collection[str]) -> list[str]:
@@ -135,14 +135,14 @@ def read_input(name: str, table: object) -> InputMapping:
         if fields.get(number) is not None:
             fields[number] = _checked_number(label, number, fields[number], -1.0, 1.0)
     if "dead_zone" in fields:
-        fields["dead_zone"] = _checked_number(label, "dead_zone", fields["dead_zone"], 0.0, LARGEST_DEAD_ZONE)
+        fields["dead_zone"] = _checked_number(label, "dead_zone", fields["dead_zone"], 0.0, MAX_DEAD_ZONE)
     _check_bool(label, fields, "inverted")
     mapping = InputMapping(**fields)
-    if mapping.high - mapping.low < NARROWEST:
+    if mapping.high - mapping.low < MIN_AXIS_RANGE:
         raise HostError(
-            f"{label} has low = {mapping.low:g} and high = {mapping.high:g}; high must be larger by {NARROWEST}."
+            f"{label} has low = {mapping.low:g} and high = {mapping.high:g}; high must be larger by {MIN_AXIS_RANGE}."
         )
-    margin = 0.2 * NARROWEST
+    margin = 0.2 * MIN_AXIS_RANGE
     if mapping.centre is not None and not mapping.low + margin <= mapping.centre <= mapping.high - margin:
         raise HostError(
             f"{label} has centre = {mapping.centre:g}, which is not between {mapping.low:g} and {mapping.high:g}."

@@ -6,7 +6,7 @@ from typing import Any
 from hosts.common.errors import HostError
 from hosts.simulator.devices.sdl import last_error
 
-_MOST_COEFFICIENT = 32767
+_MAX_COEFFICIENT = 32767
 _FULL_SATURATION = 0xFFFF
 _STEERING_AXIS_SINCE = (2, 0, 14)
 _CONDITIONS = {"damper": "SDL_HAPTIC_DAMPER", "spring": "SDL_HAPTIC_SPRING"}
@@ -58,7 +58,7 @@ class Motor:
         number = getattr(self._sdl, _CONDITIONS[kind])
         if not self._capabilities & number:
             return False
-        coefficient = round(_MOST_COEFFICIENT * max(0.0, min(1.0, share)))
+        coefficient = round(_MAX_COEFFICIENT * max(0.0, min(1.0, share)))
         if self._levels.get(kind, 0) == coefficient:
             return True
         effect = self._condition_effect(number, coefficient)

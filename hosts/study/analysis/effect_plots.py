@@ -55,7 +55,7 @@ def random_subset(count: int, most: int) -> NDArray[np.int64]:
     return np.sort(np.random.default_rng(0).choice(count, most, replace=False))
 
 
-MOST_POINTS = 2000
+MAX_POINTS = 2000
 
 
 def plot_main_effects(parameters: Sequence[Parameter], response: Response, effects: Sequence[MainEffect]) -> Figure:
@@ -70,12 +70,12 @@ def plot_main_effects(parameters: Sequence[Parameter], response: Response, effec
 def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffect]) -> Figure:
     """The measure of each run over each parameter, means as lines, and failed runs as marks at the lower edge."""
     figure, axes = parameter_panels(data.parameters, response.title)
-    selected = random_subset(len(response.rows), MOST_POINTS)
+    selected = random_subset(len(response.rows), MAX_POINTS)
     # Markers of few runs are large; those of many are small and transparent.
     size = float(np.clip(60.0 / len(selected) ** 0.4, 3.0, 10.0))
     alpha = float(np.clip(12.0 / len(selected) ** 0.45, 0.4, 0.9))
     failed = data.failed_of(response)
-    failed = failed[random_subset(len(failed), MOST_POINTS)]
+    failed = failed[random_subset(len(failed), MAX_POINTS)]
     for k, (panel, effect) in enumerate(zip(axes, effects, strict=True)):
         x = data.x[response.rows[selected], k]
         (points,) = panel.plot(
@@ -97,7 +97,7 @@ def plot_failed(data: StudyData) -> Figure:
     for k, panel in enumerate(axes):
         _plot_interval(panel, data.parameters[k], failed_share(data.x[:, k], data.failed), RED, 100.0)
         rows = np.flatnonzero(data.failed)
-        rows = rows[random_subset(len(rows), MOST_POINTS)]
+        rows = rows[random_subset(len(rows), MAX_POINTS)]
         panel.plot(data.x[rows, k], np.full(len(rows), 0.02), "|", color=RED, transform=panel.get_xaxis_transform())
     axes[0].set_ylim(bottom=-5.0)
     return figure

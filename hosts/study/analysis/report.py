@@ -16,7 +16,7 @@ from hosts.experiment.report import FAINT, Plots, Section, page, paragraph
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.measure_section import measure_section
 from hosts.study.analysis.study_section import (
-    MOST_RESPONSES,
+    MAX_RESPONSES,
     Commands,
     facts,
     failed_sections,
@@ -51,7 +51,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
     check_no_link(folder)
     data, plots = study_data(frame), Plots(folder / ANALYSIS)
-    responses = data.responses[:MOST_RESPONSES]
+    responses = data.responses[:MAX_RESPONSES]
     effect_rows: list[dict[str, object]] = []
     with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
         sections = [*limits_section(data), measures_section(data), *failed_sections(data, plots, commands)]

@@ -18,7 +18,7 @@ from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.tables import reason_without_distribution
 
 PERCENTILES = (5.0, 50.0, 95.0)
-_MOST_BINS = 60
+_MAX_BINS = 60
 
 
 def plot_overview(data: StudyData, response: Response, indices: Indices | str) -> Figure:
@@ -55,8 +55,8 @@ def plot_distribution(axes: Axes, data: StudyData, response: Response) -> None:
 
 def _histogram(axes: Axes, y: NDArray[np.float64]) -> None:
     edges = np.histogram_bin_edges(y, "auto")
-    if len(edges) > _MOST_BINS + 1:
-        edges = np.linspace(y.min(), y.max(), _MOST_BINS + 1)
+    if len(edges) > _MAX_BINS + 1:
+        edges = np.linspace(y.min(), y.max(), _MAX_BINS + 1)
     axes.hist(y, edges.tolist(), color=BLUE, alpha=0.75)
     for percent, value in zip(PERCENTILES, np.percentile(y, PERCENTILES), strict=True):
         dashes = "-" if percent == 50.0 else "--"

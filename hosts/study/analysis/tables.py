@@ -12,7 +12,7 @@ from hosts.study.analysis.data import Response, StudyData
 
 _STATISTICS = ("runs", "mean", "std", "lowest", "5 %", "median", "95 %", "highest")  # as pandas describes numbers
 _SAMPLE_STATISTICS = ("mean", "std", "5 %", "95 %")
-_FEWEST_FOR_DISTRIBUTION = 20  # runs, of which one is below the 5 % percentile
+_MIN_RUNS_FOR_DISTRIBUTION = 20  # runs, of which one is below the 5 % percentile
 _NUMBER = re.compile(r"(?<![A-Za-z_\d.\[])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w\]])")
 
 
@@ -30,8 +30,8 @@ def reason_without_distribution(data: StudyData, response: Response) -> str:
     count = len(response.values)
     if data.method in ("grid", "table"):
         return f"{count} runs of a {data.method}, not a random sample"
-    few = count < _FEWEST_FOR_DISTRIBUTION
-    return f"{count} runs; a distribution needs {_FEWEST_FOR_DISTRIBUTION}" if few else ""
+    few = count < _MIN_RUNS_FOR_DISTRIBUTION
+    return f"{count} runs; a distribution needs {_MIN_RUNS_FOR_DISTRIBUTION}" if few else ""
 
 
 def statistics(response: Response) -> dict[str, float]:
