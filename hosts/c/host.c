@@ -108,7 +108,7 @@ static char *description_of(const char *library) {
   return text;
 }
 
-/* An attribute of the tag that begins at `tag`, its entities replaced; false where it has none. */
+/* An attribute of the tag that begins at `tag`, its entities replaced; false if it has none. */
 static bool attribute(const char *tag, const char *name, char *value, size_t size) {
   static const struct {
     const char *entity;
@@ -139,7 +139,7 @@ static bool attribute(const char *tag, const char *name, char *value, size_t siz
   return false;
 }
 
-/* The variable of a name; ends the program where there is none that may be set. */
+/* The variable of a name; ends the program if there is none that may be set. */
 static variable look_up(const char *description, const char *name) {
   static const char *const types[] = {"Real", "Integer", "Boolean", "String", "Enumeration"};
   char text[MAX_LENGTH];

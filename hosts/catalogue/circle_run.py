@@ -36,19 +36,27 @@ _APPROACH_TIME = 60.0  # s, until the first speed is reached
 
 @dataclass(frozen=True)
 class CircleRun:
-    """Signals of a run from steady driving at the first speed to the largest lateral acceleration."""
+    """Signals of a run from steady driving at the first speed to the largest lateral acceleration.
+
+    Arrays have shape (n,), positive to the left; NaN if the car has no such output.
+    """
 
     result: Result
     """The whole run, at intervals of 20 ms."""
     time: NDArray[np.float64]
+    """s."""
     acceleration: NDArray[np.float64]
+    """Lateral and horizontal, m/s²."""
     steering: NDArray[np.float64]
+    """Steering-wheel angle, rad."""
     sideslip: NDArray[np.float64]
+    """Sideslip angle, rad."""
     roll: NDArray[np.float64]
+    """Roll angle, rad."""
     torque: NDArray[np.float64]
+    """Steering-wheel torque, N m."""
     speed: NDArray[np.float64]
-    """`time`, `acceleration`, `steering`, `sideslip`, `roll`, `torque`, `speed`: SI units, positive to the left, shape
-    (n,) each; NaN where the car has no such output. The acceleration is lateral and horizontal."""
+    """m/s."""
     largest: float
     """Largest lateral acceleration to the side of the run, mean over 1 s, m/s²."""
     end: str
@@ -108,8 +116,8 @@ def drive_circle(
 ) -> CircleRun:
     """Drive a circle to one side up to the largest lateral acceleration.
 
-    `side`: 1: left, -1: right; `settings`: of the test; `ratio`: steering ratio; `progress`: called with the share that
-    is done, 0 to 1.
+    `side`: 1: left, -1: right; `settings`: settings of the test; `ratio`: steering ratio; `progress`: called with the
+    fraction that is done, 0 to 1.
     """
     method, radius = settings["method"], settings["radius"]
     steering = SteeringInput.of(car.facts)

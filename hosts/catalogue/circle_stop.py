@@ -98,7 +98,7 @@ class Stop:
         return r["chassis.ay"] if "chassis.ay" in r else r["speed"] * r["chassis.wz"]
 
     def values(self) -> dict[str, float]:
-        """The values of `COMPARED` 1 s after the onset; empty where the car is slow or the run has ended by then."""
+        """The values of `COMPARED` 1 s after the onset; empty if the car is slow or the run has ended by then."""
         speed = self.at("speed", 1.0)
         if math.isnan(speed) or speed < MIN_SPEED:
             return {}
@@ -133,7 +133,7 @@ class Stop:
 
     @property
     def locks(self) -> bool | None:
-        """Whether a wheel locks; None where the car does not provide slips."""
+        """Whether a wheel locks; None if the car does not provide slips."""
         slip = at_wheels(self.result, "slip")
         if slip is None:
             return None

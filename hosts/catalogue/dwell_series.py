@@ -40,8 +40,9 @@ class DwellRun:
 def series_amplitudes(a: float, first: float, increment: float, full_lock: float) -> list[float]:
     """Increasing amplitudes of a series, rad.
 
-    `a`: angle A at 0.3 g, rad; `first`, `increment`: over A; `full_lock`: largest angle of the steering wheel, rad. The
-    last amplitude is the greater of 6.5 A and 270°, but at most 300° and full lock.
+    `a`: angle A at 0.3 g, rad; `first`, `increment`: first amplitude and increment, divided by A; `full_lock`: largest
+    angle of the steering wheel, rad. The last amplitude is the greater of 6.5 A and 270°, but at most 300° and full
+    lock.
     """
     last = min(_MAX_AMPLITUDE if 6.5 * a > _MAX_AMPLITUDE else max(6.5 * a, _MIN_LAST_AMPLITUDE), full_lock)
     multiples = a * (first + increment * np.arange(math.ceil(max(last / a - first, 0.0) / increment)))
@@ -94,8 +95,8 @@ def drive_series(
 ) -> list[DwellRun]:
     """Drive runs with increasing amplitudes until the car is lost.
 
-    `speed`: at the beginning of steer, coasting, m/s; `side`: 1: first to the left, -1: first to the right;
-    `amplitudes`: in rad.
+    `speed`: speed at the beginning of steer, coasting, m/s; `side`: 1: first to the left, -1: first to the right;
+    `amplitudes`: amplitudes, rad.
     """
     runs: list[DwellRun] = []
     for k, amplitude in enumerate(amplitudes):

@@ -44,7 +44,7 @@ def reason_against(test: StandardTest, car: TestedCar, settings: Mapping[str, fl
         return test.why_not(car, settings)
     message = " and no ".join(" or ".join(_alternatives(need)) for need in unmet)
     reasons = [car.fmu.why_missing(name) for need in unmet for name in _alternatives(need)]
-    hint = "where it has another name, an alias file says which (--aliases)."
+    hint = "if it has another name, an alias file says which (--aliases)."
     return f"The FMU {car.path.name} has no {message}; {' '.join(dict.fromkeys(filter(None, reasons))) or hint}"
 
 

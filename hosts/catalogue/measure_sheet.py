@@ -115,7 +115,7 @@ class TestTables(_Typed):
 class Sheet:
     """The results of a test so far.
 
-    `car`, `settings`, `progress`: see `StandardTest.perform`. `runs`, `notes`: of the record.
+    `car`, `settings`, `progress`: see `StandardTest.perform`. `runs`, `notes`: runs and notes of the record.
     """
 
     def __init__(

@@ -47,8 +47,9 @@ class Setting:
     unit: str
     text: str
     lowest: float = -np.inf
+    """Lower end of the allowed range."""
     highest: float = np.inf
-    """`lowest`, `highest`: allowed range."""
+    """Upper end of the allowed range."""
 
 
 @dataclass(frozen=True)
@@ -67,12 +68,14 @@ class Plot:
     title: str
     """Title, by which plots of several cars are matched."""
     x: str
+    """Quantity and unit of the abscissa, such as ``lateral acceleration, m/s²``."""
     y: str
-    """`x`, `y`: quantity and unit, such as ``lateral acceleration, m/s²``."""
+    """Quantity and unit of the ordinate."""
     lines: Sequence[Line]
     log_x: bool = False
+    """Whether the abscissa is logarithmic."""
     log_y: bool = False
-    """`log_x`, `log_y`: whether the axis is logarithmic."""
+    """Whether the ordinate is logarithmic."""
     equal: bool = False
     """Whether both axes have the same scale."""
 
@@ -110,7 +113,7 @@ class StandardTest:
     title: str
     perform: Perform
     """``perform(car, settings, progress)`` runs the test with values of all `settings`; `progress` is called with the
-    share that is done, 0 to 1. Raises `HostError` with the reason if the test cannot be done with the car."""
+    fraction done, 0 to 1. Raises `HostError` with the reason if the test cannot be done with the car."""
     standards: tuple[Standard, ...] = ()
     settings: tuple[Setting, ...] = ()
     needs: tuple[str, ...] = ()

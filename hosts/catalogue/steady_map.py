@@ -65,7 +65,7 @@ class SteadyMap:
 def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
     """Drive a ramp to the left; the map is empty if the car does not reach the speed.
 
-    `speed`: in m/s; `acceleration`: upper end of the map, m/s².
+    `speed`: m/s; `acceleration`: upper end of the map, m/s².
 
     Notes
     -----
@@ -98,7 +98,7 @@ def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
 
 
 def _lag_angle(angle: NDArray[np.float64], acceleration: NDArray[np.float64], rate: float) -> NDArray[np.float64]:
-    """Angles by which a ramp leads the response, rad, shape (n,). `rate`: of the ramp, rad/s."""
+    """Angles by which a ramp leads the response, rad, shape (n,). `rate`: rate of the ramp, rad/s."""
     fitted = (
         (acceleration >= _FIT_RANGE[0])
         & (acceleration <= _FIT_RANGE[1])
@@ -114,7 +114,7 @@ def _lag_angle(angle: NDArray[np.float64], acceleration: NDArray[np.float64], ra
 def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
     """The map at a speed or, for a car that does not reach it, at a lower one.
 
-    `speed`, `lower`: in m/s; `acceleration`: upper end of the map, m/s². Raises `HostError` if the car reaches neither
+    `speed`, `lower`: m/s; `acceleration`: upper end of the map, m/s². Raises `HostError` if the car reaches neither
     speed, its FMU refuses a step, or signs or units of its signals are implausible.
     """
     result = steady_map(car, speed, acceleration)

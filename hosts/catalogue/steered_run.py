@@ -93,22 +93,29 @@ class SteeredPilot:
 
 @dataclass(frozen=True)
 class SteeredRun:
-    """Signals of a steered run at equally spaced times; time 0 is the start of the steering."""
+    """Signals of a steered run at equally spaced times; NaN if the car has no such output.
+
+    Arrays have shape (n,); time 0 is the start of the steering.
+    """
 
     result: Result
     """The record, with intervals of at least 5 ms."""
     begin: float
-    """Begin of the steering in the time of `result`, s; NaN if the car did not reach its speed."""
+    """Start of the steering in the time of `result`, s; NaN if the car did not reach its speed."""
     time: NDArray[np.float64]
-    """Shape (n,), s; starts at most 1 s before the steering. Empty if the steering did not begin."""
+    """s; starts at most 1 s before the steering. Empty if the steering did not begin."""
     steering: NDArray[np.float64]
+    """Steering-wheel angle, rad."""
     yaw_rate: NDArray[np.float64]
+    """rad/s."""
     acceleration: NDArray[np.float64]
+    """Lateral and horizontal, m/s²."""
     sideslip: NDArray[np.float64]
+    """Sideslip angle, rad."""
     roll: NDArray[np.float64]
+    """Roll angle, rad."""
     speed: NDArray[np.float64]
-    """`steering`, `yaw_rate`, `acceleration`, `sideslip`, `roll`, `speed`: in rad, rad/s, m/s², rad, rad, m/s, shape
-    (n,) each; NaN where the car has no such output. The acceleration is lateral and horizontal."""
+    """m/s."""
     whole: bool
     """Whether the table was driven to its end."""
 
@@ -147,7 +154,7 @@ def steer(
 ) -> SteeredRun:
     """Drive the car straight up to a speed, then steer it by a table.
 
-    `speed`: in m/s; `time`, `angle`: table, s from the start of the steering and rad, shape (n,); `lateral_limit`:
+    `speed`: m/s; `time`, `angle`: table, s from the start of the steering and rad, shape (n,); `lateral_limit`:
     lateral acceleration at which the run ends, m/s².
     """
     start = start_at_speed(car, speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0))

@@ -36,7 +36,7 @@ class Task:
 def perform_task(task: Task, progress: Callable[[float], None]) -> Outcome:
     """Run the test of a task; an error becomes its outcome.
 
-    `progress`: called with the share that is done, 0 to 1, at most ten times a second.
+    `progress`: called with the fraction done, 0 to 1, at most ten times a second.
     """
     last = -1.0
 

@@ -31,7 +31,7 @@ _FORMAT = re.compile(r"%(?!%)[-+ #0-9.*hlLqjzt]*([a-zA-Z])")
 
 
 def _memory() -> int:
-    """Resident memory, bytes; 0 where it is not known."""
+    """Resident memory, bytes; 0 if it is not known."""
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") if LINUX else 0
 
 

@@ -97,7 +97,7 @@ def check_references(
     tables : Path
         A table with a column time, or a folder of tables. Columns that are inputs or tunable parameters of the FMU
         drive it, see `hosts.driving.manoeuvre_table.read_table`; those that are outputs are compared, `solver.*` only
-        where a bound names them.
+        if a bound names them.
     cases : list of Case
         Receives the run and the signals of each table, also before an error.
     bounds : sequence of (str, float)

@@ -24,9 +24,9 @@ _MIN_CORRELATION = 0.5
 _AMBIGUOUS = 0.01
 _MAX_POINTS = 20_000
 _MAX_DRIFT = 0.05
-_MIN_EXPLAINED_FRACTION = 0.25  # share of the squared residuals; a drift that explains less is an error of the model
+_MIN_EXPLAINED_FRACTION = 0.25  # of the squared residuals; a drift that explains less is an error of the model
 _NOISE_FACTOR = 1.2  # on the squared noise, which is an estimate
-_MODEL_FACTOR = 2.0  # on the residual of the model, of which another share may look like a delay
+_MODEL_FACTOR = 2.0  # on the residual of the model, of which another part may look like a delay
 
 
 @dataclass(frozen=True)
@@ -34,17 +34,17 @@ class Alignment:
     """Delay and drift of a measured signal."""
 
     delay: float
+    """s; time t of the simulation is time delay + (1 + drift) t of the log. NaN if it cannot be determined."""
     delay_error: float
-    """`delay`, `delay_error`: s, and half of its 95 % interval; time t of the simulation is time delay + (1 + drift) t
-    of the log. NaN where it cannot be determined."""
+    """Half of the 95 % interval of `delay`, s."""
     drift: float
+    """Relative rate error of the log's clock of this signal; positive: the clock runs fast."""
     drift_error: float
-    """`drift`, `drift_error`: relative rate error of the log's clock of this signal, and half of its 95 % interval;
-    positive: the clock runs fast."""
+    """Half of the 95 % interval of `drift`."""
     correlation: float
     note: str = ""
     explained: float = 0.0
-    """Share of the squared residuals without a drift that the drift explains."""
+    """Fraction of the squared residuals without a drift that the drift explains."""
 
     @property
     def has_drift(self) -> bool:
@@ -130,7 +130,7 @@ def _cross_correlation(
 
 
 def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> Alignment:
-    """Delay, and drift where it is estimated, by least squares from a first delay, s."""
+    """Delay, and drift if it is estimated, by least squares from a first delay, s."""
     pairs = [(_overlapping_samples(s, c, delay), c) for s, c in pairs]
     spreads = [float(np.std(s.values)) for s, _ in pairs]
 
@@ -158,7 +158,7 @@ def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float
     errors = 1.96 * np.sqrt(np.diag(covariance(jacobian, solution.fun, rows, [s.time for s, _ in pairs])[0]))
     for parts in _omitted_parts([s for s, _ in pairs]):
         errors = np.maximum(errors, jackknife(jacobian, solution.fun, parts))
-    # Residuals beyond the noise are an error of the model, of which another share of that size may look like a delay.
+    # Residuals beyond the noise are an error of the model, of which another part of that size may look like a delay.
     noise_sums = [
         len(s.time) * (measured_noise(s.values) / d) ** 2 for s, d in zip((s for s, _ in pairs), spreads, strict=True)
     ]
@@ -182,7 +182,7 @@ def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float
 
 
 def _omitted_parts(signals: Sequence[Signal]) -> list[Parts]:
-    """Parts that are left out in turn: tenths of the log, and each signal where there are enough of them."""
+    """Parts that are left out in turn: tenths of the log, and each signal if there are enough of them."""
     results = [parts_of({str(k): s for k, s in enumerate(signals)}, ())]
     if len(signals) >= MIN_PARTS:
         number = np.repeat(np.arange(len(signals)), [len(s.time) for s in signals])

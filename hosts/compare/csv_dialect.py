@@ -33,7 +33,7 @@ class DetectedDialect:
     decimal: str
     encoding: str
     names: list[str]
-    """Names of the columns without units; empty where a column has none."""
+    """Names of the columns without units; empty if a column has none."""
     units: dict[str, str]
     """Units as written, by name."""
     first_row: int
@@ -88,7 +88,7 @@ def unit_message(cell: str) -> str:
 
 
 def _refuse_units_in_cells(path: Path, lines: Sequence[str], stated: Dialect) -> None:
-    """Raises `HostError` where a line would be a row of numbers without the units in its cells."""
+    """Raises `HostError` if a line would be a row of numbers without the units in its cells."""
     for line, delimiter in ((k, d) for k in range(len(lines)) for d in (stated.delimiter, *_DELIMITERS) if d):
         cells = [cell.strip() for cell in lines[line].split(delimiter)]
         messages = [message for cell in cells if (message := unit_message(cell))]
@@ -128,7 +128,7 @@ def _is_value(cell: str) -> bool:
 
 
 def _first_row(lines: Sequence[str], delimiter: str) -> tuple[int, int, float]:
-    """Index of the first row of values, its number of columns and its share of values; 0 columns: there is none."""
+    """Index of the first row of values, its number of columns and its fraction of values; 0 columns: there is none."""
     for k, line in enumerate(lines):
         try:
             cells = cells_of(line, delimiter)
@@ -165,7 +165,7 @@ def _heading_lines(
             f"The log {path} has no line of {width} names before its values in line {first + 1}; "
             f"[file] heading of the alias file can name it."
         )
-    # The line of names comes first, that of units second.
+    # The line of names comes first, the line of units second.
     return headings[0], headings[1] if stated.units is None and len(headings) > 1 else units
 
 

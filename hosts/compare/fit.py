@@ -249,7 +249,7 @@ def overlapping(
 ) -> dict[str, Signal]:
     """The samples of signals that overlap with the simulation at a delay near its first guess.
 
-    `end`: of the simulation, s; `skip`: time that is left out at the beginning, s; `delays`: first guesses, s.
+    `end`: end of the simulation, s; `skip`: time that is left out at the beginning, s; `delays`: first guesses, s.
     """
     results = {}
     for name, signal in outputs.items():

@@ -45,9 +45,9 @@ def fitted_parameters(
 
 
 def fit_step(step: float | None, variables: Mapping[str, Variable]) -> dict[str, Value]:
-    """The parameter that sets the inner step of the FMU while it is fitted; empty where none was asked for.
+    """The parameter that sets the inner step of the FMU while it is fitted; empty if none was asked for.
 
-    `step`: in s.
+    `step`: s.
     """
     if step is None:
         return {}

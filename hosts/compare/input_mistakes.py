@@ -33,7 +33,7 @@ def inverted_signals(compared: Comparison) -> dict[str, ComparedSignal]:
 def inverted_input(task: Task, compared: Comparison, inverted: dict[str, ComparedSignal]) -> str:
     """A sentence on the input whose inversion gives all signals the sign of the simulation; otherwise empty.
 
-    Each input that can be inverted is tried in a run. `inverted`: of `inverted_signals`.
+    Each input that can be inverted is tried in a run. `inverted`: result of `inverted_signals`.
     """
     for name in task.invertible if inverted else ():
         signal = task.inputs[name]

@@ -34,11 +34,12 @@ class Log(Summarised):
     """Signals by ALi3 names."""
 
     inputs: dict[str, Signal]
+    """Signals that drive the FMU."""
     outputs: dict[str, Signal]
-    """`inputs`, `outputs`: signals that drive the FMU, and signals that are compared with it."""
+    """Signals that are compared with the FMU."""
     notes: list[str]
     held: frozenset[str] = frozenset()
-    """Inputs that keep the value of a row up to the next one, where the log is the result of ``ali3 run``."""
+    """Inputs that keep the value of a row up to the next one, if the log is the result of ``ali3 run``."""
     run_start: Mapping[str, Value] | None = None
     """Start values of that run, where its first row is the first of the log."""
 

@@ -113,7 +113,7 @@ def read_log_aliases(file: Path) -> LogAliases:
 
 
 def refuse_log_aliases(file: Path) -> None:
-    """Raise `HostError` where the alias file of a log is given as that of an FMU."""
+    """Raise `HostError` if the alias file of a log is given as that of an FMU."""
     tables = {field.alias for field in LogAliases.model_fields.values()}
     if is_file(file) and (content := read_toml(file)) and set(content) <= tables:
         raise HostError(f"{file} is the alias file of a log; --log-aliases takes it, --aliases that of the FMU.")

@@ -35,7 +35,7 @@ class RawLog:
     table: pd.DataFrame
     """Columns by name."""
     units: dict[str, str]
-    """Units by name, where the file gives them."""
+    """Units by name, if the file gives them."""
     first_row: int
     """Number of lines of the file before the first row."""
     added: int = 0

@@ -47,7 +47,8 @@ def log_times(
 ) -> tuple[tuple[NDArray[np.float64], NDArray[np.int64]], float]:
     """Times of a column, s, after the first time of the log, their rows, shape (n,) each, and that first time.
 
-    `name`: of the column; `origin`: first time of the log, s; None: that of this column; `notes`: are added to. Raises
+    `name`: name of the column; `origin`: first time of the log, s; None: first time of this column; `notes`: list to
+    which notes are added. Raises
     `HostError` if times are too few, decrease or are not readable.
     """
     clock = aliases.clock

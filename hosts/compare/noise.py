@@ -19,9 +19,8 @@ def measured_noise(values: NDArray[np.float64]) -> float:
 
     `values`: shape (n,).
 
-    Notes
-    -----
-    From the median of third differences, which remove the smooth part; their variance is 20 times that of the noise.
+    Notes ----- From the median of third differences, which remove the smooth part; their variance is 20 times the
+    variance of the noise.
     """
     third = np.diff(values, 3)
     return float(np.median(np.abs(third)) / 0.6744897501960817 / np.sqrt(20.0))
@@ -50,7 +49,7 @@ def difference_steps(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Steps of central differences with about equal errors by noise and by truncation.
 
-    `p`: shape (p,); `noise`: of `computed_noise`.
+    `p`: shape (p,); `noise`: result of `computed_noise`.
 
     Returns
     -------

@@ -26,7 +26,7 @@ _MAX_POINTS = 4000
 def comparison_figure(before: Comparison, after: Comparison | None, title: str, inputs: Mapping[str, Signal]) -> Figure:
     """The figure of a comparison: a row of two plots for each signal, and the inputs below.
 
-    `before`: with the parameters of the FMU; `after`: with fitted ones.
+    `before`: result with the parameters of the FMU; `after`: result with fitted ones.
     """
     names = list(before.signals)[:_MAX_SIGNALS]
     rows = len(names) + bool(inputs)

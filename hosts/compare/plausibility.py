@@ -61,7 +61,7 @@ def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
 def scale_mistake(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     """A sentence if a measured signal seems to have another unit or the opposite sign; otherwise empty.
 
-    `delay`: of the signal, s.
+    `delay`: delay of the signal, s.
     """
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     deviation = deviations(signal.time, y, x)
@@ -86,7 +86,7 @@ def scale_mistake(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
 def inverted_correlation(signal: Signal, curve: Curve, delay: float = 0.0) -> float | None:
     """The negative correlation of a measured signal with the opposite sign of the simulation; otherwise None.
 
-    `delay`: of the signal, s.
+    `delay`: delay of the signal, s.
     """
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     # An inverted wave also resembles one with a delay of half a period, but less. A speed that falls where the

@@ -1,4 +1,4 @@
-"""A rating of two signals by corridor, phase, magnitude and slope, like that of ISO/TS 18571.
+"""A rating of two signals by corridor, phase, magnitude and slope, like the rating of ISO/TS 18571.
 
 The formulas are from public descriptions of ISO/TS 18571:2014 (Gehre, Gades, Wernicke: Objective rating of signals
 using test and simulation responses, ESV 2009; Zhan, Fu, Yang: Enhanced error assessment of response time histories,
@@ -30,7 +30,7 @@ _GRADES = ((0.94, "excellent"), (0.80, "good"), (0.58, "fair"), (0.0, "poor"))
 
 @dataclass(frozen=True)
 class Rating:
-    """Scores between 0 and 1; NaN where the measured signal is constant."""
+    """Scores between 0 and 1; NaN if the measured signal is constant."""
 
     corridor: float
     phase: float
@@ -47,7 +47,7 @@ class Rating:
 def rating(measured: ArrayLike, simulated: ArrayLike) -> Rating:
     """Rate a simulated signal.
 
-    `measured`, `simulated`: at the same, equally spaced times, shape (n,); n at least 10.
+    `measured`, `simulated`: values at the same, equally spaced times, shape (n,); n at least 10.
     """
     y, x = np.asarray(measured, float), np.asarray(simulated, float)
     if is_constant(y):

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 _MIN_CHANGES = 6
 _MIN_ROWS = 3
 _JITTER = 0.2  # of the rows of a value
-_REGULAR_SHARE = 0.95  # of the changes
+_REGULAR_FRACTION = 0.95  # of the changes
 _EQUAL = 0.01  # relative difference of changes of equal size
 
 
@@ -28,4 +28,4 @@ def rows_of_a_value(values: NDArray[np.float64]) -> int:
     off = np.abs(spacings - rows * np.maximum(np.round(spacings / rows), 1.0)) <= _JITTER * rows
     median = float(np.median(sizes))
     equal = np.abs(sizes - median) < _EQUAL * median
-    return rows if rows >= _MIN_ROWS and off.mean() >= _REGULAR_SHARE and equal.mean() < 0.5 else 1
+    return rows if rows >= _MIN_ROWS and off.mean() >= _REGULAR_FRACTION and equal.mean() < 0.5 else 1

@@ -103,7 +103,7 @@ class Replay(Closable):
     segments : sequence of Segment
         Segments of the log, each with its own start values.
     jobs : int
-        Number of processes that share the segments; results do not depend on it.
+        Number of processes that run the segments; results do not depend on it.
 
     Attributes
     ----------
@@ -151,7 +151,7 @@ class Replay(Closable):
         self._progress = None
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive all segments. `values`: start values by ALi3 names, instead of those of the manoeuvres.
+        """Drive all segments. `values`: start values by ALi3 names that replace those of the manoeuvres.
 
         Returns the result under ALi3 names; several segments are `joined`. Raises `FailedFmuError` if a process has
         ended, `StartRefusedError` if the FMU refuses the start values.

@@ -27,8 +27,9 @@ class Outcome:
     """The outcome of a comparison: results before and after a fit, notes and problems."""
 
     before: Comparison
+    """Comparison with the parameters of the FMU."""
     after: Comparison | None
-    """`before`, `after`: with the parameters of the FMU, and with fitted ones if there are any."""
+    """Comparison with fitted parameters, if there are any."""
     fit: Fit | None
     notes: list[str]
     problems: list[str]

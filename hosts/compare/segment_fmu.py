@@ -88,7 +88,7 @@ class SegmentFmu(LoadedFmu):
         values: Mapping[str, Value] | None = None,
         progress: Callable[[int], None] = lambda done: None,
     ) -> Result:
-        """Drive one segment. `values`: start values by ALi3 names, instead of those of the segment."""
+        """Drive one segment. `values`: start values by ALi3 names that replace those of the segment."""
         if self.can_reset is False:
             self.close()
         manoeuvre = replace(segment.manoeuvre, start={**segment.manoeuvre.start, **(values or {})})

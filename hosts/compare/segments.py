@@ -55,7 +55,7 @@ def parse_spans(text: str | None) -> Spans | None:
 
 
 def window_begins(spans: Spans, length: float, interval: float) -> list[float]:
-    """Begins of the windows within spans of time, s. `length`, `interval`: of a window and between begins, s."""
+    """Starts of the windows within spans of time, s. `length`: of a window, s; `interval`: time between starts, s."""
     return [float(t) for a, b in spans for t in np.arange(a, b - length + 1e-9 * length, interval)]
 
 

@@ -46,7 +46,7 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
 def spike_text(signal: str, unit: str, time: NDArray[np.float64], values: NDArray[np.float64]) -> str:
     """A sentence on the samples that are left out.
 
-    `signal`: its label for a user; `time`, `values`: of the spikes, s and `unit`, shape (k,), k > 0.
+    `signal`: its label for a user; `time`, `values`: times and values of the spikes, s and `unit`, shape (k,), k > 0.
     """
     texts = (f"{number_in(v, unit)} at {t:.6g} s" for t, v in zip(time, values, strict=True))
     samples = "sample" if len(time) == 1 else "samples"

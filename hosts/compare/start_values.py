@@ -114,7 +114,7 @@ def _notes_on_missing_values(
 def reference_point(fmu: FmuSource, start: Mapping[str, Value]) -> tuple[float, float]:
     """Position of the reference point of the car at rest from the origin of its drawing, forward and to the left, m.
 
-    `start`: start values; those of pose and speed are not used. Zero where the FMU does not provide the position.
+    `start`: start values; pose and speed are not used. Zero if the FMU does not provide the position.
     """
     return fmu.run_isolated(_reference_point, dict(start), tuple[float, float], start)
 
@@ -135,9 +135,9 @@ def _reference_point(task: tuple[FmuSource, dict[str, Value]], tell: Callable[[f
 def start_values_of_origin(
     start: Mapping[str, Value], measured: Collection[str], point: tuple[float, float]
 ) -> dict[str, Value]:
-    """Start values of the origin of the car's drawing, from those of its reference point.
+    """Start values of the origin of the car's drawing, from start values of its reference point.
 
-    `measured`: names of values of the reference point; `point`: of `reference_point`.
+    `measured`: names of values of the reference point; `point`: result of `reference_point`.
     """
     of_drawing = dict(start)
     yaw, rate = (float(start.get(f"initial.{n}", 0.0)) for n in ("yaw", "yaw_rate"))

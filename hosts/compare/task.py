@@ -59,8 +59,9 @@ class Task:
 
     fmu: FmuSource
     inputs: dict[str, Signal]
+    """Inputs since time 0."""
     outputs: dict[str, Signal]
-    """`inputs`, `outputs`: since time 0; outputs of windows on the time axis of the comparison."""
+    """Outputs since time 0; of windows on the time axis of the comparison."""
     segments: list[Segment]
     step: float
     """Communication step, s."""
@@ -287,9 +288,9 @@ def _add_steering_input(
 ) -> dict[str, float]:
     """Add a steering input to `inputs` from the angle of the steering wheel or of the front wheels in the log.
 
-    The normalised input is the angle over that at full lock. Where a steering ratio is set or fitted, that constant
-    does not hold, and the angle itself is the input. Returns the input with a follower, with its frequency, Hz; empty
-    where there is none.
+    The normalised input is the angle divided by the angle at full lock. Where a steering ratio is set or fitted, that
+    constant does not hold, and the angle itself is the input. Returns the input with a follower, with its frequency,
+    Hz; empty if there is none.
     """
     full_lock, frequency = fmu.constants().get(_ANGLE_MAX), fmu.constants().get(_FREQUENCY)
     if _STEERING not in fmu.names("input") or _STEERING in inputs:

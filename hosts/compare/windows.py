@@ -23,8 +23,9 @@ class Window:
     """A window that was driven from the measured state."""
 
     begin: float
+    """Start in the log, s."""
     end: float
-    """`begin`, `end`: in the log, s."""
+    """End in the log, s."""
     rms: dict[str, float]
     """Root mean square deviation of each signal, in its unit."""
     departed: str
@@ -37,8 +38,9 @@ class Bin:
 
     signal: str
     quantity: str
+    """Quantity of the bounds `low` and `high`."""
     unit: str
-    """`quantity`, `unit`: of the bounds `low` and `high`."""
+    """Unit of the bounds `low` and `high`."""
     low: float
     high: float
     samples: int
@@ -115,8 +117,8 @@ def held_speed_text(result: Result, segments: Sequence[Segment]) -> list[str]:
         elsewhere = f"{rms(error[~at_limit]):.2g} m/s rms elsewhere"
         text += f", a pedal at its end for {100.0 * np.mean(at_limit):.0f} % of the time and {elsewhere}"
     if (sliding := _sliding(result)).any():
-        share = np.mean(np.interp(time, result.time, sliding))
-        text += f", eased the throttle over a sliding axle for {100.0 * share:.2g} % of the time"
+        fraction = np.mean(np.interp(time, result.time, sliding))
+        text += f", eased the throttle over a sliding axle for {100.0 * fraction:.2g} % of the time"
     forces = [_axle_force(result, axle) for axle in "FR"]
     if any(f is None for f in forces):
         return [f"{text}."]

@@ -75,7 +75,8 @@ def _cached_fmu(subject: str, name: str, options: tuple[str, ...], tell: Callabl
 def build_fmu(subject: str, options: tuple[str, ...], folder: Path) -> None:
     """Build a native FMU, for this platform unless the options name others.
 
-    `subject`: subject of messages; `options`: of ``ali3 build``. Raises `HostError` with the message of the build.
+    `subject`: subject of messages; `options`: options of ``ali3 build``. Raises `HostError` with the message of the
+    build.
     """
     try:
         run_ali3("build", "--kind", "native", "--platforms", "this", *options, "--out", str(folder))

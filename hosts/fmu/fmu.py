@@ -268,7 +268,7 @@ class Fmu(Closable, NamedScalars):
             raise HostError(f"{self.path.name} cannot {action}: its model description does not offer it.")
 
     def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
-        """Start values from the model description, zero where there is none."""
+        """Start values from the model description, zero if there is none."""
         return np.array([float(self.variables[n].start or 0.0) for n in names])
 
     def constants(self) -> dict[str, float]:

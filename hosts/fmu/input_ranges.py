@@ -17,7 +17,7 @@ CLIPPED = 1.2  # times the range, up to which a factor or an offset is assumed i
 def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "row") -> str:
     """A sentence on values beyond the range; empty if all are within it, up to rounding.
 
-    `values`: in the unit of the variable, shape (n,); `where`: noun of messages for their numbers, from 1.
+    `values`: values in the unit of the variable, shape (n,); `where`: noun of messages for their numbers, from 1.
     """
     low, high = variable.low, variable.high
     span = high - low if math.isfinite(high - low) else _limit(variable)

@@ -52,7 +52,7 @@ _NUMBERS: dict[int, dict[str, tuple[str, Any]]] = {
 class Instance:
     """An instance of an FMU of FMI 2.0 or 3.0; a call with an error status raises `FMICallException` of FMPy.
 
-    `on_message`: called with status, category and text of each message; `token`: instead of that of the description;
+    `on_message`: called with status, category and text of each message; `token`: replaces the token of the description;
     `resources`: a location instead of that of the resources, a URI in FMI 2.0, a path in FMI 3.0.
 
     `is_fmi3`: whether the FMU follows FMI 3.0; `raw_messages`: the last messages as the FMU sent them;

@@ -37,7 +37,7 @@ class Settings:
         return sorted((s for s in self._settings.values() if s.changes), key=lambda s: order.index(s.variable.name))
 
     def add_numbers(self, values: Mapping[str, Value], source: str) -> None:
-        """Add values in the units of the FMU. `source`: of the values, for messages.
+        """Add values in the units of the FMU. `source`: source of the values, for messages.
 
         Raises `HostError` if a name, value or type is wrong.
         """
@@ -58,7 +58,7 @@ class Settings:
             self._notes.append((v.name, f"{v.with_unit(value)} as in the FMU ({source})"))
 
     def add_set(self, file: Path) -> None:
-        """Add values of an SSV file; those of the FMU itself replace nothing, for a set may list all parameters."""
+        """Add values of an SSV file; default values of the FMU replace nothing, for a set may list all parameters."""
         settings, source = settings_of_file(file, self._variables), file.name
         self._put([setting for setting in settings if setting.changes])
         unchanged = {setting.variable.name for setting in settings if not setting.changes}
@@ -76,7 +76,7 @@ class Settings:
             )
 
     def add_options(self, fmu_options: FmuOptions, fidelity: float | None = None) -> None:
-        """Add the settings of the command line; see `add_numbers`. `fidelity`: of the option ``--fidelity``."""
+        """Add the settings of the command line; see `add_numbers`. `fidelity`: value of ``--fidelity``."""
         for file in fmu_options.sets:
             self.add_set(file)
         self.add_texts(fmu_options.values, "--set")
@@ -86,7 +86,7 @@ class Settings:
             self.add_numbers({"fidelity": fidelity}, "--fidelity")
 
     def discard_overwritten(self, names: Iterable[str], reason: str) -> None:
-        """Drop settings of variables that are overwritten at the start, with a note. `reason`: for the note."""
+        """Drop settings of variables that are overwritten at the start, with a note. `reason`: text of the note."""
         for name in names:
             if name in self._settings:
                 setting = self._settings.pop(name)

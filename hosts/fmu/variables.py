@@ -43,8 +43,9 @@ class Variable:
     """"1" without a unit."""
     start: Value | None
     low: float
+    """Lower end of the range; -inf if open."""
     high: float
-    """`low`, `high`: ends of the range, infinite where open."""
+    """Upper end of the range; inf if open."""
     definition: UnitDefinition | None
     """Definition of the unit, if the FMU has one."""
     displays: dict[str, tuple[float, float]]
@@ -80,8 +81,8 @@ class Variable:
     def read(self, text: str, source: str, with_unit: bool = False) -> Value:
         """The checked value of a text.
 
-        `source`: of the text, for messages; `with_unit`: whether a unit may follow the number, as on the command line
-        but not in files. Raises `HostError` if it is not a value of this variable.
+        `source`: source of the text, for messages; `with_unit`: whether a unit may follow the number, as on the command
+        line but not in files. Raises `HostError` if it is not a value of this variable.
         """
         if self.kind == "String":
             return text
@@ -153,7 +154,7 @@ class Variables:
         return [v for v in self._variables.values() if v.causality == "parameter"]
 
     def settable(self, name: str, source: str) -> Variable:
-        """A variable that may be set before the start. `source`: of the name, for messages.
+        """A variable that may be set before the start. `source`: source of the name, for messages.
 
         Raises `HostError` if the variable does not exist, or may not be set.
         """

@@ -11,7 +11,7 @@ from hosts.measures.frequency_response import FrequencyResponse
 
 @dataclass(frozen=True)
 class Bandwidth:
-    """Measures of a frequency response; NaN where they are not in its range."""
+    """Measures of a frequency response; NaN if they are not in its range."""
 
     low_gain: float
     """Gain at the lowest frequency, in units of output over input."""

@@ -17,9 +17,9 @@ def resample(
         s, increasing; need not be equally spaced.
     values : array_like, shape (n,)
     interval : float
-        Between the new samples, s; one longer than that of the old samples needs a low-pass filter before.
+        Time between the new samples, s; if it is longer than between the old ones, filter the signal before.
     first : float, optional
-        Time of the first new sample, s; by default that of the first old one.
+        Time of the first new sample, s; by default the time of the first old one.
 
     Returns
     -------
@@ -39,8 +39,8 @@ def resample(
     if not np.isfinite(x).all():
         raise ValueError(f"The signal is not finite at {t[~np.isfinite(x)][0]:g} s.")
     # Half a thousandth of an interval, so that rounding errors do not remove the last sample.
-    begin = t[0] if first is None else first
-    even_times = begin + interval * np.arange(int((t[-1] - begin) / interval + 5e-4) + 1)
+    start = t[0] if first is None else first
+    even_times = start + interval * np.arange(int((t[-1] - start) / interval + 5e-4) + 1)
     return np.asarray(even_times, float), np.asarray(np.interp(even_times, t, x), float)
 
 

@@ -16,14 +16,15 @@ class Gradient:
     """A regression line."""
 
     slope: float
+    """NaN if there is no line."""
     intercept: float
-    """`slope`, `intercept`: NaN where there is no line."""
+    """NaN if there is no line."""
     error: float
     """Standard error of the slope."""
 
 
 NONE = Gradient(math.nan, math.nan, math.nan)
-"""The gradient where no line can be fitted."""
+"""The gradient if no line can be fitted."""
 
 
 def gradient(x: NDArray[np.float64], y: NDArray[np.float64], low: float, high: float) -> Gradient:

@@ -26,7 +26,7 @@ from hosts.measures.wheels import at_wheels, duration, lifted_wheels
 
 
 def _wheels(result: Result, quantity: str) -> NDArray[np.float64]:
-    """A quantity of the four wheels, shape (n, 4). Raises `HostError` where a wheel does not have it."""
+    """A quantity of the four wheels, shape (n, 4). Raises `HostError` if a wheel does not have it."""
     values = at_wheels(result, quantity)
     if values is None:
         raise HostError(f"The car does not provide wheel_{WHEELS[0]}.{quantity} and the like.")

@@ -40,8 +40,8 @@ def read_limits(file: Path) -> dict[str, LimitEntry]:
 def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Limit]:
     """Limits by the columns of measures, in the units of the measures.
 
-    `entries`: of the file; a name may omit the prefix of its test if it is unique without; `columns`: units of all
-    measures. Raises `HostError` if there is no such measure, or the unit is one of another quantity.
+    `entries`: entries of the file; a name may omit the prefix of its test if it is unique without; `columns`: units of
+    all measures. Raises `HostError` if there is no such measure, or the unit is one of another quantity.
     """
     results: dict[str, Limit] = {}
     for name, entry in entries.items():
@@ -57,7 +57,7 @@ def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], sou
 
 
 def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Any]:
-    """Limits by the columns of measures for JSON, with None where there is no limit; see `limits_of`."""
+    """Limits by the columns of measures for JSON, with None if there is no limit; see `limits_of`."""
     return {
         column: {"min": or_null(limit.lowest), "max": or_null(limit.highest), "unit": columns[column]}
         for column, limit in limits_of(entries, columns, source).items()

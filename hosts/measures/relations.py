@@ -84,7 +84,7 @@ def log_values(signals: Signals) -> list[Value]:
 
 
 def _stands(signals: Signals) -> bool:
-    """Whether the signals beside the speed are those of a car that stands; False where there are none."""
+    """Whether the signals beside the speed show that the car stands; False if there are none."""
     still = [float(np.std(signals[n].values)) < least for n, least in STILL.items() if n in signals]
     still += [float(np.abs(signals[n].values).max()) < SPINS for n in WHEELS if n in signals]
     return bool(still) and all(still)
@@ -101,7 +101,7 @@ def interpolated(signal: Signal, time: Array) -> Array:
 
 
 def speed_of(signals: Signals) -> str | None:
-    """Name of the speed of a log; None where it has none."""
+    """Name of the speed of a log; None if it has none."""
     return next((n for n in SPEEDS if n in signals), None)
 
 
@@ -132,7 +132,7 @@ def _turn_values(signals: Signals, speed_name: str) -> Iterator[Value]:
 
 
 def _path_direction(signals: Signals) -> Signal | None:
-    """Direction of the path over half a window, rad; None without a path, or where the car does not move."""
+    """Direction of the path over half a window, rad; None without a path, or if the car does not move."""
     if not set(PATH) <= signals.keys():
         return None
     x, y = (signals[n] for n in PATH)
@@ -173,7 +173,8 @@ def _relation_values(
 ) -> Iterator[Value]:
     """Ratio, correlation, offset and delay of a quantity computed in two ways.
 
-    `first`: by the first way, shape (n,); `delayed`: by the second way, as a function of a delay that is removed, s.
+    `first`: values by the first way, shape (n,); `delayed`: values by the second way, as a function of a delay that is
+    removed, s.
     """
     second = delayed(0.0)
     first_spread, second_spread = float(np.std(first)), float(np.std(second))
@@ -195,7 +196,7 @@ def _correlation(first: Array, second: Array) -> float:
 
 
 def _delay(first: Array, delayed: Callable[[float], Array]) -> float:
-    """Delay of the second signal behind the first, s; 0 where it is not significant."""
+    """Delay of the second signal behind the first, s; 0 if it is not significant."""
     undelayed, best = abs(_correlation(first, delayed(0.0))), 0.0
     for step, reach in ((COARSE, LATEST), (FINE, COARSE)):
         delays = best + np.arange(-reach, reach + 1e-9, step)

@@ -50,7 +50,7 @@ class Scope:
         return Scope(self._names | dict(names), self._formulas, self._functions)
 
     def evaluate(self, expression: str) -> Any:
-        """The value of an expression. Raises `HostError` where a signal that it reads is missing."""
+        """The value of an expression. Raises `HostError` if a signal that it reads is missing."""
         functions = {**LIBRARY, **self._functions}
         evaluator = simpleeval.EvalWithCompoundTypes(dict(_OPERATORS), functions, self)
         return evaluator.eval(expression, _parsed(expression))

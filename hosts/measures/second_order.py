@@ -24,7 +24,7 @@ class SecondOrder:
     lead: tuple[float, float]
     """a in s and b in s² of the numerator."""
     misfit: float
-    """RMS of fit minus data over the RMS of the data."""
+    """RMS of fit minus data, divided by the RMS of the data."""
 
     def response(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Response at frequencies in Hz."""
@@ -40,9 +40,9 @@ NOTHING = SecondOrder(*3 * (math.nan,), (math.nan, math.nan), math.nan)
 def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int]) -> list[SecondOrder]:
     """Fit one natural frequency and damping ratio to several responses, each with its own gain and numerator.
 
-    `responses`: of one system, at four frequencies or more each; `zeros`: degrees of the numerators: 1 for the yaw rate
-    and the sideslip angle of a bicycle model, 2 for its lateral acceleration, 0 for a mass on a spring. Returns a fit
-    for each response; all NaN if the search does not converge.
+    `responses`: responses of one system, at four frequencies or more each; `zeros`: degrees of the numerators: 1 for
+    the yaw rate and the sideslip angle of a bicycle model, 2 for its lateral acceleration, 0 for a mass on a spring.
+    Returns a fit for each response; all NaN if the search does not converge.
 
     Notes
     -----
@@ -57,7 +57,7 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
         for r, n in zip(responses, zeros, strict=True):
             s = 2j * math.pi * r.frequency
             basis = np.stack([s**k for k in range(n + 1)], 1) / _denominator(s, math.exp(p[0]), p[1])[:, None]
-            # The weight of a frequency is its share of the octaves.
+            # The weight of a frequency is its fraction of the octaves.
             weight = np.sqrt(np.maximum(r.coherence, 0.0) * np.gradient(np.log(r.frequency)))
             weight = weight / math.sqrt(float(np.sum(np.abs(weight * r.response) ** 2)))
             a, b = weight[:, None] * basis, weight * r.response

@@ -14,7 +14,7 @@ _MAX_ACCELERATION = 0.375 * G
 def angle_by_regression(steering: NDArray[np.float64], acceleration: NDArray[np.float64]) -> float:
     """Absolute angle at a lateral acceleration of 0.3 g, rad, by a regression line from 0.1 g to 0.375 g.
 
-    `steering`, `acceleration`: in rad and m/s², of a turn to one side, shape (n,). NaN if 0.375 g is not reached.
+    `steering`, `acceleration`: rad and m/s², of a turn to one side, shape (n,). NaN if 0.375 g is not reached.
     """
     lateral = np.abs(acceleration)
     if not (lateral >= _MAX_ACCELERATION).any():

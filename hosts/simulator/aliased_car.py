@@ -15,7 +15,7 @@ class AliasedCar:
     Attributes
     ----------
     names, inputs : tuple of str
-        Our names; in `names` those of derived variables follow.
+        ALi3 names; in `names`, names of derived variables follow.
     units : dict of str to str
         Of the names; "" for converted values.
     constants : dict of str to float

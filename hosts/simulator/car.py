@@ -34,8 +34,8 @@ _MAX_ROW_BYTES = 1 << 24
 class Car(Closable):
     """An FMU that runs in its own process; it begins paused, at time 0.
 
-    `names`: numeric inputs, then numeric outputs; `units`: by name; `step`: communication step, s. Raises `HostError`
-    if the FMU cannot be started. Every method raises it after the process has ended unexpectedly.
+    `names`: numeric inputs, then numeric outputs; `units`: units by name; `step`: communication step, s. Raises
+    `HostError` if the FMU cannot be started. Every method raises it after the process has ended unexpectedly.
     """
 
     def __init__(self, settings: CarSettings) -> None:
@@ -97,9 +97,9 @@ class Car(Closable):
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:
         """Request values of inputs.
 
-        `values`: by input, its value, which is limited to the range of the model description, and its largest change
-        per second of simulated time; integers always change at once, as with an infinite rate. Raises `HostError` if an
-        input does not exist or a number cannot be used; then no input changes.
+        `values`: for each input its value, which is limited to the range of the model description, and its largest
+        change per second of simulated time; integers always change at once, as with an infinite rate. Raises
+        `HostError` if an input does not exist or a number cannot be used; then no input changes.
         """
         checked = []
         for name, (value, rate) in values.items():
@@ -182,8 +182,8 @@ class Car(Closable):
                 self._last_times = StepTimes.of(self._shared.times, self.step, self._settings.paced)
         return self._last_times
 
-    def close(self, progress: Callable[[float], object] = lambda share: None) -> None:
-        """End the process within 2 s. `progress`: called with the finished share of a recording."""
+    def close(self, progress: Callable[[float], object] = lambda fraction: None) -> None:
+        """End the process within 2 s. `progress`: called with the finished fraction of a recording."""
         self.step_times()
         with self._lock:
             if self._closed:

@@ -172,7 +172,7 @@ def _reported_end(car: Car, options: argparse.Namespace, report: RunReport) -> I
             report.tell(f"The recording {options.record} is put together ...")
         try:
             with bar(total=1.0, desc="recording", bar_format=_BAR) as progress_bar:
-                car.close(lambda share: progress_bar.update(share - progress_bar.n))
+                car.close(lambda fraction: progress_bar.update(fraction - progress_bar.n))
         finally:
             with suppress(HostError):  # the end of the car has been reported
                 for event in car.events():

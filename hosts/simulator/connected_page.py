@@ -21,7 +21,7 @@ STALLED = 2.0
 class ConnectedPage:
     """The state of a connected page.
 
-    `number`: from 1, for names of its sources; `now`: a monotonic clock, s.
+    `number`: number of the page, from 1, for names of its sources; `now`: a monotonic clock, s.
     """
 
     def __init__(self, number: int, connection: ServerConnection, now: Callable[[], float] = time.monotonic) -> None:

@@ -79,7 +79,7 @@ def with_start_of(request: DriveRequest, manoeuvre: Manoeuvre | None) -> DriveRe
 
 
 def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, seed: int | None) -> HeadlessDriver:
-    """The driver of a car. `seed`: of a random driver, without a manoeuvre."""
+    """The driver of a car. `seed`: seed of a random driver, without a manoeuvre."""
     if manoeuvre is not None:
         return ManoeuvreDriver(manoeuvre, car)
     return ConstantInputs() if seed is None else RandomDriver(seed, car.inputs)

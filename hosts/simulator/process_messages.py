@@ -57,7 +57,7 @@ class ProcessMessages:
     def close(self, progress: Callable[[float], object]) -> None:
         """Collect the remaining messages after the end of the process, and finish the recording.
 
-        `progress`: called with the finished share of its table.
+        `progress`: called with the finished fraction of its table.
         """
         with self._lock:
             self._collect()

@@ -24,8 +24,8 @@ class RealTimeClock:
     between count as missed and the time as lost.
 
     `step`: communication step, s; `paced`: if not, a step begins at the end of the one before, and none is late.
-    `speed`: requested ratio of simulated to wall time; `lateness`, `cost`: of the last step, s; `behind`: whether the
-    car is late or was late within the last second.
+    `speed`: requested ratio of simulated to wall time; `lateness`, `cost`: lateness and wall time of the last step, s;
+    `behind`: whether the car is late or was late within the last second.
     """
 
     def __init__(self, clock: Clock, step: float, times: TimesRecord, paced: bool = True) -> None:

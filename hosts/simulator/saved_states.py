@@ -29,8 +29,9 @@ class Mark:
     """A past step, with the start of the FMU before it."""
 
     count: int
+    """Count in the row of the step."""
     epoch: int
-    """`count`, `epoch`: of the row of the step."""
+    """Epoch in the row of the step."""
     begin: float
     """Start time of the FMU, s."""
     steps: int
@@ -103,7 +104,7 @@ class SavedStates:
     def back(self, steps: int) -> tuple[Mark, NDArray[np.float64], NDArray[np.float64]]:
         """Restore the last saved state that is not after the step that lies `steps` back.
 
-        `steps`: at most the property `steps`.
+        `steps`: number of steps, at most the property `steps`.
 
         Returns
         -------

@@ -74,7 +74,7 @@ class Spread:
     """s."""
 
     def quantile(self, probability: float) -> float:
-        """The quantile, s, as the upper edge of its bin (6 %); 0 without steps. `probability`: from 0 to 1."""
+        """The quantile, s, as the upper edge of its bin (6 %); 0 without steps. `probability`: number from 0 to 1."""
         total = float(self.counts.sum())
         if total == 0.0:
             return 0.0
@@ -128,8 +128,9 @@ class StepTimes:
     scheduled: float
     """Wall time of these steps at the requested speeds, s."""
     wall: float
+    """Wall time in which the car ran, s."""
     paused: float
-    """`wall`, `paused`: wall time in which the car ran and in which it was paused, s."""
+    """Wall time in which the car was paused, s."""
     missed: int
     """Number of steps that ended after the scheduled start of the next."""
     missed_by: dict[str, int]
@@ -139,8 +140,9 @@ class StepTimes:
     lost: float
     """Wall time by which the schedule was moved, s."""
     cost: Spread
+    """Wall time of a step, s."""
     lateness: Spread
-    """`cost`, `lateness`: wall time of a step, and delay of its start."""
+    """Delay of the start of a step, s."""
     mean: float
     """Mean cost, s."""
     capped: int

@@ -109,7 +109,7 @@ class StudyRecord(_Table):
 
 
 def read_record(folder: Path) -> dict[str, Any] | None:
-    """The record of the study in a folder; None where there is none. Raises `HostError` if the record is damaged."""
+    """The record of the study in a folder; None if there is none. Raises `HostError` if the record is damaged."""
     file = folder / RECORD
     if not file.exists():
         return None
@@ -217,7 +217,7 @@ def _difference_text(key: str, earlier: Any, now: Any) -> str:
 def update_limits(folder: Path, earlier: dict[str, Any], limits: Mapping[str, Any], content: bytes) -> dict[str, Any]:
     """The record of earlier runs with new limits, on which runs do not depend; written if the limits differ.
 
-    `content`: of the study file.
+    `content`: content of the study file.
     """
     if earlier.get("limits", {}) == limits:
         return earlier

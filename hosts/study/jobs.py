@@ -41,7 +41,7 @@ class Job:
     """Measures of the test; empty: all."""
     start: dict[str, Value] = field(default_factory=dict)
     step: float = float("nan")
-    """Communication step, s; NaN for a test that takes that of the FMU."""
+    """Communication step, s; NaN for a test that takes the step of the FMU."""
     every: int = 0
     """Steps between stored values of signals; 0: none are stored."""
     samples: int = 0
@@ -85,7 +85,7 @@ def perform_test(
     fmu: FmuSource,
     values: Mapping[str, Value],
 ) -> TestRecord:
-    """Run the test of a job. `name`: of the FMU in messages; `values`: of the parameters."""
+    """Run the test of a job. `name`: name of the FMU in messages; `values`: values of the parameters."""
     step = None if math.isnan(job.step) else job.step
     car = TestedCar(name, fmu, {**job.start, **values}, step)
     return perform(standard_test(job.test), car, job.settings)
@@ -170,7 +170,7 @@ def _check_parameters(manoeuvre: Manoeuvre, parameters: Sequence[str], where: st
 
 
 def _sampling_of_signals(study: StudyFile, stop: float, step: float, where: str) -> tuple[int, int]:
-    """Steps between stored values of signals, and the number of values. `stop`, `step`: in s."""
+    """Steps between stored values of signals, and the number of values. `stop`, `step`: s."""
     if study.signals is None:
         return 0, 0
     every = steps_of(study.signals.interval, step, f"{where}: signals.interval")

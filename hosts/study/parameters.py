@@ -25,8 +25,9 @@ class Parameter:
     unit: str
     """Unit of the FMU."""
     low: float = math.nan
+    """Lower end of the range; NaN if `values` are listed."""
     high: float = math.nan
-    """`low`, `high`: range; NaN if `values` are listed."""
+    """Upper end of the range; NaN if `values` are listed."""
     log: bool = False
     """Whether the range is divided by the logarithm."""
     values: tuple[Value, ...] = ()
@@ -110,7 +111,7 @@ def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str
 def in_fmu_unit(value: Value, unit: str | None, variable: Variable, label: str) -> Value:
     """A value in the unit of the FMU, checked.
 
-    `unit`: of `value`; None: that of the FMU; `label`: key of the value in messages.
+    `unit`: unit of `value`; None: unit of the FMU; `label`: key of the value in messages.
     """
     if unit is None or unit == variable.unit or isinstance(value, (str, bool)):
         return variable.check(value, label)

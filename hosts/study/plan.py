@@ -85,7 +85,7 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
 
 
 def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, PlannedRuns]:
-    """The study of a folder of results, and its runs. Raises `HostError` if the FMU is not that of the results."""
+    """The study of a folder of results, and its runs. Raises `HostError` if the results are of another FMU."""
     study, _ = read_study_file(folder / "study.toml")
     with Fmu(fmu_of_folder(folder, record)) as opened:
         return study, planned_runs(study, Path(record["file"]), opened)
@@ -240,14 +240,14 @@ def _checked_signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[st
 
 
 def unknown_name_text(name: str, known: Iterable[str], kind: str) -> str:
-    """A sentence on an unknown name, with a similar one. `kind`: of the name."""
+    """A sentence on an unknown name, with a similar one. `kind`: kind of the name."""
     return f"the FMU has no {kind} '{name}'{did_you_mean(name, known, 'the command check lists them')}"
 
 
 def _checked_measures(
     study: StudyFile, file: Path, fmu: SimulatedFmu, units: Mapping[str, str], stop_times: Sequence[float]
 ) -> tuple[list[StudyMeasure], dict[str, str]]:
-    """Measures of manoeuvres, and their columns with units. `stop_times`: of the manoeuvres, s."""
+    """Measures of manoeuvres, and their columns with units. `stop_times`: stop times of the manoeuvres, s."""
     if study.measures and not stop_times:
         raise HostError(f"{file}: [measures] are of manoeuvres; this study has tests only, which have their own.")
     if not study.measures:

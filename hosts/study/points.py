@@ -103,7 +103,7 @@ def table_points(
 ) -> Points:
     """Points of a CSV file whose heading names parameters.
 
-    `variable_of`: function of a name and its position in messages; raises `HostError` where there is no such variable
+    `variable_of`: function of a name and its position in messages; raises `HostError` if there is no such variable
     that can be set; `entries`: units of columns whose heading has none. Raises `HostError` with the line, the name and
     the value.
     """

@@ -54,7 +54,7 @@ class Bench:
         return self.run(work.jobs[number], run.values, seed_of(work.seed, point))
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
-        """Make a run; an error becomes its outcome. `seed`: for functions of the user."""
+        """Make a run; an error becomes its outcome. `seed`: seed for functions of the user."""
         begin = clock.perf_counter()
         try:
             with warnings.catch_warnings():
@@ -146,7 +146,7 @@ def _set_measures(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> 
 
 
 def experiment_of(work: Work, path: Path) -> Experiment[Run, Outcome]:
-    """Runs of a study as an experiment with a `Bench` in each process. `path`: of the FMU."""
+    """Runs of a study as an experiment with a `Bench` in each process. `path`: path of the FMU."""
     reads = [path, *(file for start in _start_values(work) for file in files_of(start))]
     experiment = Experiment("study", Bench(work, path.absolute()), Outcome, partial(_label, work), reads)
     return experiment if work.time_limit is None else replace(experiment, limit=work.time_limit, in_all=True)

@@ -120,7 +120,7 @@ def _plan_of_parameter(study: StudyFile, file: Path, fmu: Path, target: Target) 
 
 
 def _present_value(study: StudyFile, by: str, fmu: Path) -> float:
-    """The present value of the parameter; NaN where it is a name of the alias file."""
+    """The present value of the parameter; NaN if it is a name of the alias file."""
     variables = Variables(described(fmu))
     value = study.start.get(by, variables[by].start if by in variables.names else None)
     return float(value) if isinstance(value, (int, float)) else math.nan

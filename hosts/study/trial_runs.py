@@ -67,7 +67,7 @@ def make_trial_runs(plan: Plan) -> Trial:
 
 
 def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
-    """Requested measures of a test with their units. `units`: of all its measures, which are known after a run."""
+    """Requested measures of a test with their units. `units`: units of all measures, known after a run."""
     if not job.measures:
         return dict(units)
     for name in job.measures:
@@ -79,7 +79,7 @@ def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
 
 
 def _outcomes_at(work: Work, plan: Plan, number: int, points: Sequence[int]) -> list[Outcome]:
-    """Outcomes of a job at points, in sequence in one process. `number`: of the job."""
+    """Outcomes of a job at points, in sequence in one process. `number`: index of the job."""
     with SingleProcess(work, plan.fmu) as processes:
         return [processes.run(plan.runs_at([point * len(work.jobs) + number])[0]) for point in points]
 
@@ -91,8 +91,8 @@ def _check_reuse(plan: Plan, completed: list[tuple[int, Job, int, Outcome]]) -> 
         return False, None
     number, job, point, outcome = manoeuvre_runs[0]
     assert job.manoeuvre is not None
-    share = min(1.0, _MAX_RUN_TIME / max(outcome.wall, 1e-9))
-    samples = max(1, math.floor(share * job.manoeuvre.stop_time / job.step)) + 1
+    fraction = min(1.0, _MAX_RUN_TIME / max(outcome.wall, 1e-9))
+    samples = max(1, math.floor(fraction * job.manoeuvre.stop_time / job.step)) + 1
     stop = (samples - 1) * job.step
     # All outputs at all steps are compared.
     short = replace(job, manoeuvre=replace(job.manoeuvre, stop_time=stop), every=1, samples=samples)
@@ -103,7 +103,7 @@ def _check_reuse(plan: Plan, completed: list[tuple[int, Job, int, Outcome]]) -> 
     if first.status == FAILED or again.status == FAILED or first.signals is None or again.signals is None:
         return False, None
     is_equal = first.signals.tobytes() == again.signals.tobytes()
-    return is_equal, again.wall / share if is_equal else None
+    return is_equal, again.wall / fraction if is_equal else None
 
 
 def with_columns(plan: Plan, columns: Mapping[str, str]) -> Plan:

@@ -21,7 +21,7 @@ def declared(variable: Variable) -> str:
 
 
 def unit_definition(variable: Variable) -> UnitDefinition | None:
-    """The definition of the unit of a real variable; None where the unit has no meaning or is unknown."""
+    """The definition of the unit of a real variable; None if the unit has no meaning or is unknown."""
     unit = variable.definition or known_unit(variable.unit or "")
     return None if unit is None or variable.kind != "Real" or says_nothing(unit) else unit
 
@@ -35,8 +35,8 @@ def is_si(variable: Variable) -> bool:
 def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
     """The factor from SI units to a unit of an alias file.
 
-    `variable`: of the FMU; its definition of a unit of this name takes precedence. Raises `HostError` if the unit is
-    unknown, or the FMU declares another.
+    `variable`: variable of the FMU; its definition of a unit of this name takes precedence. Raises `HostError` if the
+    unit is unknown, or the FMU declares another.
     """
     declared_unit = variable.definition if variable is not None and variable.unit == unit else None
     file_unit = declared_unit or (known_unit(unit) if isinstance(unit, str) else None)

@@ -15,7 +15,7 @@ MIN_MOVEMENT = 0.3
 FIRST_MOVEMENT = 0.2
 """Movement that determines the first direction of the steering."""
 MARGIN = 0.02
-"""Share of the range by which the ends of the mapping lie before those of the axis, so that they are reached."""
+"""Fraction of the range by which the ends of the mapping lie before the ends of the axis, so that they are reached."""
 _NEAR_END = 0.25
 LET_GO = "Let go of everything, the steering wheel straight ahead."
 MOVE = (
@@ -25,7 +25,7 @@ MOVE = (
 
 
 class Calibration:
-    """A calibration in two stages: the device at rest, then moved. `mapping`: of axes to inputs."""
+    """A calibration in two stages: the device at rest, then moved. `mapping`: mapping of axes to inputs."""
 
     def __init__(self, mapping: DeviceMapping) -> None:
         self._mapping = mapping
@@ -50,7 +50,7 @@ class Calibration:
         return [[round(low, 4), round(high, 4)] for low, high in self._span] if self._first_movement else []
 
     def feed(self, time: float, reading: Reading) -> None:
-        """Take the next values. `time`: of a monotonic clock, s."""
+        """Take the next values. `time`: time of a monotonic clock, s."""
         axes = reading.axes
         if not self._first_movement:
             is_still = self._still_since is not None and all(

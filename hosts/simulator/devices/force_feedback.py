@@ -12,7 +12,7 @@ from hosts.simulator.devices.motor import Motor
 
 PERIOD = 0.008
 """Period of updates, s; motors on USB take about 125 values per second."""
-PULSE = 0.3  # share of the largest force, for a test
+PULSE = 0.3  # fraction of the largest force, for a test
 PULSE_TIME = 0.4  # s
 
 

@@ -18,7 +18,7 @@ PEDALS = ("throttle", "brake", "hand_brake")
 SELECTOR = {"selector drive": 1.0, "selector neutral": 0.0, "selector reverse": -1.0}
 """Values of the input `selector` by name of the mapping of a button."""
 MIN_AXIS_RANGE = 0.05
-"""Least distance between the ends of an axis."""
+"""Smallest distance between the ends of an axis."""
 MAX_DEAD_ZONE = 0.9
 
 
@@ -37,15 +37,16 @@ class InputMapping:
     inverted: bool = False
     """Whether the input increases as the axis decreases."""
     low: float = -1.0
+    """Lower end of the axis, from -1 to 1; half an axis has 0 and 1, or -1 and 0."""
     high: float = 1.0
-    """`low`, `high`: ends of the axis, from -1 to 1; half an axis has 0 and 1, or -1 and 0."""
+    """Upper end of the axis, likewise."""
     dead_zone: float = 0.0
-    """Share of the range without effect, on both sides of the centre or at the rest of a pedal."""
+    """Fraction of the range without effect, on both sides of the centre or at the rest of a pedal."""
     centre: float | None = None
     """Rest of an axis of the steering; None: halfway between the ends."""
 
     def value(self, name: str, reading: Reading) -> float | None:
-        """The value of an input for a reading. `name`: of the input.
+        """The value of an input for a reading. `name`: name of the input.
 
         Result: from -1 to 1 for `CENTRED` inputs, otherwise from 0 to 1, exactly at the ends of the axis; None if the
         device reports no value.
@@ -61,14 +62,14 @@ class InputMapping:
     def _centred(self, position: float) -> float:
         centre = 0.5 * (self.low + self.high) if self.centre is None else self.centre
         travel = self.high - centre if position >= centre else centre - self.low
-        share = max(-1.0, min(1.0, (position - centre) / travel))
-        magnitude = max(0.0, abs(share) - self.dead_zone) / (1.0 - self.dead_zone)
-        return math.copysign(magnitude, -share if self.inverted else share) if magnitude else 0.0
+        position = max(-1.0, min(1.0, (position - centre) / travel))
+        magnitude = max(0.0, abs(position) - self.dead_zone) / (1.0 - self.dead_zone)
+        return math.copysign(magnitude, -position if self.inverted else position) if magnitude else 0.0
 
     def _pedal(self, position: float) -> float:
         travel = self.high - position if self.inverted else position - self.low
-        share = max(0.0, min(1.0, travel / (self.high - self.low)))
-        return max(0.0, share - self.dead_zone) / (1.0 - self.dead_zone)
+        position = max(0.0, min(1.0, travel / (self.high - self.low)))
+        return max(0.0, position - self.dead_zone) / (1.0 - self.dead_zone)
 
 
 @dataclass(frozen=True)

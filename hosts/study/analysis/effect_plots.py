@@ -1,4 +1,4 @@
-"""Plots over each parameter: main effects, runs, and the share of failed runs."""
+"""Plots over each parameter: main effects, runs, and the fraction of failed runs."""
 
 from collections.abc import Sequence
 
@@ -71,7 +71,7 @@ def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffe
     """The measure of each run over each parameter, means as lines, and failed runs as marks at the lower edge."""
     figure, axes = parameter_panels(data.parameters, response.title)
     selected = random_subset(len(response.rows), MAX_POINTS)
-    # Markers of few runs are large; those of many are small and transparent.
+    # Markers of few runs are large, of many runs small and transparent.
     size = float(np.clip(60.0 / len(selected) ** 0.4, 3.0, 10.0))
     alpha = float(np.clip(12.0 / len(selected) ** 0.45, 0.4, 0.9))
     failed = data.failed_of(response)
@@ -92,7 +92,7 @@ def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffe
 
 
 def plot_failed(data: StudyData) -> Figure:
-    """The share of failed runs over each parameter with Wilson's interval of 95 %, and the runs as marks."""
+    """The fraction of failed runs over each parameter with Wilson's interval of 95 %, and the runs as marks."""
     figure, axes = parameter_panels(data.parameters, "failed runs, %")
     for k, panel in enumerate(axes):
         _plot_interval(panel, data.parameters[k], failed_share(data.x[:, k], data.failed), RED, 100.0)
@@ -104,7 +104,7 @@ def plot_failed(data: StudyData) -> Figure:
 
 
 def _plot_interval(panel: Axes, parameter: Parameter, effect: MainEffect, colour: str, factor: float = 1.0) -> None:
-    """Draw a line with its band, or points with error bars where the parameter is not a number."""
+    """Draw a line with its band, or points with error bars if the parameter is not a number."""
     at, mean, low, high = effect.at, *(factor * part for part in (effect.mean, effect.low, effect.high))
     if parameter.categories:
         panel.errorbar(at, mean, np.stack([mean - low, high - mean]), fmt="o", color=colour, markersize=4)

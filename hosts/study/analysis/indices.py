@@ -1,4 +1,4 @@
-"""Sobol' indices: the share of the variance of a measure that each parameter causes."""
+"""Sobol' indices: the fraction of the variance of a measure that each parameter causes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ _SEED = 1  # of the bootstrap; SALib ignores 0
 
 @dataclass(frozen=True)
 class Indices:
-    """Indices of the parameters, 0 to 1; NaN where there is none."""
+    """Indices of the parameters, 0 to 1; NaN if there is none."""
 
     names: tuple[str, ...]
     first: NDArray[np.float64]

@@ -49,15 +49,15 @@ def classes(x: NDArray[np.float64]) -> NDArray[np.int64]:
 def main_effect(x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 0) -> MainEffect:
     """The main effect of a parameter.
 
-    `x`, `y`: parameter and measure of each run, shape (n,), n at least 1; `seed`: of the bootstrap. The intervals are
-    percentiles of the bootstrap, or of the normal distribution for more than 500 runs.
+    `x`, `y`: parameter and measure of each run, shape (n,), n at least 1; `seed`: seed of the bootstrap. The intervals
+    are percentiles of the bootstrap, or of the normal distribution for more than 500 runs.
     """
     rng = np.random.default_rng(seed)
     return _effect_of_classes(x, y, lambda of_class: _interval(of_class, rng))
 
 
 def failed_share(x: NDArray[np.float64], failed: NDArray[np.bool_]) -> MainEffect:
-    """The share of failed runs, 0 to 1, with Wilson's interval. `x`, `failed`: parameter and status of runs, (n,)."""
+    """Fraction of failed runs, 0 to 1, with Wilson's interval. `x`, `failed`: parameter and status of runs, (n,)."""
     return _effect_of_classes(x, failed, lambda of_class: interval_of_share(int(of_class.sum()), len(of_class)))
 
 

@@ -39,8 +39,8 @@ def measure_section(
 ) -> Section:
     """The section of a measure: distribution, indices, main effects, runs, and the highest and lowest runs.
 
-    `number`: of the response, for the names of its plots; `commands`: that repeat a run; `numbers`: rows of the table
-    of effects, to which one for each parameter is added.
+    `number`: number of the response, for the names of its plots; `commands`: commands that repeat a run; `numbers`:
+    rows of the table of effects, to which one for each parameter is added.
     """
     if not response.varies:
         value = number_in(float(response.values.min()), response.unit, ".6g")

@@ -32,7 +32,7 @@ from hosts.study.store import read_study, study_record
 def write_report(folder: Path) -> list[Path]:
     """Write ``report.html``, and its plots and the table of effects into ``analysis``.
 
-    `folder`: of a study, finished or not. Returns the paths of the report and of the folder ``analysis``. Raises
+    `folder`: folder of a study, finished or not. Returns the paths of the report and of the folder ``analysis``. Raises
     `HostError` if there is no study or no finished run, the folder has a link, or a file of rows or signals is damaged.
     """
     frame = read_study(folder)

@@ -70,7 +70,7 @@ def measures_section(data: StudyData) -> Section:
 
 
 def limits_section(data: StudyData) -> list[Section]:
-    """The table of shares of the runs within the limits of the study; empty where it has none."""
+    """The table of fractions of the runs within the limits of the study; empty if it has none."""
     share_list = shares(data.frame)
     if not share_list:
         return []
@@ -81,7 +81,7 @@ def limits_section(data: StudyData) -> list[Section]:
 
 
 def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[Section]:
-    """Sections on failed runs, on incomplete runs and on messages of the FMU; empty where there are none."""
+    """Sections on failed runs, on incomplete runs and on messages of the FMU; empty if there are none."""
     sections = []
     for groups, title in (
         (reasons(data, FAILED), "Failed runs"),

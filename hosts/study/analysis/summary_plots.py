@@ -35,7 +35,7 @@ def plot_overview(data: StudyData, response: Response, indices: Indices | str) -
 
 
 def plot_distribution(axes: Axes, data: StudyData, response: Response) -> None:
-    """Draw a histogram with percentiles, or the sorted values where there is no distribution, and the limits."""
+    """Draw a histogram with percentiles, or the sorted values if there is no distribution, and the limits."""
     if reason := reason_without_distribution(data, response):
         axes.plot(np.sort(response.values), np.arange(1, len(response.values) + 1), "o", color=BLUE, markersize=4)
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
@@ -66,7 +66,7 @@ def _histogram(axes: Axes, y: NDArray[np.float64]) -> None:
 
 
 def plot_indices(axes: Axes, indices: Indices) -> None:
-    """Draw indices with their intervals, with hollow markers where the interval includes zero."""
+    """Draw indices with their intervals, with hollow markers if the interval includes zero."""
     order = np.argsort(np.where(np.isnan(indices.total), indices.first, indices.total))
     at = np.arange(len(order), dtype=float)
     has_total = bool(np.isfinite(indices.total).any())

@@ -47,9 +47,9 @@ def reported_statistics(data: StudyData) -> tuple[list[str], str]:
 
 
 def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row], list[Row]]:
-    """The highest and the lowest runs; of equal ones those of the lowest index come first.
+    """The highest and the lowest runs; of equal ones, the lowest index comes first.
 
-    `count`: of each, at most half of the runs.
+    `count`: number of each, at most half of the runs.
     """
     ascending = np.argsort(response.values, kind="stable")
     descending = np.argsort(-response.values, kind="stable")

@@ -25,7 +25,7 @@ class Reduction:
     apply: Callable[[Array, Array, float], float]
     """Function of time, s, and signal, shape (n,), n at least 1, and of the number."""
     unit: str | None = None
-    """Unit of the result; None: that of the signal."""
+    """Unit of the result; None: unit of the signal."""
     number: str = ""
     """Description of the second argument; empty: there is none."""
     greatest: float = math.inf
