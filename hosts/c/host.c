@@ -57,6 +57,7 @@ static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Statu
   va_end(list);
 }
 
+/* Ends the program if a call failed; `what`: the call. */
 static void good(fmi2Status status, const char *what) {
   if (status > fmi2Warning) stop(4, "%s: status %d", what, (int)status);
 }
@@ -67,7 +68,7 @@ static long whole(const char *text, const char *what, long least) {
   errno = 0;
   const long value = strtol(text, &end, 10);
   if (end == text || *end != '\0' || errno != 0 || value < least || value > INT_MAX)
-    stop(1, "%s is '%s'; it must be a whole number from %ld on.", what, text, least);
+    stop(1, "%s is '%s'; it must be a whole number of at least %ld.", what, text, least);
   return value;
 }
 
@@ -204,6 +205,7 @@ static void set_by_reference(const functions *f, fmi2Component c, const char *as
   good(f->set(c, &reference, 1, &value), "set");
 }
 
+/* The functions of FMI 2.0 that the host calls. */
 static functions functions_of(void *library) {
   functions f;
   *(void **)&f.instantiate = function(library, "fmi2Instantiate");

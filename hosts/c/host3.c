@@ -43,11 +43,13 @@ typedef struct { /* what the callback needs */
   double value[MAX_LINES], rate[MAX_LINES];
 } host;
 
+/* Logger: prints a message of the FMU. */
 static void say(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
   (void)environment, (void)status;
   fprintf(stderr, "[%s] %s\n", category, message);
 }
 
+/* Ends the program if a call failed. */
 static void good(fmi3Status status, const char *call) {
   if (status > fmi3Warning) stop(4, "%s: status %d", call, (int)status);
 }
@@ -59,6 +61,7 @@ static fmi3Status set_lines(const host *h, double time) {
   return h->n > 0 ? h->f.set(h->instance, h->reference, h->n, now, h->n) : fmi3OK;
 }
 
+/* Intermediate update: sets the inputs on lines if the FMU asks for them. */
 static void update(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean asked, fmi3Boolean readable,
                    fmi3Boolean finished, fmi3Boolean may_return, fmi3Boolean *early, fmi3Float64 *early_time) {
   const host *h = environment;
@@ -68,6 +71,7 @@ static void update(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Bo
   if (asked) good(set_lines(h, time), "set within a step");
 }
 
+/* The functions of FMI 3.0 that the host calls. */
 static functions functions_of(void *library) {
   functions f;
   *(void **)&f.instantiate = function(library, "fmi3InstantiateCoSimulation");
@@ -81,6 +85,7 @@ static functions functions_of(void *library) {
   return f;
 }
 
+/* A number at the start of a text; `end`: the text after it. */
 static double number(const char *text, char **end) {
   const double value = strtod(text, end);
   if (*end == text) stop(1, "'%s' is not a number.", text);

@@ -33,15 +33,15 @@ _MODEL_FACTOR = 2.0  # on the residual of the model, of which another part may l
 class Alignment:
     """Delay and drift of a measured signal."""
 
-    delay: float
+    delay: float = math.nan
     """s; time t of the simulation is time delay + (1 + drift) t of the log. NaN if it cannot be determined."""
-    delay_error: float
+    delay_error: float = math.nan
     """Half of the 95 % interval of `delay`, s."""
-    drift: float
+    drift: float = math.nan
     """Relative rate error of the log's clock of this signal; positive: the clock runs fast."""
-    drift_error: float
+    drift_error: float = math.nan
     """Half of the 95 % interval of `drift`."""
-    correlation: float
+    correlation: float = math.nan
     note: str = ""
     explained: float = 0.0
     """Fraction of the squared residuals without a drift that the drift explains."""
@@ -61,13 +61,13 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     """
     pairs = [(s, c) for s, c in pairs if not is_constant(s.values) and not is_constant(c(s.time))]
     if not pairs:
-        return Alignment(*5 * (math.nan,), "no signal moves in both")
+        return Alignment(note="no signal moves in both")
     first_delay, peak, other_delay, is_flat = _coarse_delay(pairs, longest)
     if peak < _MIN_CORRELATION:
-        return Alignment(*4 * (math.nan,), peak, f"the best correlation is {peak:.2f}: no delay can be determined")
+        return Alignment(correlation=peak, note=f"the best correlation is {peak:.2f}: no delay can be determined")
     if is_flat:
         message = f"signals correlate by {peak:.3f}, and nearly as well with any delay that so short a log can have"
-        return Alignment(*4 * (math.nan,), peak, message)
+        return Alignment(correlation=peak, note=message)
     fine = _least_squares_alignment(pairs, first_delay, drift)
     if drift and not fine.has_drift:  # a drift that is not significant biases the delay
         constant = _least_squares_alignment(pairs, first_delay, False)
@@ -75,7 +75,7 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     note = f"a delay of {other_delay:.3g} s fits nearly as well" if other_delay is not None else ""
     if abs(fine.delay) > longest:
         message = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
-        return Alignment(*4 * (math.nan,), fine.correlation, message)
+        return Alignment(correlation=fine.correlation, note=message)
     return replace(fine, note=note)
 
 

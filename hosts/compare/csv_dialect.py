@@ -77,7 +77,7 @@ def detect_dialect(path: Path, stated: Dialect) -> DetectedDialect:
 
 
 def unit_message(cell: str) -> str:
-    """The end of a sentence on a cell that holds a number with its unit; empty for other cells."""
+    """The message on a cell that holds a number with its unit, without its subject; empty for other cells."""
     match = _WITH_UNIT.fullmatch(cell.strip())
     if match is None or known_unit(match["unit"]) is None:
         return ""

@@ -92,7 +92,7 @@ def log_times(
 
 
 def _remedy(steps: NDArray[np.float64], k: int) -> str:
-    """The remedy for decreasing times as the end of a sentence. `k`: index of the first decrease."""
+    """The remedy for decreasing times, as a clause. `k`: index of the first decrease."""
     median, decrease = float(np.median(np.abs(steps))), -float(steps[k])
     if (steps <= 0.0).all():
         return "the last row stands first: turn the order of the rows round"
@@ -134,5 +134,5 @@ def _clock_times(raw: RawLog, name: str, texts: pd.Series[str]) -> NDArray[np.fl
 
 
 def name_hint(name: str, names: Collection[str]) -> str:
-    """The end of a sentence on a missing name: a similar name, or the names that there are."""
+    """The end of a message on a missing name: a similar name, or the existing names."""
     return did_you_mean(name, names, f"it has {some_of(names)}")

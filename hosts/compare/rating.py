@@ -30,13 +30,13 @@ _GRADES = ((0.94, "excellent"), (0.80, "good"), (0.58, "fair"), (0.0, "poor"))
 
 @dataclass(frozen=True)
 class Rating:
-    """Scores between 0 and 1; NaN if the measured signal is constant."""
+    """Scores from 0 to 1; NaN if the measured signal is constant."""
 
-    corridor: float
-    phase: float
-    magnitude: float
-    slope: float
-    overall: float
+    corridor: float = math.nan
+    phase: float = math.nan
+    magnitude: float = math.nan
+    slope: float = math.nan
+    overall: float = math.nan
 
     @property
     def grade(self) -> str:
@@ -51,7 +51,7 @@ def rating(measured: ArrayLike, simulated: ArrayLike) -> Rating:
     """
     y, x = np.asarray(measured, float), np.asarray(simulated, float)
     if is_constant(y):
-        return Rating(*5 * (math.nan,))
+        return Rating()
     shift = _best_shift(y, x)
     corridor, phase = _corridor_score(y, x), max(0.0, 1.0 - abs(shift) / (_MAX_SHIFT * len(y)))
     y_cut, x_cut = (y[: len(y) - shift], x[shift:]) if shift >= 0 else (y[-shift:], x[:shift])

@@ -105,13 +105,7 @@ def prepare(options: argparse.Namespace) -> Task:
         inputs, outputs = _selected_signals(log, fmu, options)
         frequencies = _add_steering_input(fmu, log, inputs, outputs, notes, ali3_values, fitted_names)
         measured_speed = _speed_to_hold(fmu, log, inputs, notes) if options.hold_speed else None
-        if not inputs and measured_speed is None:
-            raise HostError(
-                f"The log {options.log} has no input of {options.fmu.name}, so that there is nothing to replay; its "
-                f"inputs are {', '.join(fmu.names('input')) or 'none'}: the alias file of the log (--log-aliases) "
-                "names their columns."
-            )
-        missing_inputs = [n for n in fmu.names("input") if n not in inputs and not (measured_speed and n in PEDALS)]
+        missing_inputs = _missing_inputs(fmu, inputs, measured_speed is not None, options)
         if missing_inputs:
             notes.append(f"Not in the log, and held at their start values: {', '.join(missing_inputs)}.")
         inputs, outputs, end = _cut_inputs_and_outputs(inputs, outputs, options)
@@ -161,38 +155,56 @@ def prepare(options: argparse.Namespace) -> Task:
         pedal = segments[0].pedal
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
     scales = scales_of(all_outputs)
-    if options.windows is not None:
+    windowed = options.windows is not None
+    if windowed:
         notes.append(
             f"Each of the {len(segments)} windows starts in its measured state; the one above is that of the first."
         )
         outputs, scales = (concatenated_signals(signals, segments) for signals in (outputs, scales))
     elif requested_spans is not None:
-        begin = options.begin or 0.0
-        shifted_spans = tuple((a - begin, b - begin) for a, b in requested_spans)
-        outputs = {n: within_spans(s, shifted_spans) for n, s in outputs.items()}
-    windowed = options.windows is not None
-    plausibility = log_plausibility(options.log.name, all_outputs)
+        outputs = _within_requested_spans(outputs, requested_spans, options)
     return Task(
-        source,
-        inputs,
-        outputs,
-        segments,
-        step,
-        slopes,
-        parameters,
-        ali3_values,
-        notes,
-        windowed,
-        plausibility,
-        scales,
-        invertible,
+        fmu=source,
+        inputs=inputs,
+        outputs=outputs,
+        segments=segments,
+        step=step,
+        slopes=slopes,
+        parameters=parameters,
+        set_values=ali3_values,
+        notes=notes,
+        windowed=windowed,
+        plausibility=log_plausibility(options.log.name, all_outputs),
+        scales=scales,
+        invertible=invertible,
     )
+
+
+def _missing_inputs(
+    fmu: NamedFmu, inputs: Mapping[str, Signal], holds_speed: bool, options: argparse.Namespace
+) -> list[str]:
+    """Inputs of the FMU that nothing drives. Raises `HostError` if the log drives none."""
+    names = fmu.names("input")
+    if not inputs and not holds_speed:
+        raise HostError(
+            f"The log {options.log} has no input of {options.fmu.name}, so that there is nothing to replay; its "
+            f"inputs are {', '.join(names) or 'none'}: the alias file of the log (--log-aliases) names their columns."
+        )
+    return [name for name in names if name not in inputs and not (holds_speed and name in PEDALS)]
+
+
+def _within_requested_spans(
+    outputs: Mapping[str, Signal], spans: Spans, options: argparse.Namespace
+) -> dict[str, Signal]:
+    begin = options.begin or 0.0
+    shifted_spans = tuple((a - begin, b - begin) for a, b in spans)
+    return {name: within_spans(signal, shifted_spans) for name, signal in outputs.items()}
 
 
 def _driven_windows(
     options: argparse.Namespace, requested_spans: Spans | None, end: float
 ) -> list[tuple[float, float]]:
-    """Begin and length of each window that is driven, s after --from; one window without --windows."""
+    """Start and length of each window that is driven, s after --from; one window without --windows."""
     begin = options.begin or 0.0
     if options.windows is None:
         if options.window_every is not None:
@@ -288,7 +300,7 @@ def _add_steering_input(
 ) -> dict[str, float]:
     """Add a steering input to `inputs` from the angle of the steering wheel or of the front wheels in the log.
 
-    The normalised input is the angle divided by the angle at full lock. Where a steering ratio is set or fitted, that
+    The normalised input is the angle divided by the angle at full lock. If a steering ratio is set or fitted, that
     constant does not hold, and the angle itself is the input. Returns the input with a follower, with its frequency,
     Hz; empty if there is none.
     """

@@ -15,15 +15,15 @@ from hosts.measures.frequency_response import FrequencyResponse
 class SecondOrder:
     """The response gain (1 + a s + b s²) / (1 + 2 zeta s / w + s² / w²)."""
 
-    gain: float
-    """Steady-state gain, in units of output over input."""
-    natural_frequency: float
+    gain: float = math.nan
+    """Steady-state gain, in units of output per input."""
+    natural_frequency: float = math.nan
     """w, undamped, rad/s."""
-    damping_ratio: float
+    damping_ratio: float = math.nan
     """zeta."""
-    lead: tuple[float, float]
+    lead: tuple[float, float] = (math.nan, math.nan)
     """a in s and b in s² of the numerator."""
-    misfit: float
+    misfit: float = math.nan
     """RMS of fit minus data, divided by the RMS of the data."""
 
     def response(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
@@ -32,9 +32,6 @@ class SecondOrder:
         a, b = self.lead
         w = self.natural_frequency
         return np.asarray(self.gain * (1 + a * s + b * s**2) / _denominator(s, w, self.damping_ratio))
-
-
-NOTHING = SecondOrder(*3 * (math.nan,), (math.nan, math.nan), math.nan)
 
 
 def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int]) -> list[SecondOrder]:
@@ -50,7 +47,7 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
     given denominator gains and numerators are linear unknowns, so that only w and zeta are searched.
     """
     if not responses or any(len(r.frequency) < 4 or not np.abs(r.response).max() > 0.0 for r in responses):
-        return [NOTHING] * len(responses)
+        return [SecondOrder()] * len(responses)
 
     def numerators(p: NDArray[np.float64]) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
         results, misfits = [], []
@@ -75,7 +72,7 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
     solutions = [least_squares(misfit, x, bounds=([-3.0, 0.0], [7.0, 20.0])) for x in start_points]
     best = min((t for t in solutions if t.success), key=lambda t: float(t.cost), default=None)
     if best is None:
-        return [NOTHING] * len(responses)
+        return [SecondOrder()] * len(responses)
     w, zeta = math.exp(best.x[0]), float(best.x[1])
     fits = []
     for r, x in zip(responses, numerators(best.x)[0], strict=True):

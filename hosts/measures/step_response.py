@@ -16,21 +16,18 @@ from hosts.measures.peak import interpolated_peak
 class StepResponse:
     """Measures of one quantity; NaN if the record does not yield them."""
 
-    steady: float
+    steady: float = math.nan
     """Mean over the window of the steady state, minus the mean before the step, in the unit of the quantity."""
-    response_time: float
+    response_time: float = math.nan
     """From the reference time to 90 % of `steady`, s."""
-    peak: float
+    peak: float = math.nan
     """Largest value after the step, in the direction and the unit of `steady`; `steady` if there is no overshoot."""
-    peak_response_time: float
+    peak_response_time: float = math.nan
     """From the reference time to the peak, s; NaN if the response does not overshoot."""
-    overshoot: float
+    overshoot: float = math.nan
     """(`peak` - `steady`) / `steady`; 0 if the response does not overshoot."""
-    unsteadiness: float
+    unsteadiness: float = math.nan
     """Standard deviation in the window of the steady state, divided by the absolute value of `steady`."""
-
-
-NOTHING = StepResponse(*6 * (float("nan"),))
 
 
 def mean_between(
@@ -75,12 +72,12 @@ def step_response(
     response still settles, or the car loses speed in the turn.
     """
     if not np.isfinite(reference) or len(time) < 3 or time[-1] < steady[1] - 1e-6 or not np.isfinite(values).all():
-        return NOTHING
+        return StepResponse()
     initial = mean_between(time, values, *before)[0]
     mean, deviation = mean_between(time, values, *steady)
     final = mean - initial
     if not np.isfinite(final) or final == 0.0:
-        return NOTHING
+        return StepResponse()
     relative = (values - initial) / final
     response_time = crossing(time, relative, 0.9, before[1]) - reference
     first = int(np.searchsorted(time, before[1]))
