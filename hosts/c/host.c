@@ -2,9 +2,10 @@
  *
  *   host LIBRARY RESOURCES_URI GUID STEPS STEP FIRST LAST [REFERENCE=VALUE | --set NAME=VALUE ...]
  *
- * Prints time and the variables FIRST to LAST after every step as hexadecimal numbers, so that no digit is lost. What is
- * set are start values of parameters and inputs: real ones by their reference, those of any type by their name, which
- * the host looks up in the modelDescription.xml that lies three folders above the library.
+ * Prints time and the variables FIRST to LAST after every step as hexadecimal numbers, so that no digit is lost.
+ * Assignments are start values of parameters and inputs: real ones by their reference, all by their name, which the
+ * host looks up in the modelDescription.xml three folders above the library. Exit codes: 1 wrong argument, 2 library not
+ * loaded, 3 function missing, 4 a call failed, 5 not instantiated.
  *
  * It needs library.h beside it and the headers of the FMI 2.0 standard
  * (https://github.com/modelica/fmi-standard/releases). FMPy brings them, in the folder that
@@ -46,6 +47,7 @@ typedef struct { /* a variable as modelDescription.xml has it */
   char type[16], causality[24], variability[16];
 } variable;
 
+/* Logger: prints a message of the FMU. */
 static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
                 fmi2String format, ...) {
   va_list list;
@@ -113,29 +115,30 @@ static char *description_of(const char *library) {
 static bool attribute(const char *tag, const char *name, char *value, size_t size) {
   static const struct {
     const char *entity;
-    char is;
+    char character;
   } known[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
   const size_t length = strlen(name);
   char quote = '\0';
-  for (const char *at = tag; *at != '\0' && (quote != '\0' || *at != '>'); at++) {
+  for (const char *cursor = tag; *cursor != '\0' && (quote != '\0' || *cursor != '>'); cursor++) {
     if (quote != '\0') {
-      if (*at == quote) quote = '\0';
+      if (*cursor == quote) quote = '\0';
       continue;
     }
-    if (*at == '"' || *at == '\'') quote = *at;
-    if (strchr(" \t\r\n", *at) == NULL || strncmp(at + 1, name, length) != 0 || at[1 + length] != '=') continue;
-    const char *from = at + length + 3, end = at[length + 2];
+    if (*cursor == '"' || *cursor == '\'') quote = *cursor;
+    if (strchr(" \t\r\n", *cursor) == NULL || strncmp(cursor + 1, name, length) != 0 || cursor[1 + length] != '=')
+      continue;
+    const char *source = cursor + length + 3, end = cursor[length + 2];
     size_t n = 0;
-    while (*from != '\0' && *from != end && n + 1 < size) {
-      value[n] = *from;
+    while (*source != '\0' && *source != end && n + 1 < size) {
+      value[n] = *source;
       size_t used = 1;
       for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-        if (strncmp(from, known[k].entity, strlen(known[k].entity)) == 0)
-          value[n] = known[k].is, used = strlen(known[k].entity);
-      n++, from += used;
+        if (strncmp(source, known[k].entity, strlen(known[k].entity)) == 0)
+          value[n] = known[k].character, used = strlen(known[k].entity);
+      n++, source += used;
     }
     value[n] = '\0';
-    return *from == end;
+    return *source == end;
   }
   return false;
 }

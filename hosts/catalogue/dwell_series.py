@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +61,7 @@ def sine_with_dwell_table(amplitude: float) -> tuple[NDArray[np.float64], NDArra
 
 
 def filtered_run(run: SteeredRun) -> SteeredRun:
-    """The run with phaseless low-pass filters (steering wheel 10 Hz, others 6 Hz, 12 poles), minus means before it."""
+    """Filter a run with 12 poles without phase (steering wheel 10 Hz, others 6 Hz), and subtract means before it."""
     if len(run.time) < _MIN_SAMPLES:
         return run
     is_before = (run.time < -0.1) if (run.time < -0.1).any() else run.time <= 0.0
@@ -72,17 +72,11 @@ def filtered_run(run: SteeredRun) -> SteeredRun:
         filtered = phaseless_low_pass(values, run.interval, min(frequency, 0.4 / run.interval))
         return np.asarray(filtered - filtered[is_before].mean())
 
-    return SteeredRun(
-        run.result,
-        run.begin,
-        run.time,
-        low_passed(run.steering, 10.0),
-        low_passed(run.yaw_rate, 6.0),
-        low_passed(run.acceleration, 6.0),
-        run.sideslip,
-        run.roll,
-        run.speed,
-        run.whole,
+    return replace(
+        run,
+        steering=low_passed(run.steering, 10.0),
+        yaw_rate=low_passed(run.yaw_rate, 6.0),
+        acceleration=low_passed(run.acceleration, 6.0),
     )
 
 

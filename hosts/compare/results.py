@@ -68,7 +68,7 @@ def write_outcome(
         title, outcome.before, outcome.after, outcome.fit, error_bins, outcome.notes, outcome.problems, paths, figure
     )
     if outcome.fit is not None:
-        values = task.fmu.names.values(dict(task.set_values) | outcome.fit.parameters)
+        values = task.fmu.fmu_values(dict(task.set_values) | outcome.fit.parameters)
         description = described(options.fmu)
         parameters = parameter_set_of(Variables(description), description.modelName, values)
         write_parameter_set(parameters, paths[".ssv"], as_built=False)

@@ -82,11 +82,11 @@ class FmuSource:
 
     def fmu_values(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Start values, converted from ALi3 names and units to those of the FMU."""
-        return self.names.values(values)
+        return self.names.fmu_values(values)
 
     def ali3_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
         """Start values, converted from names and units of the FMU to those of ALi3."""
-        return self.names.own_values(values)
+        return self.names.ali3_values(values)
 
     def inputs(self, values: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
         """Values and rates of inputs, converted from ALi3 names and units to those of the FMU."""

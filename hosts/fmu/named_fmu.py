@@ -55,7 +55,7 @@ class NamedFmu(NamedScalars):
 
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """See `Fmu.initialise`; `start` is in ALi3 names and units."""
-        self._fmu.initialise(self.aliases.values(start), start_time)
+        self._fmu.initialise(self.aliases.fmu_values(start), start_time)
         self._store_inputs({name: float(x) for name, x in start.items() if name in self._input_values})
         self._time = start_time
 

@@ -67,22 +67,24 @@ class Aliases:
             results[alias.fmu_name] = (alias.factor * value + alias.offset, abs(alias.factor) * rate)
         return results
 
-    def values(self, values: Mapping[str, Any]) -> dict[str, Any]:
+    def fmu_values(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Start values, converted from ALi3 names and units to those of the FMU; texts are unchanged."""
         by_name = {alias.name: alias for alias in self.aliases}
         results = {}
         for name, value in values.items():
             alias = by_name.get(name, Alias(name, name))
-            plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
-            results[alias.fmu_name] = value if plain else alias.factor * value + alias.offset
+            results[alias.fmu_name] = value if _is_unchanged(value, alias) else alias.factor * value + alias.offset
         return results
 
-    def own_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
+    def ali3_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
         """Start values, converted from names and units of the FMU to those of ALi3; texts are unchanged."""
         by_name = {alias.fmu_name: alias for alias in self.aliases}
         results: dict[str, Value] = {}
         for name, value in values.items():
             alias = by_name.get(name, Alias(name, name))
-            plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
-            results[alias.name] = value if plain else (float(value) - alias.offset) / alias.factor
+            results[alias.name] = value if _is_unchanged(value, alias) else (float(value) - alias.offset) / alias.factor
         return results
+
+
+def _is_unchanged(value: Any, alias: Alias) -> bool:
+    return isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
