@@ -21,11 +21,11 @@ COMPARED: Sequence[Mapping[str, Any]] = [
     for (name, unit, neutral), text in (
         (
             ("yaw_rate.ratio", "1", 1.0),
-            "yaw rate over that which keeps the circle at the speed then, 1 s after the onset",
+            "yaw rate divided by the yaw rate that keeps the circle at the speed then, 1 s after the onset",
         ),
         (
             ("yaw_rate.change", "rad/s", 0.0),
-            "yaw rate less that which keeps the circle at the speed then, 1 s after the onset, into the turn",
+            "yaw rate minus the yaw rate that keeps the circle at the speed then, 1 s after the onset, into the turn",
         ),
         (
             ("yaw_acceleration.largest", "rad/s2", 0.0),
@@ -33,11 +33,11 @@ COMPARED: Sequence[Mapping[str, Any]] = [
         ),
         (
             ("sideslip.change", "rad", 0.0),
-            "sideslip less that on the circle, 1 s after the onset, positive to the inside",
+            "sideslip minus the sideslip on the circle, 1 s after the onset, positive to the inside",
         ),
         (
             ("ay.ratio", "1", 1.0),
-            "lateral acceleration over that of the circle at the speed then, 1 s after the onset",
+            "lateral acceleration divided by that of the circle at the speed then, 1 s after the onset",
         ),
         (("path.deviation", "m", 0.0), "distance from the circle 1 s after the onset, positive outside"),
     )

@@ -11,7 +11,7 @@ from hosts.fmu.car import is_car
 
 DIST = Path("dist", "PrototypeCar.fmu")
 CAR = "prototype"
-"""`DIST`, `CAR`: the FMU of a command without one: this file if it exists, else the FMU of this car."""
+"""`DIST`, `CAR`: the FMU of a command without one: this file if it exists, otherwise the FMU of this car."""
 
 
 @dataclass(frozen=True)

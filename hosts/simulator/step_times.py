@@ -201,7 +201,7 @@ class StepTimes:
             # deadlines left out by a moved schedule are missed too
             deadlines = max(self.missed, round(self.steps * (1.0 + self.lost / self.scheduled)))
             rows += [
-                f"lateness of its begin: {self.lateness.words()}",
+                f"lateness of its start: {self.lateness.words()}",
                 f"missed deadlines: {self.missed} of {deadlines} ({100.0 * self.missed / deadlines:.3g} %)",
             ]
             if any(self.missed_by.values()):
