@@ -164,7 +164,7 @@ def check_time_of_steps(subject: Subject) -> Finding:
 
 
 @contextmanager
-def _captured() -> Iterator[list[bytes]]:
+def _capture_output() -> Iterator[list[bytes]]:
     """A context that collects what is written to standard output and standard error in a list."""
     results: list[bytes] = []
     descriptors = [os.dup(k) for k in (1, 2)]
@@ -200,7 +200,7 @@ def files_around(subject: Subject) -> dict[str, tuple[int, int]]:
 def check_files_and_prints(subject: Subject) -> Finding:
     """Whether a run prints nothing and writes no files."""
     before = files_around(subject) if subject.files_before is None else subject.files_before
-    with _captured() as printed:
+    with _capture_output() as printed:
         instance = Instance(subject).start()
         instance.run(min(subject.steps, 10))
         instance.end()

@@ -60,14 +60,14 @@ def detect_dialect(path: Path, stated: Dialect) -> DetectedDialect:
         )
     heading, unit_line = _heading_lines(path, lines, delimiter, first, width, stated)
     names, units = [], {}
-    for k, cell in enumerate(_cells(_uncommented(lines[heading]), delimiter)):
+    for k, cell in enumerate(_cells(_strip_comment(lines[heading]), delimiter)):
         match = _NAME_AND_UNIT.fullmatch(cell)
         name = match["name"] if match else cell
         names.append(name)
         if match:
             units[name] = match["unit"]
         elif unit_line is not None:
-            cells = _cells(_uncommented(lines[unit_line]), delimiter)
+            cells = _cells(_strip_comment(lines[unit_line]), delimiter)
             units[name] = cells[k] if k < len(cells) else ""
     duplicate = next((n for k, n in enumerate(names) if n and n in names[:k]), None)
     if duplicate is not None:
@@ -156,10 +156,12 @@ def _heading_lines(
         if stated.units is None and below < first and len(_cells(lines[below], delimiter)) == width:
             units = below
         return stated.heading - 1, units
-    fitting = [k for k in range(first) if k != units and _is_heading(_cells(_uncommented(lines[k]), delimiter), width)]
-    headings = [k for k in fitting if lines[k] == _uncommented(lines[k])] or fitting
+    fitting = [
+        k for k in range(first) if k != units and _is_heading(_cells(_strip_comment(lines[k]), delimiter), width)
+    ]
+    headings = [k for k in fitting if lines[k] == _strip_comment(lines[k])] or fitting
     # A comment may hold the names, or the units.
-    headings += [k for k in fitting if k not in headings and _has_units(_cells(_uncommented(lines[k]), delimiter))]
+    headings += [k for k in fitting if k not in headings and _has_units(_cells(_strip_comment(lines[k]), delimiter))]
     if not headings:
         raise HostError(
             f"The log {path} has no line of {width} names before its values in line {first + 1}; "
@@ -178,7 +180,7 @@ def _has_units(cells: Sequence[str]) -> bool:
     return all(known_unit(cell) is not None for cell in cells)
 
 
-def _uncommented(line: str) -> str:
+def _strip_comment(line: str) -> str:
     """A line without the mark of a comment."""
     return line.lstrip(" #") if line.lstrip().startswith("#") else line
 

@@ -120,7 +120,7 @@ def fit(
             break
         solution = solve(solution.x, residuals.one_sided_jacobian, evaluations)
     converged = bool(solution.status > 0)
-    point = _refined(residuals, solution.x, bounds)
+    point = _refine(residuals, solution.x, bounds)
     _update_weights(residuals, residuals(point))
     r, jacobian, r_start = residuals(point), residuals.jacobian(point), residuals(start)  # with the last weights
     result = _evaluate_fit(
@@ -147,7 +147,7 @@ def _update_weights(residuals: Residuals, r: NDArray[np.float64]) -> bool:
     return all(abs(x - 1.0) < _SETTLED for x in factors.values())
 
 
-def _refined(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:
+def _refine(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:
     """The point after a Gauss-Newton step with central differences, if that lowers the sum of squares."""
     jacobian, r = residuals.jacobian(p), residuals(p)
     size = np.where((norms := np.linalg.norm(jacobian, axis=0)) > 0.0, norms, 1.0)

@@ -51,8 +51,8 @@ def inverted_input(task: Task, compared: Comparison, inverted: dict[str, Compare
         if len(inverted) == 1:
             return f"Or the {label} has the opposite sign: with the other sign the signal has that of the simulation."
         return (
-            f"The {label} has the opposite sign: only with the other sign {_listed(list(inverted))} have the signs of "
-            "the simulation. factor = -1.0 in the alias file changes it."
+            f"The {label} has the opposite sign: only with the other sign {_name_list(list(inverted))} have the signs "
+            "of the simulation. factor = -1.0 in the alias file changes it."
         )
     return ""
 
@@ -107,5 +107,5 @@ def _with_inverted_input(segment: Segment, name: str) -> Segment:
     )
 
 
-def _listed(names: Sequence[str]) -> str:
+def _name_list(names: Sequence[str]) -> str:
     return ", ".join(names[:-1]) + f" and {names[-1]}"

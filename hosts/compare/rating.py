@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hosts.compare.deviations import is_constant
-from hosts.compare.time_warping import warped
+from hosts.compare.time_warping import warp
 
 POINTS = 1000
 _INNER = 0.05  # of the largest measured value
@@ -90,7 +90,7 @@ def _best_shift(y: NDArray[np.float64], x: NDArray[np.float64]) -> int:
 
 
 def _magnitude_score(y: NDArray[np.float64], x: NDArray[np.float64]) -> float:
-    y_warped, x_warped = warped(y, x, _WARPING_WINDOW)
+    y_warped, x_warped = warp(y, x, _WARPING_WINDOW)
     size = float(np.sum(np.abs(y_warped)))
     error = float(np.sum(np.abs(x_warped - y_warped))) / size if size > 0.0 else math.inf
     return max(0.0, 1.0 - error / _MAX_MAGNITUDE_ERROR)

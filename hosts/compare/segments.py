@@ -77,7 +77,7 @@ def concatenated_signals(signals: Mapping[str, Signal], segments: Sequence[Segme
     return results
 
 
-def joined(results: Sequence[Result], segments: Sequence[Segment]) -> Result:
+def join_results(results: Sequence[Result], segments: Sequence[Segment]) -> Result:
     """Results of segments as one result; a segment with a refused step keeps its last outputs to its end.
 
     Returns a result without refused steps, whose `starts` are the first rows of the segments.

@@ -312,12 +312,12 @@ def _with_call_marks(slave: Any) -> Any:
         if name.startswith(("fmi2", "fmi3")):
             function = getattr(slave.dll, name)
             # Functions with a status are called directly, without the two Python frames of FMPy.
-            call = _checked(name, function) if function.restype is ctypes.c_int else getattr(slave, name)
+            call = _with_check(name, function) if function.restype is ctypes.c_int else getattr(slave, name)
             setattr(slave, name, marked(name, call))
     return slave
 
 
-def _checked(name: str, function: Callable[..., int]) -> Callable[..., int]:
+def _with_check(name: str, function: Callable[..., int]) -> Callable[..., int]:
     """A function of an FMU that raises `FMICallException` if its status is above a warning."""
 
     def call(*arguments: Any) -> int:

@@ -41,7 +41,7 @@ class Settings:
 
         Raises `HostError` if a name, value or type is wrong.
         """
-        self._put([self._checked(name, value, source) for name, value in values.items()])
+        self._put([self._check_setting(name, value, source) for name, value in values.items()])
 
     def add_texts(self, values: Iterable[tuple[str, str]], source: str) -> None:
         """Add values as text, in the units of the FMU or with a unit; see `add_numbers`."""
@@ -119,7 +119,7 @@ class Settings:
                 self._notes.append((name, f"{setting.source} replaces {old} of {before.source}"))
             self._settings[name] = setting
 
-    def _checked(self, name: str, value: Value, source: str) -> Setting:
+    def _check_setting(self, name: str, value: Value, source: str) -> Setting:
         variable = self._variables.settable(name, source)
         return Setting(variable, variable.check(value, source), source)
 

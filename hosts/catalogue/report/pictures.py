@@ -50,7 +50,7 @@ def drawings_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> dict[str, Drawing
 
 
 def _draw_picture(title: str, plots: Mapping[int, tuple[str, Plot]], many: bool) -> Drawing:
-    plots = {k: (label, _displayed(plot)) for k, (label, plot) in plots.items()}
+    plots = {k: (label, _in_display_units(plot)) for k, (label, plot) in plots.items()}
     first = next(iter(plots.values()))[1]
     shared = _shared_lines([plot for _, plot in plots.values()])
     names = [
@@ -104,7 +104,7 @@ def _draw_plots(axes: Axes, plots: Mapping[int, tuple[str, Plot]], shared: Mappi
     return descriptions
 
 
-def _displayed(plot: Plot) -> Plot:
+def _in_display_units(plot: Plot) -> Plot:
     """The plot in the units in which reports show its axes."""
     (x, x_factor), (y, y_factor) = axis_shown(plot.x), axis_shown(plot.y)
     if x_factor == y_factor == 1.0:

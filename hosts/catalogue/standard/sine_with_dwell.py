@@ -32,7 +32,7 @@ def drive(sheet: Sheet) -> None:
     if not math.isfinite(sum(angles)):
         raise HostError(_message_without_angle(list(ramps.values()), settings["speed"]))
     # The regulation rounds the angles of the ramps and their mean to 0.1°.
-    a = _rounded(0.5 * sum(map(_rounded, angles)))
+    a = _round_angle(0.5 * sum(map(_round_angle, angles)))
     amplitudes = series_amplitudes(a, settings["first"], settings["increment"], steering.largest)
     if len(amplitudes) > _MAX_RUNS:
         raise HostError(
@@ -54,7 +54,7 @@ def drive(sheet: Sheet) -> None:
     sheet.add("series", a=a, angles=angles, amplitudes=amplitudes, sides=sides, steering=steering, ramps=ramps)
 
 
-def _rounded(angle: float) -> float:
+def _round_angle(angle: float) -> float:
     return math.radians(round(math.degrees(angle), 1))
 
 

@@ -39,11 +39,11 @@ def parameter_panels(parameters: Sequence[Parameter], label: str) -> tuple[Figur
         if parameter.categories:
             panel.set_xticks(range(len(parameter.categories)), parameter.categories)
         if k % columns == 0:
-            panel.set_ylabel(_wrapped(label))
+            panel.set_ylabel(_wrap(label))
     return figure, axes[: len(parameters)]
 
 
-def _wrapped(label: str) -> str:
+def _wrap(label: str) -> str:
     """A long label in several lines."""
     return label if len(label) <= 28 else label.replace(" (", "\n(").replace(", ", ",\n")
 
