@@ -222,7 +222,7 @@ public:
     std::vector<fmi2ValueReference> found;
     for (const auto &name : names) {
       if (variable(name).type != "Real")
-        throw std::runtime_error("'" + name + "' is no Real, but " + variable(name).type + ".");
+        throw std::runtime_error("'" + name + "' is not a Real, but " + variable(name).type + ".");
       found.push_back(variable(name).reference);
     }
     return found;
@@ -261,7 +261,7 @@ public:
 
   void set(const std::string &name, const std::string &text) {
     const Variable &v = variable(name);
-    if (v.type != "String") throw std::runtime_error("'" + name + "' is no String, but " + v.type + ".");
+    if (v.type != "String") throw std::runtime_error("'" + name + "' is not a String, but " + v.type + ".");
     const char *value = text.c_str();
     good(set_string(component, &v.reference, 1, &value), "'" + name + "'");
   }

@@ -2,9 +2,10 @@
  *
  *   host LIBRARY RESOURCES_URI GUID STEPS STEP FIRST LAST [REFERENCE=VALUE | --set NAME=VALUE ...]
  *
- * Prints time and the variables FIRST to LAST after every step as hexadecimal numbers, so that no digit is lost. What is
- * set are start values of parameters and inputs: real ones by their reference, those of any type by their name, which
- * the host looks up in the modelDescription.xml that lies three folders above the library.
+ * Prints time and the variables FIRST to LAST after every step as hexadecimal numbers, so that no digit is lost.
+ * Assignments are start values of parameters and inputs: real ones by their reference, all by their name, which the
+ * host looks up in the modelDescription.xml three folders above the library. Exit codes: 1 wrong argument, 2 library not
+ * loaded, 3 function missing, 4 a call failed, 5 not instantiated.
  *
  * It needs library.h beside it and the headers of the FMI 2.0 standard
  * (https://github.com/modelica/fmi-standard/releases). FMPy brings them, in the folder that
@@ -24,7 +25,7 @@
 #include "fmi2FunctionTypes.h"
 #include "library.h"
 
-enum { MOST_VALUES = 4096, LONGEST = 512 };
+enum { MAX_VALUES = 4096, MAX_LENGTH = 512 };
 
 typedef struct { /* functions of the library */
   fmi2InstantiateTYPE *instantiate;
@@ -46,6 +47,7 @@ typedef struct { /* a variable as modelDescription.xml has it */
   char type[16], causality[24], variability[16];
 } variable;
 
+/* Logger: prints a message of the FMU. */
 static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
                 fmi2String format, ...) {
   va_list list;
@@ -57,17 +59,18 @@ static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Statu
   va_end(list);
 }
 
+/* Ends the program if a call failed; `what`: the call. */
 static void good(fmi2Status status, const char *what) {
   if (status > fmi2Warning) stop(4, "%s: status %d", what, (int)status);
 }
 
-/* A whole number of the command line from `least` on; anything else ends the program. */
+/* A whole number of the command line, at least `least`; anything else ends the program. */
 static long whole(const char *text, const char *what, long least) {
   char *end;
   errno = 0;
   const long value = strtol(text, &end, 10);
   if (end == text || *end != '\0' || errno != 0 || value < least || value > INT_MAX)
-    stop(1, "%s is '%s'; it must be a whole number from %ld on.", what, text, least);
+    stop(1, "%s is '%s'; it must be a whole number of at least %ld.", what, text, least);
   return value;
 }
 
@@ -108,41 +111,42 @@ static char *description_of(const char *library) {
   return text;
 }
 
-/* An attribute of the tag that begins at `tag`, its entities replaced; false where it has none. */
+/* An attribute of the tag that begins at `tag`, its entities replaced; false if it has none. */
 static bool attribute(const char *tag, const char *name, char *value, size_t size) {
   static const struct {
     const char *entity;
-    char is;
+    char character;
   } known[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
   const size_t length = strlen(name);
   char quote = '\0';
-  for (const char *at = tag; *at != '\0' && (quote != '\0' || *at != '>'); at++) {
+  for (const char *cursor = tag; *cursor != '\0' && (quote != '\0' || *cursor != '>'); cursor++) {
     if (quote != '\0') {
-      if (*at == quote) quote = '\0';
+      if (*cursor == quote) quote = '\0';
       continue;
     }
-    if (*at == '"' || *at == '\'') quote = *at;
-    if (strchr(" \t\r\n", *at) == NULL || strncmp(at + 1, name, length) != 0 || at[1 + length] != '=') continue;
-    const char *from = at + length + 3, end = at[length + 2];
+    if (*cursor == '"' || *cursor == '\'') quote = *cursor;
+    if (strchr(" \t\r\n", *cursor) == NULL || strncmp(cursor + 1, name, length) != 0 || cursor[1 + length] != '=')
+      continue;
+    const char *source = cursor + length + 3, end = cursor[length + 2];
     size_t n = 0;
-    while (*from != '\0' && *from != end && n + 1 < size) {
-      value[n] = *from;
+    while (*source != '\0' && *source != end && n + 1 < size) {
+      value[n] = *source;
       size_t used = 1;
       for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-        if (strncmp(from, known[k].entity, strlen(known[k].entity)) == 0)
-          value[n] = known[k].is, used = strlen(known[k].entity);
-      n++, from += used;
+        if (strncmp(source, known[k].entity, strlen(known[k].entity)) == 0)
+          value[n] = known[k].character, used = strlen(known[k].entity);
+      n++, source += used;
     }
     value[n] = '\0';
-    return *from == end;
+    return *source == end;
   }
   return false;
 }
 
-/* The variable of a name; ends the program where there is none that may be set. */
+/* The variable of a name; ends the program if there is none that may be set. */
 static variable look_up(const char *description, const char *name) {
   static const char *const types[] = {"Real", "Integer", "Boolean", "String", "Enumeration"};
-  char text[LONGEST];
+  char text[MAX_LENGTH];
   for (const char *tag = description; (tag = strstr(tag, "<ScalarVariable")) != NULL; tag++) {
     if (!attribute(tag, "name", text, sizeof text) || strcmp(text, name) != 0) continue;
     variable v = {0, "", "local", "continuous"};
@@ -169,7 +173,7 @@ static variable look_up(const char *description, const char *name) {
 static void set_by_name(const functions *f, fmi2Component c, const char *library, const char *assignment) {
   const char *equals = strchr(assignment, '=');
   if (equals == NULL || equals == assignment) stop(1, "'%s' is not of the form NAME=VALUE.", assignment);
-  char name[LONGEST];
+  char name[MAX_LENGTH];
   if ((size_t)(equals - assignment) >= sizeof name) stop(1, "the name in '%s' is too long.", assignment);
   memcpy(name, assignment, (size_t)(equals - assignment));
   name[equals - assignment] = '\0';
@@ -204,6 +208,7 @@ static void set_by_reference(const functions *f, fmi2Component c, const char *as
   good(f->set(c, &reference, 1, &value), "set");
 }
 
+/* The functions of FMI 2.0 that the host calls. */
 static functions functions_of(void *library) {
   functions f;
   *(void **)&f.instantiate = function(library, "fmi2Instantiate");
@@ -222,8 +227,8 @@ static functions functions_of(void *library) {
 }
 
 int main(int count, char **argument) {
-  static fmi2ValueReference reference[MOST_VALUES];
-  static double value[MOST_VALUES];
+  static fmi2ValueReference reference[MAX_VALUES];
+  static double value[MAX_VALUES];
   if (count < 8)
     stop(1, "usage: %s LIBRARY RESOURCES_URI GUID STEPS STEP FIRST LAST [REFERENCE=VALUE | --set NAME=VALUE ...]",
          argument[0]);
@@ -231,7 +236,7 @@ int main(int count, char **argument) {
   const double h = number(argument[5], "STEP");
   const long last = whole(argument[7], "LAST", first);
   if (h <= 0.0) stop(1, "STEP is '%s'; it must be positive.", argument[5]);
-  if (last - first >= MOST_VALUES) stop(1, "FIRST to LAST are more than %d variables.", MOST_VALUES);
+  if (last - first >= MAX_VALUES) stop(1, "FIRST to LAST are more than %d variables.", MAX_VALUES);
   void *library = open_library(argument[1]);
   if (library == NULL) stop(2, "%s cannot be loaded", argument[1]);
   const functions f = functions_of(library);

@@ -22,7 +22,7 @@
 #include "fmi3FunctionTypes.h"
 #include "library.h"
 
-enum { MOST_VALUES = 4096, MOST_LINES = 64 };
+enum { MAX_VALUES = 4096, MAX_LINES = 64 };
 
 typedef struct { /* functions of the library */
   fmi3InstantiateCoSimulationTYPE *instantiate;
@@ -39,26 +39,29 @@ typedef struct { /* what the callback needs */
   functions f;
   fmi3Instance instance;
   size_t n; /* inputs on lines */
-  fmi3ValueReference reference[MOST_LINES];
-  double value[MOST_LINES], rate[MOST_LINES];
+  fmi3ValueReference reference[MAX_LINES];
+  double value[MAX_LINES], rate[MAX_LINES];
 } host;
 
+/* Logger: prints a message of the FMU. */
 static void say(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
   (void)environment, (void)status;
   fprintf(stderr, "[%s] %s\n", category, message);
 }
 
+/* Ends the program if a call failed. */
 static void good(fmi3Status status, const char *call) {
   if (status > fmi3Warning) stop(4, "%s: status %d", call, (int)status);
 }
 
 /* All inputs that are on lines, at a time. */
 static fmi3Status set_lines(const host *h, double time) {
-  double now[MOST_LINES];
+  double now[MAX_LINES];
   for (size_t i = 0; i < h->n; i++) now[i] = h->value[i] + h->rate[i] * time;
   return h->n > 0 ? h->f.set(h->instance, h->reference, h->n, now, h->n) : fmi3OK;
 }
 
+/* Intermediate update: sets the inputs on lines if the FMU asks for them. */
 static void update(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean asked, fmi3Boolean readable,
                    fmi3Boolean finished, fmi3Boolean may_return, fmi3Boolean *early, fmi3Float64 *early_time) {
   const host *h = environment;
@@ -68,6 +71,7 @@ static void update(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Bo
   if (asked) good(set_lines(h, time), "set within a step");
 }
 
+/* The functions of FMI 3.0 that the host calls. */
 static functions functions_of(void *library) {
   functions f;
   *(void **)&f.instantiate = function(library, "fmi3InstantiateCoSimulation");
@@ -81,6 +85,7 @@ static functions functions_of(void *library) {
   return f;
 }
 
+/* A number at the start of a text; `end`: the text after it. */
 static double number(const char *text, char **end) {
   const double value = strtod(text, end);
   if (*end == text) stop(1, "'%s' is not a number.", text);
@@ -94,7 +99,7 @@ static void take(host *h, const char *text, fmi3ValueReference *reference, doubl
   if (end == text || *end != '=') stop(1, "'%s' is not of the form REFERENCE=VALUE or REFERENCE=VALUE+RATE.", text);
   *value = number(end + 1, &end);
   if (*end == 0) return;
-  if (h->n == MOST_LINES) stop(1, "More than %d inputs have a rate.", MOST_LINES);
+  if (h->n == MAX_LINES) stop(1, "More than %d inputs have a rate.", MAX_LINES);
   h->reference[h->n] = *reference;
   h->value[h->n] = *value;
   h->rate[h->n++] = number(end, &end);
@@ -102,8 +107,8 @@ static void take(host *h, const char *text, fmi3ValueReference *reference, doubl
 }
 
 int main(int count, char **argument) {
-  static fmi3ValueReference reference[MOST_VALUES];
-  static double value[MOST_VALUES];
+  static fmi3ValueReference reference[MAX_VALUES];
+  static double value[MAX_VALUES];
   static host h;
   char *end;
   const bool may_return = count > 1 && strcmp(argument[1], "--early") == 0;
@@ -114,8 +119,8 @@ int main(int count, char **argument) {
   const double length = number(argument[5], &end);
   const long last = strtol(argument[7], NULL, 10);
   if (length <= 0.0) stop(1, "STEP is '%s'; it must be positive.", argument[5]);
-  if (first < 0 || last < first || last - first >= MOST_VALUES || count - 8 > MOST_VALUES)
-    stop(1, "FIRST to LAST must be 1 to %d variables.", MOST_VALUES);
+  if (first < 0 || last < first || last - first >= MAX_VALUES || count - 8 > MAX_VALUES)
+    stop(1, "FIRST to LAST must be 1 to %d variables.", MAX_VALUES);
   void *library = open_library(argument[1]);
   if (library == NULL) stop(2, "%s cannot be loaded", argument[1]);
   h.f = functions_of(library);

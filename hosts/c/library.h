@@ -1,4 +1,4 @@
-/* What the hosts in C share: opening a library and ending with a sentence. */
+/* Opens shared libraries, and ends the program with a message; for the hosts in C. */
 #ifndef HOSTS_LIBRARY_H
 #define HOSTS_LIBRARY_H
 #include <stdarg.h>
@@ -15,7 +15,7 @@ static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTL
 static void *find(void *library, const char *name) { return dlsym(library, name); }
 #endif
 
-/* Ends the program with a sentence. */
+/* Ends the program with a message. */
 static void stop(int status, const char *format, ...) {
   va_list list;
   va_start(list, format);

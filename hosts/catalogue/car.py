@@ -1,4 +1,4 @@
-"""A car under test: an FMU, our names for its variables, and start values."""
+"""Cars under test, and what their FMUs report."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -24,13 +24,15 @@ class CarFacts:
     """What an FMU reports of its car."""
 
     inputs: tuple[str, ...]
+    """Real and integer inputs, by ALi3 names, in the order of the FMU."""
     outputs: tuple[str, ...]
+    """Real and integer outputs, likewise."""
     parameters: tuple[str, ...]
-    """`inputs`, `outputs`, `parameters`: real and integer variables by our names, in the order of the FMU."""
+    """Real and integer parameters, likewise."""
     units: Mapping[str, str]
-    """Units of all variables by our names."""
+    """Units of all variables, by ALi3 names."""
     constants: Mapping[str, float]
-    """Constants of the alias file, else of the FMU, by our names."""
+    """Constants of the alias file, or of the FMU if there is none, by ALi3 names."""
     step: float
     """Communication step, s."""
     token: str = ""
@@ -41,12 +43,12 @@ class CarFacts:
 class TestedCar:
     """A car under test: its FMU and settings."""
 
-    __test__ = False  # no test of pytest's
+    __test__ = False  # pytest must not collect it
 
     label: str
     fmu: FmuSource
     start: Mapping[str, Value] = field(default_factory=dict)
-    """Start values by our names."""
+    """Start values by ALi3 names."""
     step: float | None = None
     """Communication step, s; by default that of the FMU."""
 
@@ -62,18 +64,18 @@ class TestedCar:
         Parameters
         ----------
         manoeuvre : Manoeuvre
-            Inputs over time, start values, stop time; by our names, in our units.
+            Inputs over time, start values, stop time; by ALi3 names, in SI units.
         pilot : Pilot, optional
             Replaces the inputs that it sets.
         until : callable, optional
             Function of the time and the outputs; the run ends with the first step after which it is true.
         record_step : float, optional
-            Time from one row of the record to the next, s, rounded to whole steps; by default every step.
+            Interval of the record, s, rounded to whole steps; by default every step.
 
         Returns
         -------
         Result
-            By our names. `failed_steps` is 1 where the FMU refused a step; the record ends before it.
+            Signals by ALi3 names. `failed_steps` is 1 if the FMU refused a step; the record ends before it.
 
         Raises
         ------
@@ -83,27 +85,27 @@ class TestedCar:
         """
         with self.fmu.opened() as fmu:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
-            start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
+            start = {**self.start, **manoeuvre.start}
             step = communication_step(fmu, manoeuvre, self.step)
             steps_per_row = 1 if record_step is None else max(1, round(record_step / step))
             driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=steps_per_row)
             result = with_ground_marks(driven, pilot)
-            if wrong := result.not_finite():
-                raise FailedFmuError(f"{wrong} That run is not evaluated.")
+            if fault := result.not_finite():
+                raise FailedFmuError(f"{fault} That run is not evaluated.")
             return result
 
     @cached_property
     def facts(self) -> CarFacts:
-        """What the FMU reports of its car; read once."""
+        """What the FMU reports of its car."""
         with self.fmu.opened() as fmu:
             return CarFacts(
-                tuple(fmu.names("input")),
-                tuple(fmu.names("output")),
-                tuple(fmu.names("parameter")),
-                {n: v.unit or "1" for n, v in fmu.variables.items()},
-                fmu.constants(),
-                default_step(fmu.description) if self.step is None else self.step,
-                str(fmu.description.guid or fmu.description.instantiationToken or ""),
+                inputs=tuple(fmu.names("input")),
+                outputs=tuple(fmu.names("output")),
+                parameters=tuple(fmu.names("parameter")),
+                units={name: variable.unit or "1" for name, variable in fmu.variables.items()},
+                constants=fmu.constants(),
+                step=default_step(fmu.description) if self.step is None else self.step,
+                token=str(fmu.description.guid or fmu.description.instantiationToken or ""),
             )
 
     @property

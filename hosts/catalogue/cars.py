@@ -15,7 +15,7 @@ from hosts.fmu.settings import settings_of
 AS_IS = "as-is"
 """In place of a parameter set: the FMU as it is."""
 NO_ALIASES = "none"
-"""In place of an alias file: the FMU has our names."""
+"""Instead of an alias file: the FMU has ALi3 names."""
 _SET_BY_TESTS = (
     *("initial.speed", "initial.lateral_speed", "initial.yaw_rate", "initial.settling"),
     *("initial.x", "initial.y", "initial.z", "initial.yaw"),
@@ -73,22 +73,22 @@ def _cars_of_fmu(
             fmu_options = FmuOptions([] if str(set_file) == AS_IS else [set_file], list(values))
             start = settings_of(fmu.table, fmu_options).start
             label = path.stem if str(set_file) == AS_IS else f"{path.stem}, {set_file.stem}"
-            cars.append(TestedCar(label, source, _our_start_values(start, source), step))
+            cars.append(TestedCar(label, source, _ali3_start_values(start, source), step))
     for car in cars:
         assert car.facts
     return cars
 
 
-def _our_start_values(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
-    """Start values under our names, in our units."""
-    our_start = source.ours(start)
-    for ours in our_start:
-        if ours in _SET_BY_TESTS:
+def _ali3_start_values(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
+    """Start values under ALi3 names, in ALi3 units."""
+    ali3_start = source.ali3_values(start)
+    for name in ali3_start:
+        if name in _SET_BY_TESTS:
             raise HostError(
-                f"'{ours}' of {source.path.name} cannot be given: the tests themselves say where a car starts and how "
+                f"'{name}' of {source.path.name} cannot be given: the tests themselves say where a car starts and how "
                 "fast; --test-setting sets what may be changed (--list shows it)."
             )
-    return our_start
+    return ali3_start
 
 
 def _with_unique_labels(cars: Sequence[TestedCar]) -> list[TestedCar]:

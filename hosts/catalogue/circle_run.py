@@ -25,7 +25,7 @@ CONSTANT_ANGLE = 2.0
 CONSTANT_SPEED = 3.0
 _FIRST_ACCELERATION = 0.5  # m/s2, at the first speed
 _EXPECTED_ACCELERATION = 10.0  # m/s2, of complete progress
-_LARGEST_ACCELERATION = 20.0  # m/s2, of the longest run
+_MAX_ACCELERATION = 20.0  # m/s2, of the longest run
 _SETTLE = 3.0  # s at the first speed
 _LAG = 1.5  # m/s, of the speed behind its target at which a run ends
 _DECREASE = 1.0  # m/s2, of the lateral acceleration below its largest value at which a run ends
@@ -36,29 +36,37 @@ _APPROACH_TIME = 60.0  # s, until the first speed is reached
 
 @dataclass(frozen=True)
 class CircleRun:
-    """Signals of a run from steady driving at the first speed to the largest lateral acceleration."""
+    """Signals of a run from steady driving at the first speed to the largest lateral acceleration.
+
+    Arrays have shape (n,), positive to the left; NaN if the car has no such output.
+    """
 
     result: Result
     """The whole run, at intervals of 20 ms."""
     time: NDArray[np.float64]
+    """s."""
     acceleration: NDArray[np.float64]
+    """Lateral and horizontal, m/s²."""
     steering: NDArray[np.float64]
+    """Steering-wheel angle, rad."""
     sideslip: NDArray[np.float64]
+    """Sideslip angle, rad."""
     roll: NDArray[np.float64]
+    """Roll angle, rad."""
     torque: NDArray[np.float64]
+    """Steering-wheel torque, N m."""
     speed: NDArray[np.float64]
-    """`time`, `acceleration`, `steering`, `sideslip`, `roll`, `torque`, `speed`: SI units, positive to the left, shape
-    (n,) each; NaN where the car has no such output. The acceleration is lateral and horizontal."""
+    """m/s."""
     largest: float
     """Largest lateral acceleration to the side of the run, mean over 1 s, m/s²."""
     end: str
-    """Cause of the end of the run other than the grip of the tyres, as a clause; else empty."""
+    """Cause of the end of the run other than the grip of the tyres, as a clause; otherwise empty."""
     steering_note: str
-    """A sentence on unknown angles of the steering wheel; else empty."""
+    """A sentence on unknown angles of the steering wheel; otherwise empty."""
 
 
 class _RunMonitor:
-    """Determines the begin of the increase of speed or steering, after steady driving, and the end of the run."""
+    """Determines the start of the increase of speed or steering, after steady driving, and the end of the run."""
 
     def __init__(self, side: float, method: float, first: float, rate: float, tolerance: float) -> None:
         self.side, self.method, self.first, self.rate, self.tolerance = side, method, first, rate, tolerance
@@ -108,8 +116,8 @@ def drive_circle(
 ) -> CircleRun:
     """Drive a circle to one side up to the largest lateral acceleration.
 
-    `side`: 1: left, -1: right; `settings`: of the test; `ratio`: steering ratio; `progress`: called with the share that
-    is done, 0 to 1.
+    `side`: 1: left, -1: right; `settings`: settings of the test; `ratio`: steering ratio; `progress`: called with the
+    fraction that is done, 0 to 1.
     """
     method, radius = settings["method"], settings["radius"]
     steering = SteeringInput.of(car.facts)
@@ -118,9 +126,7 @@ def drive_circle(
     rate = math.radians(settings["steering_rate"]) if by_steering else settings["speed_rise"]
     monitor = _RunMonitor(side, method, first_speed, rate, settings["tolerance"])
     pilot = _pilot(car, side, method, radius, ratio, steering, monitor)
-    ramp_time = (
-        steering.largest / rate if by_steering else (math.sqrt(_LARGEST_ACCELERATION * radius) - first_speed) / rate
-    )
+    ramp_time = steering.largest / rate if by_steering else (math.sqrt(_MAX_ACCELERATION * radius) - first_speed) / rate
     stop = _APPROACH_TIME + (min(ramp_time, 300.0) if math.isfinite(ramp_time) else 300.0)
     expected = 0.2 * ramp_time * rate if by_steering else math.sqrt(_EXPECTED_ACCELERATION * radius) - first_speed
     name = f"circle to the {'left' if side > 0.0 else 'right'}"

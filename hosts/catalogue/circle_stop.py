@@ -14,18 +14,18 @@ from hosts.measures.disturbed_turn import circle_through, distance_from_circle, 
 from hosts.measures.wheels import at_wheels
 
 STEADY = 1.0  # s before the onset, in which the circle is undisturbed
-SLOWEST = 2.0  # m/s, below which the sideslip is not evaluated
+MIN_SPEED = 2.0  # m/s, below which the sideslip is not evaluated
 
 COMPARED: Sequence[Mapping[str, Any]] = [
     {"name": name, "unit": unit, "neutral": neutral, "text": text}
     for (name, unit, neutral), text in (
         (
             ("yaw_rate.ratio", "1", 1.0),
-            "yaw rate over that which keeps the circle at the speed then, 1 s after the onset",
+            "yaw rate divided by the yaw rate that keeps the circle at the speed then, 1 s after the onset",
         ),
         (
             ("yaw_rate.change", "rad/s", 0.0),
-            "yaw rate less that which keeps the circle at the speed then, 1 s after the onset, into the turn",
+            "yaw rate minus the yaw rate that keeps the circle at the speed then, 1 s after the onset, into the turn",
         ),
         (
             ("yaw_acceleration.largest", "rad/s2", 0.0),
@@ -33,11 +33,11 @@ COMPARED: Sequence[Mapping[str, Any]] = [
         ),
         (
             ("sideslip.change", "rad", 0.0),
-            "sideslip less that on the circle, 1 s after the onset, positive to the inside",
+            "sideslip minus the sideslip on the circle, 1 s after the onset, positive to the inside",
         ),
         (
             ("ay.ratio", "1", 1.0),
-            "lateral acceleration over that of the circle at the speed then, 1 s after the onset",
+            "lateral acceleration divided by that of the circle at the speed then, 1 s after the onset",
         ),
         (("path.deviation", "m", 0.0), "distance from the circle 1 s after the onset, positive outside"),
     )
@@ -98,9 +98,9 @@ class Stop:
         return r["chassis.ay"] if "chassis.ay" in r else r["speed"] * r["chassis.wz"]
 
     def values(self) -> dict[str, float]:
-        """The values of `COMPARED` 1 s after the onset; empty where the car is slow or the run has ended by then."""
+        """The values of `COMPARED` 1 s after the onset; empty if the car is slow or the run has ended by then."""
         speed = self.at("speed", 1.0)
-        if math.isnan(speed) or speed < SLOWEST:
+        if math.isnan(speed) or speed < MIN_SPEED:
             return {}
         t, reference = self.result.time, float(yaw_rate_on_circle(np.array([speed]), self.signed_radius)[0])
         first = (t >= self.onset) & (t <= self.onset + 1.0)
@@ -121,17 +121,19 @@ class Stop:
 
     @property
     def shown(self) -> NDArray[np.bool_]:
-        """Whether a sample is drawn, from `STEADY` before the onset on, shape (n,)."""
+        """Whether a sample is drawn: at most `STEADY` before the onset; shape (n,)."""
         return np.asarray(self.result.time >= self.onset - STEADY)
 
     def over_time(self, name: str) -> NDArray[np.float64]:
-        """An output at the samples that are drawn; NaN of a sideslip below the speed `SLOWEST`."""
+        """An output at the samples that are drawn; NaN of a sideslip below the speed `MIN_SPEED`."""
         values = self.result[name][self.shown]
-        return np.where(self.result["speed"][self.shown] > SLOWEST, values, math.nan) if name == "sideslip" else values
+        return (
+            np.where(self.result["speed"][self.shown] > MIN_SPEED, values, math.nan) if name == "sideslip" else values
+        )
 
     @property
     def locks(self) -> bool | None:
-        """Whether a wheel locks; None where the car does not provide slips."""
+        """Whether a wheel locks; None if the car does not provide slips."""
         slip = at_wheels(self.result, "slip")
         if slip is None:
             return None

@@ -17,7 +17,7 @@ _FOLDER = Path(__file__).parent / "standard"
 
 
 @cache
-def _shared() -> dict[str, Any]:
+def _read_shared() -> dict[str, Any]:
     """Signals, needs and titles of standards that the files of several tests name."""
     return read_toml(_FOLDER / "shared.toml", HostError)
 
@@ -31,7 +31,7 @@ def _expanded_plots(plot: dict[str, Any]) -> list[dict[str, Any]]:
     return [
         {**options, "title": f"{title}, {plot['title']}", "x": time, "y": y}
         | {"lines": {plot.get("line", line): value.format(run=plot["run"])}}
-        for title, y, value, line in (_shared()["signals"][name] for name in plot["signals"])
+        for title, y, value, line in (_read_shared()["signals"][name] for name in plot["signals"])
     ]
 
 
@@ -46,8 +46,8 @@ class TestFile(TestTables):
     @classmethod
     def _with_shared_entries(cls, content: dict[str, Any]) -> dict[str, Any]:
         settings = [{"name": name, **setting} for name, setting in content.get("settings", {}).items()]
-        needs = [name for need in content["needs"] for name in _shared()["needs"].get(need, [need])]
-        titles = _shared()["standards"]
+        needs = [name for need in content["needs"] for name in _read_shared()["needs"].get(need, [need])]
+        titles = _read_shared()["standards"]
         standards = [{"title": titles.get(s["name"], ""), **s} for s in content.get("standards", ())]
         parts = {
             name: {

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,13 +11,14 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.stop_conditions import SPUN
 from hosts.measures.filters import phaseless_low_pass
-from hosts.measures.sine_with_dwell import NOTHING, SineWithDwell, sine_with_dwell
+from hosts.measures.sine_with_dwell import SineWithDwell, measure_sine_with_dwell
 
 FREQUENCY = 0.7  # Hz
 DWELL = 0.5  # s
 AFTER = 2.0  # s, straight ahead
-_LEAST_LAST_AMPLITUDE = math.radians(270.0)
-_LARGEST_AMPLITUDE = math.radians(300.0)
+_MIN_LAST_AMPLITUDE = math.radians(270.0)
+_MAX_AMPLITUDE = math.radians(300.0)
+_MIN_SAMPLES = 20  # of a run that is filtered and measured
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class DwellRun:
     amplitude: float
     """Requested amplitude, rad."""
     run: SteeredRun
-    """The run with filtered signals, less their means before the steering."""
+    """The run with filtered signals, minus their means before the steering."""
     measures: SineWithDwell
 
     @property
@@ -39,10 +40,11 @@ class DwellRun:
 def series_amplitudes(a: float, first: float, increment: float, full_lock: float) -> list[float]:
     """Increasing amplitudes of a series, rad.
 
-    `a`: angle A at 0.3 g, rad; `first`, `increment`: over A; `full_lock`: largest angle of the steering wheel, rad. The
-    last amplitude is the greater of 6.5 A and 270°, but at most 300° and full lock.
+    `a`: angle A at 0.3 g, rad; `first`, `increment`: first amplitude and increment, divided by A; `full_lock`: largest
+    angle of the steering wheel, rad. The last amplitude is the greater of 6.5 A and 270°, but at most 300° and full
+    lock.
     """
-    last = min(_LARGEST_AMPLITUDE if 6.5 * a > _LARGEST_AMPLITUDE else max(6.5 * a, _LEAST_LAST_AMPLITUDE), full_lock)
+    last = min(_MAX_AMPLITUDE if 6.5 * a > _MAX_AMPLITUDE else max(6.5 * a, _MIN_LAST_AMPLITUDE), full_lock)
     multiples = a * (first + increment * np.arange(math.ceil(max(last / a - first, 0.0) / increment)))
     # An amplitude within 1 % of the last one is left out.
     return [float(x) for x in multiples if x < 0.99 * last] + [last]
@@ -59,8 +61,8 @@ def sine_with_dwell_table(amplitude: float) -> tuple[NDArray[np.float64], NDArra
 
 
 def filtered_run(run: SteeredRun) -> SteeredRun:
-    """The run with phaseless low-pass filters (steering wheel 10 Hz, others 6 Hz, 12 poles), less means before it."""
-    if len(run.time) < 20:
+    """Filter a run with 12 poles without phase (steering wheel 10 Hz, others 6 Hz), and subtract means before it."""
+    if len(run.time) < _MIN_SAMPLES:
         return run
     is_before = (run.time < -0.1) if (run.time < -0.1).any() else run.time <= 0.0
 
@@ -70,17 +72,11 @@ def filtered_run(run: SteeredRun) -> SteeredRun:
         filtered = phaseless_low_pass(values, run.interval, min(frequency, 0.4 / run.interval))
         return np.asarray(filtered - filtered[is_before].mean())
 
-    return SteeredRun(
-        run.result,
-        run.begin,
-        run.time,
-        low_passed(run.steering, 10.0),
-        low_passed(run.yaw_rate, 6.0),
-        low_passed(run.acceleration, 6.0),
-        run.sideslip,
-        run.roll,
-        run.speed,
-        run.whole,
+    return replace(
+        run,
+        steering=low_passed(run.steering, 10.0),
+        yaw_rate=low_passed(run.yaw_rate, 6.0),
+        acceleration=low_passed(run.acceleration, 6.0),
     )
 
 
@@ -93,17 +89,18 @@ def drive_series(
 ) -> list[DwellRun]:
     """Drive runs with increasing amplitudes until the car is lost.
 
-    `speed`: at the begin of steer, coasting, m/s; `side`: 1: first to the left, -1: first to the right; `amplitudes`:
-    in rad.
+    `speed`: speed at the beginning of steer, coasting, m/s; `side`: 1: first to the left, -1: first to the right;
+    `amplitudes`: amplitudes, rad.
     """
     runs: list[DwellRun] = []
     for k, amplitude in enumerate(amplitudes):
         name = f"{math.degrees(amplitude):.0f} deg {'left' if side > 0.0 else 'right'}"
         run = filtered_run(steer(car, name, speed, *sine_with_dwell_table(side * amplitude), Pedals.COAST))
         progress((k + 1) / len(amplitudes))
-        is_long = len(run.time) >= 20
-        slip = None if np.isnan(run.sideslip).any() else run.sideslip
-        measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if is_long else NOTHING
+        measures = SineWithDwell()
+        if len(run.time) >= _MIN_SAMPLES:
+            slip = None if np.isnan(run.sideslip).any() else run.sideslip
+            measures = measure_sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip)
         runs.append(DwellRun(amplitude, run, measures))
         if runs[-1].is_lost:
             break

@@ -10,9 +10,9 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.common.errors import HostError
 
-_MOST_MESSAGES = 10
-_MOST_NAMES = 4
-_LONGEST_MESSAGE = 300
+_MAX_MESSAGES = 10
+_MAX_NAMES = 4
+_MAX_MESSAGE_LENGTH = 300
 
 Reason: TypeAlias = str
 """A sentence on the reason why a test of a car cannot be done."""
@@ -21,7 +21,7 @@ Reason: TypeAlias = str
 def settings_of_test(test: StandardTest, values: Mapping[str, float]) -> dict[str, float]:
     """All settings of a test, by default or of `values`.
 
-    Raises `HostError`: a name is unknown, or a value is out of its range.
+    Raises `HostError` if a name is unknown, or a value is out of its range.
     """
     by_name = {s.name: s for s in test.settings}
     for name, value in values.items():
@@ -44,7 +44,7 @@ def reason_against(test: StandardTest, car: TestedCar, settings: Mapping[str, fl
         return test.why_not(car, settings)
     message = " and no ".join(" or ".join(_alternatives(need)) for need in unmet)
     reasons = [car.fmu.why_missing(name) for need in unmet for name in _alternatives(need)]
-    hint = "where it has another name, an alias file says which (--aliases)."
+    hint = "if it has another name, an alias file says which (--aliases)."
     return f"The FMU {car.path.name} has no {message}; {' '.join(dict.fromkeys(filter(None, reasons))) or hint}"
 
 
@@ -65,7 +65,7 @@ def perform(
 ) -> TestRecord:
     """Run a standard test with a car.
 
-    `settings`: other than the defaults; `progress`: called with the share that is done, 0 to 1. Raises `HostError`: a
+    `settings`: other than the defaults; `progress`: called with the fraction done, 0 to 1. Raises `HostError` if a
     setting is wrong, or the test cannot be done with the car.
     """
     test_settings = settings_of_test(test, settings or {})
@@ -85,10 +85,10 @@ def _message_notes(record: TestRecord) -> list[str]:
         for message in dict.fromkeys(" ".join(m.split()) for m in result.messages):
             runs.setdefault(message, []).append(name)
     messages = []
-    for message, names in list(runs.items())[:_MOST_MESSAGES]:
-        where = "every run" if len(names) == len(record.runs) > 1 else some_of(names, _MOST_NAMES)
-        text = message if len(message) <= _LONGEST_MESSAGE else f"{message[:_LONGEST_MESSAGE]}..."
+    for message, names in list(runs.items())[:_MAX_MESSAGES]:
+        where = "every run" if len(names) == len(record.runs) > 1 else some_of(names, _MAX_NAMES)
+        text = message if len(message) <= _MAX_MESSAGE_LENGTH else f"{message[:_MAX_MESSAGE_LENGTH]}..."
         messages.append(f"The FMU reported in {where}: {text}")
-    if len(runs) > _MOST_MESSAGES:
-        messages.append(f"The FMU reported {len(runs) - _MOST_MESSAGES} other messages.")
+    if len(runs) > _MAX_MESSAGES:
+        messages.append(f"The FMU reported {len(runs) - _MAX_MESSAGES} other messages.")
     return messages

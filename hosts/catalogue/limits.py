@@ -1,4 +1,4 @@
-"""Limits of the user for measures, in addition to those of standards."""
+"""Limits of the user for measures, in addition to the limits of standards."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class GivenLimits:
     ) -> tuple[dict[str, dict[str, Outcome]], list[str]]:
         """The outcomes with these limits, and a sentence on each limit that cannot be applied.
 
-        `outcomes`: by name of the test and label of the car.
+        `outcomes`: outcomes by name of the test and label of the car.
 
         Notes
         -----

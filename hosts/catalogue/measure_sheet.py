@@ -115,7 +115,7 @@ class TestTables(_Typed):
 class Sheet:
     """The results of a test so far.
 
-    `car`, `settings`, `progress`: see `StandardTest.perform`. `runs`, `notes`: of the record.
+    `car`, `settings`, `progress`: see `StandardTest.perform`. `runs`, `notes`: runs and notes of the record.
     """
 
     def __init__(
@@ -149,7 +149,7 @@ class Sheet:
 
         `names`: values for its expressions, in addition to settings and `car`. `why_none` and `should_be` are the note
         and the existence of its measures without a number; mappings `left` and `right` are the scopes of measures of
-        both sides. A `HostError` in place of a value is the reason why measures that read it have no number.
+        both sides. A `HostError` instead of a value is the reason why measures that read it have no number.
         """
         scope = self._scope(names)
         sides = {side: scope.inner(x) for side in ("left", "right") if isinstance(x := names.get(side), Mapping)}

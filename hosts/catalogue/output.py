@@ -22,7 +22,7 @@ _COLUMNS = ("test", "car", "measure", "value", "unit", "lowest", "highest", "kep
 def measures_csv(tests: Sequence[StandardTest], outcomes: Mapping[str, Mapping[str, Outcome]]) -> str:
     """CSV with a row for each measure, and a row with the reason for each test that was not done.
 
-    `outcomes`: by name of the test and label of the car.
+    `outcomes`: outcomes by name of the test and label of the car.
     """
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")

@@ -36,7 +36,7 @@ class Passage:
 
     @cached_property
     def positions(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """x, y and yaw in the axes of the course after its begin, m and rad, shape (m,)."""
+        """x, y and yaw in the axes of the course after its start, m and rad, shape (m,)."""
         x0, y0, yaw0 = self.pose
         dx, dy = self.result["chassis.x"][self.after] - x0, self.result["chassis.y"][self.after] - y0
         yaw = angle_difference(self.result["chassis.yaw"][self.after], yaw0)

@@ -11,14 +11,14 @@ from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.fmu import described
 
-_LEAST_RUN_UP = 1.0  # s
-_LONGEST_RUN_UP = 120.0  # s, for a car that cannot be started at speed
+_MIN_RUN_UP = 1.0  # s
+_MAX_RUN_UP = 120.0  # s, for a car that cannot be started at speed
 
 
 def with_step_up_to(car: TestedCar, longest: float, quantity: str) -> tuple[TestedCar, tuple[str, ...]]:
     """The car with a communication step that is short enough for a measured quantity.
 
-    `car`: a requested step is not changed; `longest`: step, s; `quantity`: for the note.
+    `car`: a requested step is not changed; `longest`: longest step, s; `quantity`: quantity of the note.
 
     Returns
     -------
@@ -42,33 +42,33 @@ def constant_inputs(
 ) -> Manoeuvre:
     """A manoeuvre with constant inputs.
 
-    `stop_time`: in s; `inputs`: values by name, of which those that the car does not have are left out.
+    `stop_time`: s; `inputs`: values by name, of which those that the car does not have are left out.
     """
     values = {n: np.full(2, x) for n, x in inputs.items() if n in car.facts.inputs}
     return Manoeuvre(name, np.array([0.0, stop_time]), values, stop_time, dict(start))
 
 
 def start_at_speed(car: TestedCar, speed: float) -> dict[str, Value]:
-    """Start values of a car that starts at a speed, m/s; empty where it cannot."""
+    """Start values of a car that starts at a speed, m/s; empty if it cannot."""
     return {INITIAL_SPEED: speed} if INITIAL_SPEED in car.facts.parameters else {}
 
 
 class RunUp:
     """The run-up on a straight line until a speed is held.
 
-    `speed`: in m/s. `start`: start values of the car; `longest`: longest time of the run-up, s.
+    `speed`: m/s. `start`: start values of the car; `longest`: longest time of the run-up, s.
     """
 
     def __init__(self, car: TestedCar, speed: float) -> None:
         self.start, self._speed = start_at_speed(car, speed), speed
-        self.longest = _LEAST_RUN_UP + 10.0 if self.start else _LONGEST_RUN_UP
+        self.longest = _MIN_RUN_UP + 10.0 if self.start else _MAX_RUN_UP
 
     def is_over(self, time: float, observation: Mapping[str, float]) -> bool:
         """Whether the speed is held."""
         tolerance = max(0.005 * self._speed, 0.05)
-        return time >= _LEAST_RUN_UP - 1e-9 and abs(observation["speed"] - self._speed) <= tolerance
+        return time >= _MIN_RUN_UP - 1e-9 and abs(observation["speed"] - self._speed) <= tolerance
 
 
 def early_end_notes(run: str, result: Result) -> tuple[str, ...]:
-    """A sentence if the FMU refused a step; else none. `run`: name of the run."""
+    """A sentence if the FMU refused a step; otherwise empty. `run`: name of the run."""
     return (f"{run}: {result.refusal}; what follows is not evaluated.",) if result.refusal else ()

@@ -25,7 +25,7 @@ class Clause:
     text: str
     """Its requirement, in our words."""
     checked: bool = False
-    """Whether it was checked against the text of the standard; else it is from public summaries."""
+    """Whether it was checked against the text of the standard; otherwise it is from public summaries."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +47,9 @@ class Setting:
     unit: str
     text: str
     lowest: float = -np.inf
+    """Lower end of the allowed range."""
     highest: float = np.inf
-    """`lowest`, `highest`: allowed range."""
+    """Upper end of the allowed range."""
 
 
 @dataclass(frozen=True)
@@ -67,12 +68,14 @@ class Plot:
     title: str
     """Title, by which plots of several cars are matched."""
     x: str
+    """Quantity and unit of the abscissa, such as ``lateral acceleration, m/s²``."""
     y: str
-    """`x`, `y`: quantity and unit, such as ``lateral acceleration, m/s²``."""
+    """Quantity and unit of the ordinate."""
     lines: Sequence[Line]
     log_x: bool = False
+    """Whether the abscissa is logarithmic."""
     log_y: bool = False
-    """`log_x`, `log_y`: whether the axis is logarithmic."""
+    """Whether the ordinate is logarithmic."""
     equal: bool = False
     """Whether both axes have the same scale."""
 
@@ -86,7 +89,7 @@ class TestRecord:
     measures: Sequence[Measure]
     plots: Sequence[Plot]
     runs: Mapping[str, Result]
-    """Results of all runs by a short name, with our names of variables, in SI units."""
+    """Results of all runs by a short name, with ALi3 names of variables, in SI units."""
     notes: Sequence[str] = field(default_factory=tuple)
     """Sentences on deviations from the request, each with a number and a remedy."""
 
@@ -110,10 +113,10 @@ class StandardTest:
     title: str
     perform: Perform
     """``perform(car, settings, progress)`` runs the test with values of all `settings`; `progress` is called with the
-    share that is done, 0 to 1. Raises `HostError` with the reason if the test cannot be done with the car."""
+    fraction done, 0 to 1. Raises `HostError` with the reason if the test cannot be done with the car."""
     standards: tuple[Standard, ...] = ()
     settings: tuple[Setting, ...] = ()
     needs: tuple[str, ...] = ()
-    """Variables by our names without which the test cannot be done."""
+    """Variables, by ALi3 names, without which the test cannot be done."""
     why_not: WhyNot = no_reason
-    """``why_not(car, settings)`` returns a sentence if the settings do not fit each other or the car, else None."""
+    """``why_not(car, settings)`` returns a sentence if the settings do not fit each other or the car, or None."""

@@ -21,7 +21,7 @@ def mean_of_sides(
 ) -> Measure:
     """Mean of left and right, with a note if they differ by more than 5 %, or one is missing.
 
-    `left`, `right`: NaN where a run does not yield it; `reason`: note if both are missing; `exists`: whether the number
+    `left`, `right`: NaN if a run does not yield it; `reason`: note if both are missing; `exists`: whether the number
     exists if both are missing.
     """
     finite = [x for x in (left, right) if math.isfinite(x)]

@@ -20,12 +20,12 @@ from hosts.measures.signal import Signal
 _SLOW_RATE = math.radians(2.0)
 _FAST_RATE = math.radians(13.5)
 _SLOW_UNTIL = math.radians(60.0)
-_LARGEST_ANGLE = math.radians(540.0)
+_MAX_ANGLE = math.radians(540.0)
 _INPUT_RATE = 0.005  # 1/s
 _FIT_RANGE = (0.3, 1.2)  # m/s2
-_LONGEST_LAG = 1.0  # s
-FEWEST_SAMPLES = 20
-LEAST_ACCELERATION = 0.5  # m/s2
+_MAX_LAG = 1.0  # s
+MIN_SAMPLES = 20
+MIN_ACCELERATION = 0.5  # m/s2
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class SteadyMap:
 def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
     """Drive a ramp to the left; the map is empty if the car does not reach the speed.
 
-    `speed`: in m/s; `acceleration`: upper end of the map, m/s².
+    `speed`: m/s; `acceleration`: upper end of the map, m/s².
 
     Notes
     -----
@@ -75,7 +75,7 @@ def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
     """
     steering = SteeringInput.of(car.facts)
     if steering.is_angle:
-        largest = min(_LARGEST_ANGLE, steering.largest)
+        largest = min(_MAX_ANGLE, steering.largest)
         slow_angle = min(_SLOW_UNTIL, largest)
         time = np.array([0.0, slow_angle / _SLOW_RATE, slow_angle / _SLOW_RATE + (largest - slow_angle) / _FAST_RATE])
         angle = np.array([0.0, slow_angle, largest])
@@ -98,7 +98,7 @@ def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
 
 
 def _lag_angle(angle: NDArray[np.float64], acceleration: NDArray[np.float64], rate: float) -> NDArray[np.float64]:
-    """Angles by which a ramp leads the response, rad, shape (n,). `rate`: of the ramp, rad/s."""
+    """Angles by which a ramp leads the response, rad, shape (n,). `rate`: rate of the ramp, rad/s."""
     fitted = (
         (acceleration >= _FIT_RANGE[0])
         & (acceleration <= _FIT_RANGE[1])
@@ -107,14 +107,14 @@ def _lag_angle(angle: NDArray[np.float64], acceleration: NDArray[np.float64], ra
     if fitted.sum() < 5:
         return np.zeros(len(angle))
     slope, offset = np.polyfit(angle[fitted], acceleration[fitted], 1)
-    lag = min(max(-offset / slope, 0.0), rate * _LONGEST_LAG) if slope > 0.0 else 0.0
+    lag = min(max(-offset / slope, 0.0), rate * _MAX_LAG) if slope > 0.0 else 0.0
     return np.asarray(np.minimum(lag, angle))
 
 
 def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
     """The map at a speed or, for a car that does not reach it, at a lower one.
 
-    `speed`, `lower`: in m/s; `acceleration`: upper end of the map, m/s². Raises `HostError`: the car reaches neither
+    `speed`, `lower`: m/s; `acceleration`: upper end of the map, m/s². Raises `HostError` if the car reaches neither
     speed, its FMU refuses a step, or signs or units of its signals are implausible.
     """
     result = steady_map(car, speed, acceleration)
@@ -142,7 +142,7 @@ def refuse_implausible(run: SteeredRun) -> None:
 
     The message names a sign or unit of the alias file that would explain it.
     """
-    if len(run.time) < FEWEST_SAMPLES or not np.abs(run.acceleration).max() >= LEAST_ACCELERATION:
+    if len(run.time) < MIN_SAMPLES or not np.abs(run.acceleration).max() >= MIN_ACCELERATION:
         return
     columns = (
         ("steering_wheel_angle", "rad", run.steering),

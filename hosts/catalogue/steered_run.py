@@ -1,4 +1,4 @@
-"""A run in which the car approaches a speed, and is then steered by a table."""
+"""Runs in which the car approaches a speed, and is then steered by a table."""
 
 import math
 from collections.abc import Mapping
@@ -21,11 +21,12 @@ _SPEED_TOLERANCE = 0.1  # m/s
 _LATE_SPEED_TOLERANCE = 0.5  # m/s, after 60 % of the time of the approach
 _COAST_FROM = 0.7  # m/s above the speed of the steering
 _INTERVAL = 0.005  # s
-_LEAST_SHARE = 0.97  # of a requested angle
+_MIN_FRACTION = 0.97  # of a requested angle
+_ROUND_OFF = 1e-9
 
 
 class Pedals(Enum):
-    """Pedals from the begin of the steering on."""
+    """Pedals since the start of the steering."""
 
     HOLD_SPEED = "speed is held"
     FIXED = "pedals are held"
@@ -35,9 +36,9 @@ class Pedals(Enum):
 class SteeredPilot:
     """A pilot that holds the speed until the car runs steadily, then steers by a table.
 
-    `speed`: at the begin of the steering, m/s; `time`, `angle`: table of the steering-wheel angle, s from the begin and
-    rad, shape (n,), linear in between; `longest`: longest time of the approach, s. `begin`: of the steering, s; NaN
-    before; `gave_up`: whether the approach took too long.
+    `speed`: speed at the start of the steering, m/s; `time`, `angle`: table of the steering-wheel angle, s from the
+    start and rad, shape (n,), linear in between; `max_approach`: longest time of the approach, s. `steering_start`:
+    start of the steering, s; NaN before it; `gave_up`: whether the approach took too long.
     """
 
     def __init__(
@@ -47,12 +48,12 @@ class SteeredPilot:
         time: NDArray[np.float64],
         angle: NDArray[np.float64],
         pedals: Pedals,
-        longest: float,
+        max_approach: float,
     ) -> None:
-        self.speed, self.pedals, self.longest = speed, pedals, longest
+        self.speed, self.pedals, self.max_approach = speed, pedals, max_approach
         self.input = SteeringInput.of(car.facts)
         self.time, self.values = time, angle * self.input.per_radian
-        self.begin = math.nan
+        self.steering_start = math.nan
         self.gave_up = False
         approach_speed = speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0)
         self._holder = SpeedHolder(approach_speed, brakes="brake" in car.facts.inputs)
@@ -62,20 +63,24 @@ class SteeredPilot:
         self._pedal_inputs: dict[str, float] = {}
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
-        if not math.isfinite(self.begin):
+        if not math.isfinite(self.steering_start):
             self._update_approach(time, observation["speed"])
-        if not self._coasting and (not math.isfinite(self.begin) or self.pedals is Pedals.HOLD_SPEED):
+        if not self._coasting and (not math.isfinite(self.steering_start) or self.pedals is Pedals.HOLD_SPEED):
             self._pedal_inputs = self._holder.act(time, observation)
-        angle = float(np.interp(time - self.begin, self.time, self.values)) if math.isfinite(self.begin) else 0.0
+        angle = (
+            float(np.interp(time - self.steering_start, self.time, self.values))
+            if math.isfinite(self.steering_start)
+            else 0.0
+        )
         return self._pedal_inputs | {self.input.name: angle}
 
     def _update_approach(self, time: float, speed: float) -> None:
         if self._coasting:
             if speed <= self.speed:
-                self.begin = time
+                self.steering_start = time
         else:
             # For a car with frequent gear changes the tolerance is larger after a while; standards allow 2 km/h.
-            tolerance = _SPEED_TOLERANCE if time < 0.6 * self.longest else _LATE_SPEED_TOLERANCE
+            tolerance = _SPEED_TOLERANCE if time < 0.6 * self.max_approach else _LATE_SPEED_TOLERANCE
             if abs(speed - self._approach_speed) > tolerance:
                 self._steady_since = time
             if time - self._steady_since >= 1.0:
@@ -83,39 +88,50 @@ class SteeredPilot:
                     self._coasting = True
                     self._pedal_inputs = dict.fromkeys(self._pedal_inputs, 0.0)
                 else:
-                    self.begin = time
-        self.gave_up = not math.isfinite(self.begin) and time > self.longest
+                    self.steering_start = time
+        self.gave_up = not math.isfinite(self.steering_start) and time > self.max_approach
 
     def ends(self, time: float, observation: Mapping[str, float]) -> bool:
         """Whether the run is over: the table has ended, the approach took too long, or the car has rolled over."""
-        return self.gave_up or time >= self.begin + self.time[-1] or abs(observation.get("chassis.roll", 0.0)) > ROLLED
+        return (
+            self.gave_up
+            or time >= self.steering_start + self.time[-1]
+            or abs(observation.get("chassis.roll", 0.0)) > ROLLED
+        )
 
 
 @dataclass(frozen=True)
 class SteeredRun:
-    """Signals of a steered run at equally spaced times; time 0 is the begin of the steering."""
+    """Signals of a steered run at equally spaced times; NaN if the car has no such output.
+
+    Arrays have shape (n,); time 0 is the start of the steering.
+    """
 
     result: Result
     """The record, with intervals of at least 5 ms."""
-    begin: float
-    """Begin of the steering in the time of `result`, s; NaN if the car did not reach its speed."""
+    steering_start: float
+    """Start of the steering in the time of `result`, s; NaN if the car did not reach its speed."""
     time: NDArray[np.float64]
-    """Shape (n,), s; from at most 1 s before the begin on. Empty if the steering did not begin."""
+    """s; starts at most 1 s before the steering. Empty if the steering did not begin."""
     steering: NDArray[np.float64]
+    """Steering-wheel angle, rad."""
     yaw_rate: NDArray[np.float64]
+    """rad/s."""
     acceleration: NDArray[np.float64]
+    """Lateral and horizontal, m/s²."""
     sideslip: NDArray[np.float64]
+    """Sideslip angle, rad."""
     roll: NDArray[np.float64]
+    """Roll angle, rad."""
     speed: NDArray[np.float64]
-    """`steering`, `yaw_rate`, `acceleration`, `sideslip`, `roll`, `speed`: in rad, rad/s, m/s², rad, rad, m/s, shape
-    (n,) each; NaN where the car has no such output. The acceleration is lateral and horizontal."""
+    """m/s."""
     whole: bool
     """Whether the table was driven to its end."""
 
     def shortfall(self, amplitude: float) -> str:
-        """A sentence if the steering wheel did not reach a requested angle, rad; else empty."""
+        """A sentence if the steering wheel did not reach a requested angle, rad; otherwise empty."""
         reached = float(np.abs(self.steering).max()) if len(self.steering) else math.nan
-        if not reached < _LEAST_SHARE * amplitude:
+        if not reached < _MIN_FRACTION * amplitude:
             return ""
         return (
             f"The steering wheel came to {math.degrees(reached):.3g}° where {math.degrees(amplitude):.3g}° were asked "
@@ -128,12 +144,14 @@ class SteeredRun:
         return float(self.time[1] - self.time[0])
 
     def thinned(self, interval: float = 0.02) -> Result:
-        """The record from 1 s before the begin of the steering on, with rows at least an interval, s, apart."""
-        r = self.result
-        step = float(r.time[1] - r.time[0]) if len(r.time) > 1 else interval
-        first = int(np.searchsorted(r.time, self.begin - 1.0 - 1e-9)) if math.isfinite(self.begin) else 0
-        rows = np.arange(first, len(r.time), max(1, math.floor(interval / step + 1e-9)))
-        return replace(r, time=r.time[rows], values=r.values[rows])
+        """The record since 1 s before the start of the steering, with rows at least an interval, s, apart."""
+        result = self.result
+        step = float(result.time[1] - result.time[0]) if len(result.time) > 1 else interval
+        first = 0
+        if math.isfinite(self.steering_start):
+            first = int(np.searchsorted(result.time, self.steering_start - 1.0 - _ROUND_OFF))
+        rows = np.arange(first, len(result.time), max(1, math.floor(interval / step + _ROUND_OFF)))
+        return replace(result, time=result.time[rows], values=result.values[rows])
 
 
 def steer(
@@ -147,17 +165,17 @@ def steer(
 ) -> SteeredRun:
     """Drive the car straight up to a speed, then steer it by a table.
 
-    `speed`: in m/s; `time`, `angle`: table, s from the begin of the steering and rad, shape (n,); `lateral_limit`:
+    `speed`: m/s; `time`, `angle`: table, s from the start of the steering and rad, shape (n,); `lateral_limit`:
     lateral acceleration at which the run ends, m/s².
     """
     start = start_at_speed(car, speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0))
-    longest_approach = 30.0 if start else 90.0
-    pilot = SteeredPilot(car, speed, time, angle, pedals, longest_approach)
+    max_approach = 30.0 if start else 90.0
+    pilot = SteeredPilot(car, speed, time, angle, pedals, max_approach)
     manoeuvre = Manoeuvre(
         name,
         np.zeros(1),
         dict.fromkeys([pilot.input.name, "throttle"], np.zeros(1)),
-        longest_approach + float(time[-1]) + 2.0 * car.facts.step,
+        max_approach + float(time[-1]) + 2.0 * car.facts.step,
         start,
     )
 
@@ -169,7 +187,7 @@ def steer(
 
 
 def level_acceleration(result: Result) -> NDArray[np.float64]:
-    """Horizontal lateral acceleration, m/s², shape (n,), from those along the y and z axes of the rolled body."""
+    """Horizontal lateral acceleration, m/s², shape (n,), from the accelerations along the body's y and z axes."""
     ay = result["chassis.ay"]
     if "chassis.roll" not in result or "chassis.az" not in result:
         return ay
@@ -179,12 +197,12 @@ def level_acceleration(result: Result) -> NDArray[np.float64]:
 
 def _steered_run(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
     empty = np.zeros(0)
-    if not math.isfinite(pilot.begin) or len(result.time) < 3 or result.time[-1] <= pilot.begin:
-        return SteeredRun(result, math.nan, empty, empty, empty, empty, empty, empty, empty, False)
+    if not math.isfinite(pilot.steering_start) or len(result.time) < 3 or result.time[-1] <= pilot.steering_start:
+        return SteeredRun(result, math.nan, *7 * (empty,), whole=False)
     row_interval = float(result.time[1] - result.time[0])
     interval = max(_INTERVAL, row_interval)
-    # The grid has a sample at the begin of the steering.
-    first = pilot.begin - interval * math.floor(min(1.0, pilot.begin) / interval)
+    # The grid has a sample at the start of the steering.
+    first = pilot.steering_start - interval * math.floor(min(1.0, pilot.steering_start) / interval)
     selected = result.time > first - 1.5 * row_interval
     time, missing = result.time[selected], np.full(len(result.time), math.nan)
     grid = resample(time, time, interval, first)[0]
@@ -197,14 +215,15 @@ def _steered_run(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun
     names = ("chassis.wz", "sideslip", "chassis.roll", "speed")
     yaw_rate, sideslip, roll, speed = (resampled(result.continuous(n) if n in result else missing) for n in names)
     return SteeredRun(
-        result,
-        pilot.begin,
-        grid - pilot.begin,
-        resampled(pilot.input.measured_angle(result, step)),
-        yaw_rate,
-        resampled(level_acceleration(result)),
-        sideslip,
-        roll,
-        speed,
-        not result.failed_steps and bool(result.time[-1] >= pilot.begin + pilot.time[-1] - 1.5 * row_interval),
+        result=result,
+        steering_start=pilot.steering_start,
+        time=grid - pilot.steering_start,
+        steering=resampled(pilot.input.measured_angle(result, step)),
+        yaw_rate=yaw_rate,
+        acceleration=resampled(level_acceleration(result)),
+        sideslip=sideslip,
+        roll=roll,
+        speed=speed,
+        whole=not result.failed_steps
+        and bool(result.time[-1] >= pilot.steering_start + pilot.time[-1] - 1.5 * row_interval),
     )

@@ -30,9 +30,9 @@ class SteeringInput:
     largest: float
     """Angle of the steering wheel at full lock, rad; infinite if unknown."""
     is_angle: bool = True
-    """Whether angles are in rad; else they are in units of the input."""
+    """Whether angles are in rad; otherwise they are in units of the input."""
     note: str = ""
-    """A sentence if angles are unknown; else empty."""
+    """A sentence if angles are unknown; otherwise empty."""
 
     @classmethod
     def of(cls, facts: CarFacts) -> SteeringInput:
@@ -56,7 +56,7 @@ class SteeringInput:
         return cls("steering", 1.0, 1.0, False, note)
 
     def measured_angle(self, result: Result, step: float) -> NDArray[np.float64]:
-        """Steering-wheel angle of a run, rad, shape (n,): the output of the car if it has one, else the demand.
+        """Steering-wheel angle of a run, rad, shape (n,): the output of the car if it has one, otherwise the demand.
 
         `step`: communication step of the run, s.
         """
@@ -70,7 +70,7 @@ class SteeringInput:
         return np.asarray(np.append(values[:1], values[1:] - offset * np.diff(values)))
 
     def why_no_angles(self, test: str) -> str | None:
-        """A sentence if a test cannot be done because it needs angles of the steering wheel; else None."""
+        """A sentence if a test cannot be done because it needs angles of the steering wheel; otherwise None."""
         if self.is_angle:
             return None
         return (

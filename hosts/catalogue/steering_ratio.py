@@ -23,7 +23,7 @@ def steering_ratio(car: TestedCar) -> float:
     """Ratio of the angle of the steering wheel and the mean angle of the front wheels; NaN if unknown.
 
     If the car reports the angles of its wheels, by a regression while the steering wheel turns to 30° to both sides at
-    3 m/s; else the constant of the car.
+    3 m/s; otherwise the constant of the car.
     """
     if any(name not in car.facts.outputs for name in WHEELS):
         return car.facts.constants.get(RATIO, math.nan)

@@ -36,7 +36,7 @@ class Task:
 def perform_task(task: Task, progress: Callable[[float], None]) -> Outcome:
     """Run the test of a task; an error becomes its outcome.
 
-    `progress`: called with the share that is done, 0 to 1, at most ten times a second.
+    `progress`: called with the fraction done, 0 to 1, at most ten times a second.
     """
     last = -1.0
 
@@ -65,7 +65,8 @@ def write_runs(task: Task, record: TestRecord) -> None:
     for name, result in record.runs.items():
         file = task.folder / run_file(task.test, task.car.label, name)
         write_csv(result, file)
-        settings = [{"name": variable, "new": value} for variable, value in task.car.fmu.theirs(result.start).items()]
+        fmu_values = task.car.fmu.fmu_values(result.start)
+        settings = [{"name": variable, "new": value} for variable, value in fmu_values.items()]
         view_record = {
             "fmu": str(task.car.path),
             "token": task.car.facts.token,

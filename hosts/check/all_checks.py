@@ -31,7 +31,7 @@ CHECKS: tuple[Check, ...] = tuple(
         key=lambda check: check.crash == "note",
     )
 )
-"""First those of process settings, which no later check can restore.
+"""Those of process settings come before all others with calls, as no later check can restore the settings.
 
 Last those with calls that FMI does not allow, because these may corrupt the memory of the FMU.
 """

@@ -10,14 +10,16 @@ from hosts.common.errors import HostError
 CHECK = "archive"
 
 
-def archive_findings(fmu: Path) -> list[Finding]:
-    """Faults of the archive of an FMU: bad where a standard forbids them, else notes; empty if it can be unpacked.
+def check_archive(fmu: Path) -> list[Finding]:
+    """Find what prevents an FMU from being unpacked: bad if a standard forbids it, otherwise a note.
 
-    Raises `HostError`: it is not a readable archive.
+    Raises `HostError` if the file is not a readable archive.
     """
     if not is_file(fmu):
         raise HostError(no_file(fmu))
     return [
-        Finding(CHECK, "bad" if fault.clause else "note", f"{fault.words}{f' ({fault.clause})' * bool(fault.clause)}")
+        Finding(CHECK, "bad", f"{fault.words} ({fault.clause})")
+        if fault.clause
+        else Finding(CHECK, "note", fault.words)
         for fault in faults_of(fmu, HostError, "an FMU")
     ]

@@ -10,9 +10,9 @@ from fmpy.fmi1 import FMICallException
 from hosts.check.instance import NOT_ALLOWED, Check, Finding, Instance, Subject, count_of
 from hosts.common.errors import HostError
 
-_SUBSTEP_SHARE = 0.05  # of the range of an output, by which runs with other steps may differ
+_SUBSTEP_TOLERANCE = 0.05  # of the range of an output, by which runs with other steps may differ
 _NEARLY_EQUAL = 1e-4  # of the largest value of an output: a usual tolerance of solvers
-_MOST_INSTANCES = 30
+_MAX_INSTANCES = 30
 _CREATION_TIME = 5.0  # s, in which they are made
 _ALTERED = "FMI speaks of states of the same FMU alone: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
 
@@ -233,8 +233,8 @@ def check_other_steps(subject: Subject) -> Finding:
     moving = [
         (a, b, max(c) - min(c)) for a, b, c in zip(last, reference[-1], zip(*reference, strict=True), strict=True)
     ]
-    near = sum(abs(a - b) <= _SUBSTEP_SHARE * span + 1e-9 for a, b, span in moving)
-    message = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_SHARE:g} % of their range"
+    near = sum(abs(a - b) <= _SUBSTEP_TOLERANCE * span + 1e-9 for a, b, span in moving)
+    message = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_TOLERANCE:g} % of their range"
     if not all(math.isfinite(v) for v in last):
         return Finding(
             "steps of any size", "bad", f"an output is not a number; {message} {subject.clause('4.2.2', '4.2.1')}"
@@ -250,7 +250,7 @@ def check_many_instances(subject: Subject) -> Finding:
     if subject.is_single:
         return Finding("many instances", "note", "one per process is allowed")
     instances, begin = list[Instance](), time.perf_counter()
-    while len(instances) < _MOST_INSTANCES and (len(instances) < 2 or time.perf_counter() - begin < _CREATION_TIME):
+    while len(instances) < _MAX_INSTANCES and (len(instances) < 2 or time.perf_counter() - begin < _CREATION_TIME):
         instances.append(Instance(subject).start())
     ends = [instance.run(3)[-1] for instance in instances]
     for instance in instances:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 _MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
 _NAME_WIDTH = 22
-_MOST_STEPS = 100_000
+_MAX_STEPS = 100_000
 _DEFAULT_STEPS = 50
 _THOROUGH_STEPS = 500
 _TIME_LIMIT = 20.0  # s for a check
@@ -53,7 +53,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> in
 
 def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(prog=prog, description=__doc__)
-    add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype")
+    add_fmu(parser, "?", "dist/PrototypeCar.fmu, otherwise prototype")
     parser.add_argument(
         "--steps",
         type=_step_count,
@@ -72,7 +72,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     )
     add_setting_options(parser)
     add_option(parser, "--confined")
-    table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, in place of the check")
+    table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, instead of the check")
     add_option(table, "--show-parameters")
     table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all of them to this file, as set")
     table.add_argument(
@@ -82,7 +82,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         help="print only where this set differs from the FMU and the given values",
     )
     reference = parser.add_argument_group(
-        "against a reference, in place of the check",
+        "against a reference, instead of the check",
         "Columns of the table that are inputs drive the FMU, straight between the rows; those that are outputs are "
         "compared. A result of 'ali3 run' is such a table.",
     )
@@ -100,7 +100,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "*=0.01; repeatable",
     )
     soak = parser.add_argument_group(
-        "random drives, in place of the check",
+        "random drives, instead of the check",
         "A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 km away, with jumps, sudden "
         "turns, roll-overs, resets and rewinds, all in one process. Every step is checked.",
     )
@@ -122,8 +122,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 def _step_count(text: str) -> int:
     steps = count(text)
-    if steps > _MOST_STEPS:
-        raise argparse.ArgumentTypeError(f"the number of steps is {text}; it must be from 1 to {_MOST_STEPS}")
+    if steps > _MAX_STEPS:
+        raise argparse.ArgumentTypeError(f"the number of steps is {text}; it must be from 1 to {_MAX_STEPS}")
     return steps
 
 
@@ -176,7 +176,7 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         if reference:
             return _compare_with_reference(fmu, options, cases)
         return _run_checks(fmu, options, cases)
-    except BaseException as error:  # including Ctrl-C: the checks made so far are no verdict
+    except BaseException as error:  # including Ctrl-C: the checks made so far are not a verdict
         if not any(case.verdict == "error" for case in cases):
             cases.append(Case(fmu.stem, "ali3 check", "error", str(error) or type(error).__name__))
         raise
@@ -210,12 +210,12 @@ def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> in
     """Run the checks in an isolated process; one that has ended is replaced for the next check."""
     from ali3.isolated_processes import Lost
     from hosts.check.all_checks import CHECKS, Checker, checks_left_out, finding_of_loss
-    from hosts.check.archive import archive_findings
+    from hosts.check.archive import check_archive
     from hosts.check.instance import Finding
     from hosts.experiment.pool import Pool
     from hosts.fmu.own_process import files_of
 
-    if faults := archive_findings(fmu):
+    if faults := check_archive(fmu):
         for finding in faults:
             print_finding(finding)
             cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))
@@ -224,8 +224,8 @@ def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> in
     if set_options := fmu_options(options):
         settings = _read_settings(fmu, set_options)
         start = settings.start
-        for name, message in settings.rows():
-            print(f" set  {name:<{_NAME_WIDTH}}  {message}", flush=True)
+        for name, text in settings.rows():
+            print(f" set  {name:<{_NAME_WIDTH}}  {text}", flush=True)
     limit = _TIME_LIMIT if options.time_limit is None else options.time_limit
     if not limit > 0.0:
         raise HostError(f"--time-limit is {limit:g} s; it must be positive.")

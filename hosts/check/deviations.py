@@ -17,9 +17,10 @@ from hosts.driving.result import Result
 
 BOUND = 0.01
 """Largest error of a signal over its size, unless another is given."""
-# Least size of a nearly constant signal: shares of its largest value, which a table rounds, and of its nominal value.
-_SHARE_OF_VALUE = 1e-3
-_SHARE_OF_NOMINAL = 1e-4
+# Least size of a nearly constant signal: fractions of its largest value, which a table rounds, and of its nominal
+# value.
+_FRACTION_OF_VALUE = 1e-3
+_FRACTION_OF_NOMINAL = 1e-4
 _OTHER_SIGN = "with the other sign"
 
 
@@ -39,7 +40,7 @@ class Deviation:
     """Size of the signal: the largest of that range, a thousandth of its largest value and a ten-thousandth of the
     nominal value; at most one turn for an angle compared without whole turns."""
     bound: float
-    """Largest share of the size that is allowed."""
+    """Largest allowed error, relative to the size."""
 
     @property
     def share(self) -> float:
@@ -53,7 +54,7 @@ class Deviation:
 
     @property
     def texts(self) -> tuple[str, str, str, str, str]:
-        """Error, time, range, share of the range and bound as texts."""
+        """Error, time, range, error relative to the range and bound as texts."""
         size = number_in(self.range, self.unit, ".3g") + (
             f", taken as {self.size:.3g}" if self.size != self.range else ""
         )
@@ -121,7 +122,7 @@ def _deviation(
     name: str, result: Result, reference: NDArray[np.float64], rows: NDArray[np.int64], nominal: float, bound: float
 ) -> Deviation:
     span, unit = float(np.ptp(reference)), result.units[name]
-    size = max(span, _SHARE_OF_VALUE * float(np.abs(reference).max()), _SHARE_OF_NOMINAL * nominal)
+    size = max(span, _FRACTION_OF_VALUE * float(np.abs(reference).max()), _FRACTION_OF_NOMINAL * nominal)
 
     def deviation(difference: NDArray[np.float64], size: float) -> Deviation:
         error = np.where(np.isnan(difference), math.inf, np.abs(difference))
@@ -145,7 +146,7 @@ def remedies(
 ) -> list[str]:
     """Sentences on how signals beyond their bounds would agree: in another unit, with another sign, time or start.
 
-    `result`, `times`, `columns`: as of `deviations`; `bad`: its results beyond their bounds.
+    `result`, `times`, `columns`: see `deviations`; `bad`: its results beyond their bounds.
     """
     table_rows, rows = compared_rows(result, times)
     references = {d.name: columns[d.name][table_rows] for d in bad}
@@ -157,7 +158,7 @@ def remedies(
     for d in bad:
         by_unit = [(1.0 / m.factor, m.words) for m in misread(d.unit)]
         by_factor = [(1.0 / m.factor, "another unit") for m in misread("")]
-        candidates = [(f, f"{f:.4g} times as large: {message}?") for f, message in (*by_unit, *by_factor)] + [
+        candidates = [(f, f"{f:.4g} times as large: {words}?") for f, words in (*by_unit, *by_factor)] + [
             (-1.0, _OTHER_SIGN)
         ]
         fits = [
@@ -182,6 +183,6 @@ def remedies(
     off_at_start = [d.name for d in remaining if not agrees(d, result[d.name][rows[:1]], references[d.name][:1])]
     if off_at_start:
         lines.append(
-            f"off from the first row on: {some_of(off_at_start)}; does the FMU start as the reference did? (--set)"
+            f"off since the first row: {some_of(off_at_start)}; does the FMU start as the reference did? (--set)"
         )
     return lines

@@ -46,9 +46,9 @@ class Check:
     calls: bool = True
     """Whether it calls functions of the FMU."""
     crash: Literal["note", "bad"] = "bad"
-    """Verdict if its process crashes: a note where the check makes calls that the standard does not allow."""
+    """Verdict if its process crashes: a note if the check makes calls that the standard does not allow."""
     late: Literal["note", "bad"] = "bad"
-    """Verdict if it takes too long: a note where the standard allows that."""
+    """Verdict if it takes too long: a note if the standard allows that."""
     clause: str = ""
     """Clause of FMI, where `crash` or `late` is a note."""
 
@@ -58,8 +58,9 @@ class Subject:
     """The FMU under check."""
 
     path: Path
+    """File of the FMU."""
     folder: Path
-    """`path`, `folder`: the file, and the folder into which it is unpacked."""
+    """Folder into which the FMU is unpacked."""
     description: ModelDescription
     by_elements: ModelDescription
     """The description with elements of arrays as variables of their own."""
@@ -142,10 +143,10 @@ def start_and_change(v: ScalarVariable) -> tuple[float, float]:
     return start, 0.5 * (high - start) or start - low
 
 
-def value_in_range(v: ScalarVariable, share: float) -> float:
-    """A value in the range of an input: its start plus a share of the change of `start_and_change`."""
+def value_in_range(v: ScalarVariable, fraction: float) -> float:
+    """A value in the range of an input: its start plus a fraction of the change of `start_and_change`."""
     start, change = start_and_change(v)
-    return start + share * change
+    return start + fraction * change
 
 
 def near_start(v: ScalarVariable) -> float:
@@ -213,7 +214,7 @@ class Instance(instance.Instance):
             return False
 
     def end(self) -> None:
-        """Terminate the simulation where the FMU has not ended it."""
+        """Terminate the simulation if the FMU has not ended it."""
         if not self.ended:
             self.slave.terminate()
 
@@ -248,7 +249,7 @@ class Instance(instance.Instance):
         self.set({self.subject.scalars[variable.name]: value})
 
     def run(self, steps: int, begin: int = 0, origin: float = 0.0) -> list[list[float]]:
-        """Outputs after each of `steps` steps from number `begin` on, up to an end that the FMU asks for.
+        """Outputs after each of `steps` steps from number `begin`, up to an end that the FMU asks for.
 
         `origin`: start time, s.
         """

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 from ali3.files import atomic_file
 
-_LONGEST_TEXT = 10_000  # characters
+_MAX_TEXT_LENGTH = 10_000  # characters
 _FORBIDDEN = re.compile(r"[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -33,7 +33,7 @@ class Case:
 def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
     """Write the cases as one test suite. `file`: whole or not at all; its folder is made.
 
-    Raises `FileError`: the file cannot be written.
+    Raises `FileError` if the file cannot be written.
     """
     counts = {
         "tests": len(cases),
@@ -59,5 +59,5 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
 
 
 def _text(message: str) -> str:
-    """A message cut to the longest text, with ? in place of characters that XML does not allow."""
-    return _FORBIDDEN.sub("?", message[:_LONGEST_TEXT])
+    """A message cut to the longest text, with ? instead of characters that XML does not allow."""
+    return _FORBIDDEN.sub("?", message[:_MAX_TEXT_LENGTH])

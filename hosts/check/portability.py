@@ -135,7 +135,7 @@ def check_short_step(subject: Subject) -> Finding:
     if status != _OK:
         message = f"half the default step is answered with status {status}, which FMI leaves to the FMU"
         return Finding("quiet steps", "note", f"{message} {subject.clause('2.1.3', '2.2.4')}")
-    return Finding("quiet steps", "good", "half the default step is no warning")
+    return Finding("quiet steps", "good", "half the default step causes no warning")
 
 
 def check_careless_calls(subject: Subject) -> Finding:
@@ -189,7 +189,7 @@ def check_resource_path(subject: Subject) -> Finding:
     except NotInstantiatedError:
         message = f"it is not instantiated with resources in a folder named '{folder.name}'; decode their location"
         return Finding("resource paths", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("resource paths", "good", "blanks and letters that are no ASCII are taken")
+    return Finding("resource paths", "good", "spaces and non-ASCII letters are accepted")
 
 
 def check_uri_scheme(subject: Subject) -> Finding:

@@ -12,93 +12,105 @@ from hosts.check.instance import Check, Finding, Instance, Subject
 from hosts.check.process_state import LINUX, files_around
 
 _STATUS = Path("/proc/self/status")
-_CLAUSES = ("2.1", "2.2.1")
+_CLAUSES = ("2.1", "2.2.1")  # of FMI 2.0 and of FMI 3.0
 
 
-def _float_control() -> tuple[int, int]:
-    """Control bits of the processor for floating point, x87 and SSE; (0, 0) where they cannot be read."""
-    if not (LINUX and os.uname().machine == "x86_64"):
+def _float_control() -> object:
+    """Control bits of the processor for floating point, x87 and SSE; (0, 0) if they cannot be read."""
+    if os.uname().machine != "x86_64":
         return 0, 0
+    # fenv_t of glibc: x87 control word at byte 0, MXCSR at byte 28, whose lowest six bits are exception flags
     environment = (ctypes.c_uint8 * 32)()
     ctypes.CDLL("libm.so.6").fegetenv(environment)
     x87, sse = (int.from_bytes(bytes(environment[k : k + 4]), "little") for k in (0, 28))
     return x87 & 0xFFFF, sse & 0xFFC0
 
 
-def _signals() -> dict[str, str]:
-    text = _STATUS.read_text() if LINUX else ""
-    return dict(re.findall(r"^(SigBlk|SigIgn|SigCgt):\s*(\w+)", text, re.MULTILINE))
+def _signals() -> object:
+    """Blocked, ignored and caught signals as hexadecimal masks."""
+    return dict(re.findall(r"^(SigBlk|SigIgn|SigCgt):\s*(\w+)", _STATUS.read_text(), re.MULTILINE))
 
 
-def _umask() -> int:
+def _umask() -> object:
+    """Mask of the permissions of new files."""
     mask = os.umask(0o022)
     os.umask(mask)
     return mask
 
 
-def _c_locale() -> str:
-    return str(locale.setlocale(locale.LC_ALL))
+def _c_locale() -> object:
+    """Locale of all categories of the C library."""
+    return locale.setlocale(locale.LC_ALL)
 
 
-def _environment() -> dict[str, str]:
+def _environment() -> object:
     """Environment variables as the C library has them."""
-    if not LINUX:
-        return {}
-    results, entries, k = {}, ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ"), 0
+    variables = {}
+    entries = ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ")
+    k = 0
     while entries[k]:
         name, _, value = entries[k].partition(b"=")
-        results[name.decode(errors="replace")] = value.decode(errors="replace")
+        variables[name.decode(errors="replace")] = value.decode(errors="replace")
         k += 1
-    return results
+    return variables
 
 
 def _timers() -> object:
+    """Which interval timers run."""
     kinds = ("ITIMER_REAL", "ITIMER_VIRTUAL", "ITIMER_PROF")
-    return {name: signal.getitimer(getattr(signal, name))[0] > 0.0 for name in kinds} if LINUX else {}
+    return {name: signal.getitimer(getattr(signal, name))[0] > 0.0 for name in kinds}
 
 
 def _scheduling() -> object:
-    if not LINUX:
-        return {}
+    """Allowed processors, policy and priority."""
     policy, priority = os.sched_getscheduler(0), os.getpriority(os.PRIO_PROCESS, 0)
     return {"processors": sorted(os.sched_getaffinity(0)), "policy": policy, "priority": priority}
 
 
 def _limits() -> object:
-    text = Path("/proc/self/limits").read_text() if LINUX else ""
+    """Soft and hard limits of resources with their units, as text."""
+    text = Path("/proc/self/limits").read_text()
     return {line[:26].strip(): " ".join(line[26:].split()) for line in text.splitlines()[1:]}
 
 
+def _file_identity(descriptor: int) -> object:
+    """Device and inode of an open file, or ``closed``."""
+    try:
+        stat = os.fstat(descriptor)
+    except OSError:
+        return "closed"
+    return stat.st_dev, stat.st_ino
+
+
 def _streams() -> object:
-    def file(descriptor: int) -> object:
-        try:
-            stat = os.fstat(descriptor)
-        except OSError:
-            return "closed"
-        return stat.st_dev, stat.st_ino
-
-    return {name: file(k) for k, name in enumerate(("stdin", "stdout", "stderr"))}
+    """Files of the standard streams."""
+    return {name: _file_identity(k) for k, name in enumerate(("stdin", "stdout", "stderr"))}
 
 
-_SETTINGS: dict[str, tuple[Callable[[], object], str]] = {
+_LINUX_SETTINGS: dict[str, tuple[Callable[[], object], str]] = {
     "floating-point control": (_float_control, "restore rounding, flush to zero and traps before a function returns"),
-    "the folder of the process": (os.getcwd, "use whole paths in place of chdir"),
     "signals": (_signals, "leave handlers, SIG_IGN and masks to the host"),
-    "the umask": (_umask, "give modes to open"),
-    "the locale": (_c_locale, "use uselocale of the thread and restore it"),
-    "the environment": (_environment, "keep values in the instance"),
-    "timers": (_timers, "leave them to the host"),
+    "environment": (_environment, "keep values in the instance"),
+    "timers": (_timers, "leave timers to the host"),
     "scheduling": (_scheduling, "leave processors and priorities to the host"),
     "limits": (_limits, "leave limits of the process to the host"),
+}
+_SETTINGS = {
+    **(_LINUX_SETTINGS if LINUX else {}),
+    "working directory": (os.getcwd, "use absolute paths instead of chdir"),
+    "umask": (_umask, "pass the mode to open"),
+    "locale": (_c_locale, "use uselocale of the thread and restore it"),
     "streams": (_streams, "leave the standard streams open"),
 }
+"""Function that reads a setting, and remedy, by the name of the setting."""
 
 
 def check_settings(subject: Subject) -> Finding:
-    """Whether settings of the process are unchanged after each kind of call."""
+    """Check that each kind of call leaves the settings of the process unchanged."""
     subject.files_before = files_around(subject)
-    folder = Path.cwd()
-    interrupt = signal.signal(signal.SIGINT, signal.default_int_handler)  # as in a host that Ctrl-C stops
+    working_directory = Path.cwd()
+    # A host in Python handles SIGINT like this.
+    previous_handler = signal.signal(signal.SIGINT, signal.default_int_handler)
     streams = [os.dup(k) for k in range(3)]
     try:
         return _find_change(subject)
@@ -106,11 +118,12 @@ def check_settings(subject: Subject) -> Finding:
         for k, stream in enumerate(streams):
             os.dup2(stream, k)
             os.close(stream)
-        signal.signal(signal.SIGINT, interrupt)
-        os.chdir(folder)
+        signal.signal(signal.SIGINT, previous_handler)
+        os.chdir(working_directory)
 
 
 def _find_change(subject: Subject) -> Finding:
+    """The finding after the first call that changes a setting, or after all calls."""
     before = {name: read() for name, (read, _) in _SETTINGS.items()}
     instance = Instance(subject)
     calls: list[tuple[str, Callable[[], object]]] = [
@@ -118,8 +131,8 @@ def _find_change(subject: Subject) -> Finding:
         ("initialisation", instance.start),
         ("a step", lambda: instance.run(3)),
         ("a read", lambda: instance.get(subject.outputs)),
-        ("the end", instance.end),
-        ("fmiFreeInstance", instance.free),
+        ("termination", instance.end),
+        ("freeing the instance", instance.free),
     ]
     for label, call in calls:
         call()
@@ -127,7 +140,7 @@ def _find_change(subject: Subject) -> Finding:
             if (now := read()) != before[name]:
                 message = f"{name} changed from {_change_text(before[name], now)} by {label}; {remedy}"
                 return Finding("process settings", "bad", f"{message} {subject.clause(*_CLAUSES)}")
-    return Finding("process settings", "good", f"left alone: {', '.join(_SETTINGS)}")
+    return Finding("process settings", "good", f"unchanged: {', '.join(_SETTINGS)}")
 
 
 def _change_text(before: object, now: object) -> str:
@@ -141,4 +154,3 @@ def _change_text(before: object, now: object) -> str:
 
 
 SETTING_CHECKS = (Check("process settings", check_settings),)
-"""To be run before all others: no later check can restore the settings."""

@@ -23,7 +23,7 @@ _LEAK = 8_000  # bytes per step
 _PER_INSTANCE = 30_000  # bytes per instance
 _INSTANCES = 20
 _REST = 0.3  # s, between calls
-_LONGEST_REST = 3.0  # s, between calls
+_MAX_REST = 3.0  # s, between calls
 _IDLE = 0.03  # s, largest processor time between calls
 _SLOW = 10.0  # largest wall time over the step
 LINUX = sys.platform == "linux"
@@ -31,7 +31,7 @@ _FORMAT = re.compile(r"%(?!%)[-+ #0-9.*hlLqjzt]*([a-zA-Z])")
 
 
 def _memory() -> int:
-    """Resident memory, bytes; 0 where it is not known."""
+    """Resident memory, bytes; 0 if it is not known."""
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") if LINUX else 0
 
 
@@ -147,9 +147,7 @@ def check_time_of_steps(subject: Subject) -> Finding:
             break
         times.append(time.perf_counter() - begin)
     busy, rest, begin = 0.0, 0.0, time.process_time()
-    while rest < _LONGEST_REST and (
-        rest == 0.0 or 0.1 * _IDLE < busy < _IDLE
-    ):  # a busy thread may wait for the processor
+    while rest < _MAX_REST and (rest == 0.0 or 0.1 * _IDLE < busy < _IDLE):  # a busy thread may wait for the processor
         time.sleep(_REST)
         busy, rest = time.process_time() - begin, rest + _REST
     clause = subject.clause("4.2.2", "4.2.1")
@@ -166,7 +164,7 @@ def check_time_of_steps(subject: Subject) -> Finding:
 
 
 @contextmanager
-def _captured() -> Iterator[list[bytes]]:
+def _capture_output() -> Iterator[list[bytes]]:
     """A context that collects what is written to standard output and standard error in a list."""
     results: list[bytes] = []
     descriptors = [os.dup(k) for k in (1, 2)]
@@ -202,7 +200,7 @@ def files_around(subject: Subject) -> dict[str, tuple[int, int]]:
 def check_files_and_prints(subject: Subject) -> Finding:
     """Whether a run prints nothing and writes no files."""
     before = files_around(subject) if subject.files_before is None else subject.files_before
-    with _captured() as printed:
+    with _capture_output() as printed:
         instance = Instance(subject).start()
         instance.run(min(subject.steps, 10))
         instance.end()
@@ -237,7 +235,7 @@ def check_messages(subject: Subject) -> Finding:
         letters = set(_FORMAT.findall(text))
         if "n" in letters or (subject.is_fmi3 and letters & set("sn")):
             message = (
-                f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
+                f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is not a format"
             )
             verdict: Literal["note", "bad"] = "note" if subject.is_fmi3 else "bad"
             return Finding("messages", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")

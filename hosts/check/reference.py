@@ -35,7 +35,7 @@ from hosts.fmu.variables import default_step
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 OUT = Path("out", "reference")
-_MOST_PRINTED = 10
+_MAX_PRINTED = 10
 _DIAGNOSTICS = "solver."
 _ROUND_OFF = 1e-4  # of a communication step, between the time of a row and a communication point
 
@@ -47,10 +47,10 @@ class ReferenceOptions:
     """Options for the runs that are compared with references."""
 
     manoeuvre: str | None
-    """Name or file of a manoeuvre that drives the FMU in place of columns of the table."""
+    """Name or file of a manoeuvre that drives the FMU instead of columns of the table."""
     step: float | None
-    """Communication step, s; None: that of the record beside a table, else of the FMU, shortened such that rows are
-    communication points."""
+    """Communication step, s; None: that of the record beside a table, otherwise of the FMU, shortened such that rows
+    are communication points."""
     fidelity: float | None
     fmu_options: FmuOptions
     """Parameters and start values."""
@@ -97,7 +97,7 @@ def check_references(
     tables : Path
         A table with a column time, or a folder of tables. Columns that are inputs or tunable parameters of the FMU
         drive it, see `hosts.driving.manoeuvre_table.read_table`; those that are outputs are compared, `solver.*` only
-        where a bound names them.
+        if a bound names them.
     cases : list of Case
         Receives the run and the signals of each table, also before an error.
     bounds : sequence of (str, float)
@@ -120,8 +120,8 @@ def check_references(
     ------
     HostError
         There is no table, or a bound names no output of a table. Of errors of single tables the first is raised after
-        all are done: a table has no output of the FMU, its times are no communication points, or the FMU does not start
-        with its values.
+        all are done: a table has no output of the FMU, its times are not communication points, or the FMU does not
+        start with its values.
     """
     files = sorted(tables.glob("*.csv")) if tables.is_dir() else [tables]
     if not files:
@@ -237,7 +237,7 @@ def _compare(
     nominals = {n: abs(float(fmu.variables[n].nominal or 1.0)) for n in columns}
     deviation_list = deviations(nominals, result, times, columns, bounds)
     lines = [f"{name}  {words}" for name, words in reference.settings.rows()]
-    lines += _table_lines(deviation_list[:_MOST_PRINTED])
+    lines += _table_lines(deviation_list[:_MAX_PRINTED])
     bad = [d for d in deviation_list if not d.good]
     lines += remedies(result, times, columns, bad)
     if constant_inputs := [

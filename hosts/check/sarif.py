@@ -23,7 +23,7 @@ _KINDS = {
 def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
     """Write the cases as one run with a rule for each check and a result for each case.
 
-    `file`: whole or not at all; its folder is made. Raises `FileError`: the file cannot be written.
+    `file`: whole or not at all; its folder is made. Raises `FileError` if the file cannot be written.
     """
     names = list(dict.fromkeys(case.name for case in cases))
     driver = {

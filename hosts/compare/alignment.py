@@ -14,43 +14,43 @@ from scipy import signal as sp
 from scipy.optimize import least_squares
 
 from hosts.compare.correlated_residuals import covariance
-from hosts.compare.cross_validation import FEWEST_PARTS, Parts, jackknife, parts_of
+from hosts.compare.cross_validation import MIN_PARTS, Parts, jackknife, parts_of
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant
 from hosts.compare.noise import measured_noise
 from hosts.measures.signal import Signal
 
-_LEAST_CORRELATION = 0.5
+_MIN_CORRELATION = 0.5
 _AMBIGUOUS = 0.01
-_MOST_POINTS = 20_000
-_LARGEST_DRIFT = 0.05
-_LEAST_EXPLAINED = 0.25  # share of the squared residuals; a drift that explains less is an error of the model
+_MAX_POINTS = 20_000
+_MAX_DRIFT = 0.05
+_MIN_EXPLAINED_FRACTION = 0.25  # of the squared residuals; a drift that explains less is an error of the model
 _NOISE_FACTOR = 1.2  # on the squared noise, which is an estimate
-_MODEL_FACTOR = 2.0  # on the residual of the model, of which another share may look like a delay
+_MODEL_FACTOR = 2.0  # on the residual of the model, of which another part may look like a delay
 
 
 @dataclass(frozen=True)
 class Alignment:
     """Delay and drift of a measured signal."""
 
-    delay: float
-    delay_error: float
-    """`delay`, `delay_error`: s, and half of its 95 % interval; time t of the simulation is time delay + (1 + drift) t
-    of the log. NaN where it cannot be determined."""
-    drift: float
-    drift_error: float
-    """`drift`, `drift_error`: relative rate error of the log's clock of this signal, and half of its 95 % interval;
-    positive: the clock runs fast."""
-    correlation: float
+    delay: float = math.nan
+    """s; time t of the simulation is time delay + (1 + drift) t of the log. NaN if it cannot be determined."""
+    delay_error: float = math.nan
+    """Half of the 95 % interval of `delay`, s."""
+    drift: float = math.nan
+    """Relative rate error of the log's clock of this signal; positive: the clock runs fast."""
+    drift_error: float = math.nan
+    """Half of the 95 % interval of `drift`."""
+    correlation: float = math.nan
     note: str = ""
     explained: float = 0.0
-    """Share of the squared residuals without a drift that the drift explains."""
+    """Fraction of the squared residuals without a drift that the drift explains."""
 
     @property
     def has_drift(self) -> bool:
         """Whether the drift exceeds twice its error, explains enough and is below the limit of the search."""
-        certain = 2.0 * self.drift_error < abs(self.drift) < 0.99 * _LARGEST_DRIFT
-        return certain and self.explained >= _LEAST_EXPLAINED
+        certain = 2.0 * self.drift_error < abs(self.drift) < 0.99 * _MAX_DRIFT
+        return certain and self.explained >= _MIN_EXPLAINED_FRACTION
 
 
 def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = True) -> Alignment:
@@ -61,13 +61,13 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     """
     pairs = [(s, c) for s, c in pairs if not is_constant(s.values) and not is_constant(c(s.time))]
     if not pairs:
-        return Alignment(*5 * (math.nan,), "no signal moves in both")
+        return Alignment(note="no signal moves in both")
     first_delay, peak, other_delay, is_flat = _coarse_delay(pairs, longest)
-    if peak < _LEAST_CORRELATION:
-        return Alignment(*4 * (math.nan,), peak, f"the best correlation is {peak:.2f}: no delay can be determined")
+    if peak < _MIN_CORRELATION:
+        return Alignment(correlation=peak, note=f"the best correlation is {peak:.2f}: no delay can be determined")
     if is_flat:
         message = f"signals correlate by {peak:.3f}, and nearly as well with any delay that so short a log can have"
-        return Alignment(*4 * (math.nan,), peak, message)
+        return Alignment(correlation=peak, note=message)
     fine = _least_squares_alignment(pairs, first_delay, drift)
     if drift and not fine.has_drift:  # a drift that is not significant biases the delay
         constant = _least_squares_alignment(pairs, first_delay, False)
@@ -75,7 +75,7 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     note = f"a delay of {other_delay:.3g} s fits nearly as well" if other_delay is not None else ""
     if abs(fine.delay) > longest:
         message = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
-        return Alignment(*4 * (math.nan,), fine.correlation, message)
+        return Alignment(correlation=fine.correlation, note=message)
     return replace(fine, note=note)
 
 
@@ -86,7 +86,7 @@ def _coarse_delay(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tupl
     a log that is shorter than the range of the search do so.
     """
     begin, end = min(s.time[0] for s, _ in pairs), max(s.time[-1] for s, _ in pairs)
-    interval = max(min(s.interval for s, _ in pairs), (end - begin) / _MOST_POINTS)
+    interval = max(min(s.interval for s, _ in pairs), (end - begin) / _MAX_POINTS)
     lags = np.zeros(0)
     total: NDArray[np.float64] = np.zeros(0)
     for measured, curve in pairs:
@@ -130,7 +130,7 @@ def _cross_correlation(
 
 
 def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> Alignment:
-    """Delay, and drift where it is estimated, by least squares from a first delay, s."""
+    """Delay, and drift if it is estimated, by least squares from a first delay, s."""
     pairs = [(_overlapping_samples(s, c, delay), c) for s, c in pairs]
     spreads = [float(np.std(s.values)) for s, _ in pairs]
 
@@ -147,7 +147,7 @@ def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float
     length = max(s.time[-1] for s, _ in pairs)
     size = [interval, interval / length][: 1 + drift]
     start = [delay, 0.0][: 1 + drift]
-    limit = _LARGEST_DRIFT
+    limit = _MAX_DRIFT
     bounds = ([-np.inf, -limit][: 1 + drift], [np.inf, limit][: 1 + drift])
     solution = least_squares(residual, start, x_scale=size, bounds=bounds, jac=_central_differences(residual, size))
     rows, first = [], 0
@@ -158,7 +158,7 @@ def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float
     errors = 1.96 * np.sqrt(np.diag(covariance(jacobian, solution.fun, rows, [s.time for s, _ in pairs])[0]))
     for parts in _omitted_parts([s for s, _ in pairs]):
         errors = np.maximum(errors, jackknife(jacobian, solution.fun, parts))
-    # Residuals beyond the noise are an error of the model, of which another share of that size may look like a delay.
+    # Residuals beyond the noise are an error of the model, of which another part of that size may look like a delay.
     noise_sums = [
         len(s.time) * (measured_noise(s.values) / d) ** 2 for s, d in zip((s for s, _ in pairs), spreads, strict=True)
     ]
@@ -182,9 +182,9 @@ def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float
 
 
 def _omitted_parts(signals: Sequence[Signal]) -> list[Parts]:
-    """Parts that are left out in turn: tenths of the log, and each signal where there are enough of them."""
+    """Parts that are left out in turn: tenths of the log, and each signal if there are enough of them."""
     results = [parts_of({str(k): s for k, s in enumerate(signals)}, ())]
-    if len(signals) >= FEWEST_PARTS:
+    if len(signals) >= MIN_PARTS:
         number = np.repeat(np.arange(len(signals)), [len(s.time) for s in signals])
         results.append(Parts(number, np.arange(len(signals), dtype=float), 1.0))
     return results

@@ -36,7 +36,7 @@ def parser_of(prog: str = "ali3 compare") -> Parser:
         "--ignore", type=_names, default=[], metavar="NAME,...", help="inputs of the log that are not used"
     )
     parser.add_argument(
-        "--hold-speed", action="store_true", help="a driver holds the measured speed in place of the measured pedals"
+        "--hold-speed", action="store_true", help="a driver holds the measured speed instead of the measured pedals"
     )
     add_option(parser, "--from", dest="begin")
     add_option(parser, "--to", dest="end")

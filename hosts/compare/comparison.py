@@ -1,4 +1,4 @@
-"""The signals of a log beside those of a simulation: deviations, rating and delay of each, and their common delay."""
+"""The signals of a log beside simulated ones: deviations, rating and delay of each, and their common delay."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -30,7 +30,7 @@ class Comparison:
 
     signals: dict[str, ComparedSignal]
     common: Alignment
-    """Common delay and drift of the signals that determine a delay each; of all signals where none does."""
+    """Common delay and drift of the signals that determine a delay each; of all signals if none does."""
 
 
 def compare(

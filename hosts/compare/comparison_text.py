@@ -13,7 +13,7 @@ _ROW_KEYS = {"nrms": "normalised", "corr.": "correlation"}
 
 
 def signal_rows(comparison: Comparison, none: str) -> list[dict[str, str]]:
-    """Numbers of each signal as text by the headings of tables. `none`: text in place of a missing number."""
+    """Numbers of each signal as text by the headings of tables. `none`: text for a missing number."""
 
     def number(value: float, spec: str) -> str:
         return format(value, spec) if math.isfinite(value) else none
@@ -49,7 +49,7 @@ def common_notes(comparison: Comparison) -> list[str]:
 
 
 def delay_sentence(comparison: Comparison) -> str:
-    """Common delay of the log and its significant drift; empty where no delay is known."""
+    """Common delay of the log and its significant drift; empty if no delay is known."""
     c = comparison.common
     if not math.isfinite(c.delay):
         return ""
@@ -64,7 +64,7 @@ def delay_sentence(comparison: Comparison) -> str:
 
 
 def _differing_delays(comparison: Comparison) -> str:
-    """A sentence on signals whose delay differs from the common one beyond their intervals; empty where none does."""
+    """A sentence on signals whose delay differs from the common one beyond their intervals; empty if none does."""
     c, others = comparison.common, dict[str, float]()
     for name, s in comparison.signals.items():
         difference = abs(s.alignment.delay - c.delay)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import matmul_toeplitz, solve_toeplitz
 
-_MOST_LAGS = 4000
+_MAX_LAGS = 4000
 
 
 def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -38,7 +38,7 @@ def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
             best, a = criterion, trial
     order = len(a)
     covariances[: order + 1] = sample[: order + 1]
-    for k in range(order + 1, min(n, _MOST_LAGS) if order else 0):
+    for k in range(order + 1, min(n, _MAX_LAGS) if order else 0):
         covariances[k] = a @ covariances[k - order : k][::-1]
     return covariances
 
@@ -56,13 +56,11 @@ def effective_samples(residual: NDArray[np.float64]) -> float:
 def variance_inflation(times: Sequence[NDArray[np.float64]], influences: Sequence[NDArray[np.float64]]) -> float:
     """Factor by which residuals that correlate between signals raise the variance of a parameter; 1 if independent.
 
-    `times`: of each signal, equally spaced, s, shape (n,); `influences`: change of the parameter by each residual of
-    the signal, shape (n,).
+    `times`: equally spaced times of each signal, s, shape (n,); `influences`: change of the parameter by each residual
+    of the signal, shape (n,).
 
-    Notes
-    -----
-    Square of the sum of all signals over the sum of their squares, each summed over time: 1 on average for independent
-    signals, the number of signals for equal ones.
+    Notes ----- Square of the sum of all signals divided by the sum of their squares, each summed over time: 1 on
+    average for independent signals, the number of signals for equal ones.
     """
     interval = max(float(np.median(np.diff(t))) for t in times)
     begin = min(t[0] for t in times) - 0.5 * interval
@@ -81,7 +79,7 @@ def covariance(
     blocks: Sequence[slice],
     times: Sequence[NDArray[np.float64]],
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Covariance of parameters: that of independent signals, times the `variance_inflation` of each parameter.
+    """Covariance of parameters: covariance for independent signals, times the `variance_inflation` of each parameter.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ from hosts.measures.signal import Signal
 
 Array = NDArray[np.float64]
 _PARTS_OF_RUN = 10
-FEWEST_PARTS = 4
+MIN_PARTS = 4
 """Smallest number of independent parts for a cross-validation."""
 FOLDS = 4
 
@@ -29,7 +29,7 @@ class Parts:
     number: NDArray[np.intp]
     """Shape (n,): number of the part in which each residual lies."""
     begins: Array
-    """Shape (k,): begin of each part in the log, s."""
+    """Shape (k,): start of each part in the log, s."""
     length: float
     """Length of a part, s."""
 

@@ -15,7 +15,7 @@ from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect
 
 _DELIMITERS = (";", "\t", ",", "|")
-_MOST_LINES = 60  # that are read: loggers write their settings first
+_MAX_LINES = 60  # that are read: loggers write their settings first
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _MISSING = ("", "nan", "na", "n/a", "null", "-", "#n/a", "--", "inf", "-inf")
 _DATE = re.compile(r"(\d{4}-\d\d-\d\d[T ]|\d\d?([./])\d\d?\2\d{4} ).*")  # other orders are refused later
@@ -33,7 +33,7 @@ class DetectedDialect:
     decimal: str
     encoding: str
     names: list[str]
-    """Names of the columns without units; empty where a column has none."""
+    """Names of the columns without units; empty if a column has none."""
     units: dict[str, str]
     """Units as written, by name."""
     first_row: int
@@ -43,7 +43,7 @@ class DetectedDialect:
 def detect_dialect(path: Path, stated: Dialect) -> DetectedDialect:
     """Detect the dialect of a file from its first lines, as far as it is not stated.
 
-    Raises `HostError`: the file holds no table, or does not have the stated dialect.
+    Raises `HostError` if the file holds no table, or does not have the stated dialect.
     """
     lines, encoding = _first_lines(path, stated.encoding)
     if not any(line.strip() for line in lines):
@@ -60,14 +60,14 @@ def detect_dialect(path: Path, stated: Dialect) -> DetectedDialect:
         )
     heading, unit_line = _heading_lines(path, lines, delimiter, first, width, stated)
     names, units = [], {}
-    for k, cell in enumerate(_cells(_uncommented(lines[heading]), delimiter)):
+    for k, cell in enumerate(_cells(_strip_comment(lines[heading]), delimiter)):
         match = _NAME_AND_UNIT.fullmatch(cell)
         name = match["name"] if match else cell
         names.append(name)
         if match:
             units[name] = match["unit"]
         elif unit_line is not None:
-            cells = _cells(_uncommented(lines[unit_line]), delimiter)
+            cells = _cells(_strip_comment(lines[unit_line]), delimiter)
             units[name] = cells[k] if k < len(cells) else ""
     duplicate = next((n for k, n in enumerate(names) if n and n in names[:k]), None)
     if duplicate is not None:
@@ -77,7 +77,7 @@ def detect_dialect(path: Path, stated: Dialect) -> DetectedDialect:
 
 
 def unit_message(cell: str) -> str:
-    """The end of a sentence on a cell that holds a number with its unit; empty for other cells."""
+    """The message on a cell that holds a number with its unit, without its subject; empty for other cells."""
     match = _WITH_UNIT.fullmatch(cell.strip())
     if match is None or known_unit(match["unit"]) is None:
         return ""
@@ -88,7 +88,7 @@ def unit_message(cell: str) -> str:
 
 
 def _refuse_units_in_cells(path: Path, lines: Sequence[str], stated: Dialect) -> None:
-    """Raises `HostError` where a line would be a row of numbers without the units in its cells."""
+    """Raises `HostError` if a line would be a row of numbers without the units in its cells."""
     for line, delimiter in ((k, d) for k in range(len(lines)) for d in (stated.delimiter, *_DELIMITERS) if d):
         cells = [cell.strip() for cell in lines[line].split(delimiter)]
         messages = [message for cell in cells if (message := unit_message(cell))]
@@ -106,7 +106,7 @@ def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
     for name in (encoding,) if encoding else ("utf-8-sig", "latin-1"):
         try:
             text = content[: content.rfind(b"\n") + 1 or None].decode(name)
-            return text.splitlines()[:_MOST_LINES], name
+            return text.splitlines()[:_MAX_LINES], name
         except (LookupError, ValueError):  # an unknown encoding, or not that of the file
             continue
     raise HostError(f"The log {path} is not written in {encoding}; [file] encoding of the alias file is wrong.")
@@ -128,7 +128,7 @@ def _is_value(cell: str) -> bool:
 
 
 def _first_row(lines: Sequence[str], delimiter: str) -> tuple[int, int, float]:
-    """Index of the first row of values, its number of columns and its share of values; 0 columns: there is none."""
+    """Index of the first row of values, its number of columns and its fraction of values; 0 columns: there is none."""
     for k, line in enumerate(lines):
         try:
             cells = cells_of(line, delimiter)
@@ -156,16 +156,18 @@ def _heading_lines(
         if stated.units is None and below < first and len(_cells(lines[below], delimiter)) == width:
             units = below
         return stated.heading - 1, units
-    fitting = [k for k in range(first) if k != units and _is_heading(_cells(_uncommented(lines[k]), delimiter), width)]
-    headings = [k for k in fitting if lines[k] == _uncommented(lines[k])] or fitting
+    fitting = [
+        k for k in range(first) if k != units and _is_heading(_cells(_strip_comment(lines[k]), delimiter), width)
+    ]
+    headings = [k for k in fitting if lines[k] == _strip_comment(lines[k])] or fitting
     # A comment may hold the names, or the units.
-    headings += [k for k in fitting if k not in headings and _has_units(_cells(_uncommented(lines[k]), delimiter))]
+    headings += [k for k in fitting if k not in headings and _has_units(_cells(_strip_comment(lines[k]), delimiter))]
     if not headings:
         raise HostError(
             f"The log {path} has no line of {width} names before its values in line {first + 1}; "
             f"[file] heading of the alias file can name it."
         )
-    # The line of names comes first, that of units second.
+    # The line of names comes first, the line of units second.
     return headings[0], headings[1] if stated.units is None and len(headings) > 1 else units
 
 
@@ -178,7 +180,7 @@ def _has_units(cells: Sequence[str]) -> bool:
     return all(known_unit(cell) is not None for cell in cells)
 
 
-def _uncommented(line: str) -> str:
+def _strip_comment(line: str) -> str:
     """A line without the mark of a comment."""
     return line.lstrip(" #") if line.lstrip().startswith("#") else line
 

@@ -64,7 +64,7 @@ class Curve:
 
 
 class _RunCurve:
-    """A signal of one run as a cubic spline, linear where it has fewer than four points."""
+    """A signal of one run as a cubic spline, linear if it has fewer than four points."""
 
     def __init__(self, time: NDArray[np.float64], values: NDArray[np.float64]) -> None:
         self.begin, self.end = float(time[0]), float(time[-1])
@@ -83,7 +83,7 @@ class _RunCurve:
 class SensedCurve(Curve):
     """A simulated signal as a sensor yields it: bias + gain * simulated((t - delay) / (1 + drift)).
 
-    `delay`: in s; `bias`: in the unit of the signal.
+    `delay`: s; `bias`: bias in the unit of the signal.
     """
 
     def __init__(

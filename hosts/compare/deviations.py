@@ -16,21 +16,23 @@ class Deviations:
     rms: float
     """Root of the mean square."""
     normalised: float
-    """`rms` over the standard deviation of the measured signal: 0 if equal, 1 for the mean of the measured signal. NaN
-    where the measured signal is constant."""
+    """`rms` divided by the standard deviation of the measured signal: 0 if equal, 1 for the mean of the measured
+    signal. NaN if the measured signal is constant."""
     mean: float
+    """Mean deviation, in the unit of the signal."""
     largest: float
+    """Largest deviation with its sign, in the unit of the signal."""
     time_of_largest: float
-    """`mean`, `largest`, `time_of_largest`: in the unit of the signal, `largest` with its sign; time in s."""
+    """Time of the largest deviation, s."""
     correlation: float
-    """Pearson's coefficient; NaN where one of both is constant."""
+    """Pearson's coefficient; NaN if one of both is constant."""
     samples: int
     note: str = ""
-    """Why a number is NaN, else empty."""
+    """Why a number is NaN, otherwise empty."""
 
 
 def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> Deviations:
-    """Deviations of a signal. `time`, `measured`, `simulated`: in s and the unit of the signal, shape (n,)."""
+    """Deviations of a signal. `time`: s; `measured`, `simulated`: values in the unit of the signal, shape (n,)."""
     t, y, x = (np.asarray(a, float) for a in (time, measured, simulated))
     error = x - y
     k = int(np.argmax(np.abs(error)))

@@ -12,7 +12,7 @@ from hosts.compare.comparison_text import common_notes, table
 from hosts.compare.curve import Curve
 from hosts.compare.fit_text import fit_notes, fit_problems, fit_table
 from hosts.compare.input_mistakes import inverted_input, inverted_signals, misread_speed
-from hosts.compare.log_times import FEWEST_SAMPLES
+from hosts.compare.log_times import MIN_SAMPLES
 from hosts.compare.plausibility import scale_mistake
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
@@ -20,7 +20,7 @@ from hosts.compare.task import Task, prepare
 from hosts.compare.windows import held_speed_text, window_text, windows
 from hosts.measures.log_plausibility import consistent
 
-_LEAST_FOR_PROCESSES = 60.0  # s of all windows: shorter drives end before other processes have started
+_MIN_TIME_FOR_PROCESSES = 60.0  # s of all windows: shorter drives end before other processes have started
 
 
 def perform(options: argparse.Namespace) -> int:
@@ -35,13 +35,11 @@ def perform(options: argparse.Namespace) -> int:
         request = fitting.fit_request(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    is_long = sum(s.length for s in task.segments) > _LEAST_FOR_PROCESSES
+    is_long = sum(segment.length for segment in task.segments) > _MIN_TIME_FOR_PROCESSES
     jobs = (available_cores() if is_long else 1) if options.jobs is None else options.jobs
     with Replay(task.fmu, task.segments, task.step, jobs) as replay:
         before, problems = _compare_unfitted(options, task, replay)
-        print(table(before))
-        if task.windowed:
-            print(window_text(windows(before, task.segments)))
+        _print_comparison(before, task)
         for line in [*common_notes(before), *problems]:
             print(line, flush=True)
         fit, after = None, None
@@ -56,13 +54,11 @@ def perform(options: argparse.Namespace) -> int:
                 _write_files(options, task, Outcome(before, None, None, task.notes, problems), paths)
                 raise
     notes = task.notes + [
-        f"In {n} of {replay.runs} runs the FMU reported: {text}" for text, n in replay.messages.items()
+        f"In {count} of {replay.runs} runs the FMU reported: {text}" for text, count in replay.messages.items()
     ]
     if request is not None and fit is not None and after is not None:
         print("with the fitted parameters" + (" and sensors:" if request.nuisances else ":"))
-        print(table(after))
-        if task.windowed:
-            print(window_text(windows(after, task.segments)))
+        _print_comparison(after, task)
         print(fit_table(fit))
         problems, new_notes = problems + fit_problems(fit), fit_notes(fit)
         notes += new_notes
@@ -70,6 +66,12 @@ def perform(options: argparse.Namespace) -> int:
             print(line)
     _write_files(options, task, Outcome(before, after, fit, notes, problems), paths)
     return 1 if problems else 0
+
+
+def _print_comparison(comparison: Comparison, task: Task) -> None:
+    print(table(comparison))
+    if task.windowed:
+        print(window_text(windows(comparison, task.segments)))
 
 
 def _write_files(options: argparse.Namespace, task: Task, outcome: Outcome, paths: dict[str, Path]) -> None:
@@ -90,14 +92,15 @@ def _check_options(options: argparse.Namespace, task: Task) -> None:
 def _compare_unfitted(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Comparison, list[str]]:
     """The comparison with the given parameters, and problems, a sentence each; notes are added to the task."""
     result = replay.run()
-    problems, first = [], len(task.notes)
+    problems: list[str] = []
+    first_note = len(task.notes)
     if result.refusal:
         end = task.segments[0].length
         problems.append(f"{sentence_of(result.refusal)} Of {end:.4g} s only what lies before is compared.")
     if message := result.not_finite():
         problems.append(message)
     finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}
-    outputs = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= FEWEST_SAMPLES}
+    outputs = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= MIN_SAMPLES}
     if not outputs:
         if problems:
             raise FailedFmuError(f"{' '.join(problems)} There is nothing to compare.")
@@ -106,7 +109,7 @@ def _compare_unfitted(options: argparse.Namespace, task: Task, replay: Replay) -
         if name not in outputs:
             problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")
     task.notes.extend(held_speed_text(result, task.segments))
-    for note in task.notes[first:]:
+    for note in task.notes[first_note:]:
         print(f"note: {note}", flush=True)
     compared = compare(outputs, {n: Curve(result, n) for n in outputs}, options.longest_delay, options.skip)
     inverted = inverted_signals(compared)

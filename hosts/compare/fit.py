@@ -14,7 +14,7 @@ from hosts.common.display_units import number_in
 from hosts.common.errors import HostError
 from hosts.compare.correlated_residuals import covariance, effective_samples
 from hosts.compare.cross_validation import (
-    FEWEST_PARTS,
+    MIN_PARTS,
     Parts,
     clustered_covariance,
     fold_changes,
@@ -31,9 +31,9 @@ from hosts.measures.signal import Signal
 
 Jacobian = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
-_MOST_ROUNDS = 3  # searches, each with updated weights
+_MAX_ROUNDS = 3  # searches, each with updated weights
 _SETTLED = 0.02  # relative change of the weights
-_LEAST_NOISE = 0.01  # of a signal's standard deviation, for the first weights only
+_MIN_NOISE = 0.01  # of a signal's standard deviation, for the first weights only
 _NO_EFFECT = 1e-3  # of the noise, over the whole range of a parameter
 _CHANGE = 1e-5  # relative change of the sum of squares at which a search ends: less than 0.1 of an interval
 _STEP = 1e-6  # relative change of the unknowns at which a search ends
@@ -55,7 +55,7 @@ def fit(
     unknowns : sequence of Unknown
         Those of the FMU first.
     simulate : callable
-        Function of the parameters of the FMU by name; a sentence in place of a result where the FMU refuses them.
+        Function of the parameters of the FMU by name; a sentence instead of a result if the FMU refuses them.
     evaluations : int
         Largest number of evaluations of a search.
     starts : int
@@ -83,7 +83,7 @@ def fit(
         return simulate(values)
 
     noise = {n: measured_noise(s.values) for n, s in outputs.items()}
-    least_noise = {n: max(noise[n], _LEAST_NOISE * float(np.std(s.values)), 1e-12) for n, s in outputs.items()}
+    least_noise = {n: max(noise[n], _MIN_NOISE * float(np.std(s.values)), 1e-12) for n, s in outputs.items()}
     residuals = Residuals(outputs, unknowns, dict(least_noise), counted)
     bounds = (np.array([u.low for u in unknowns]), np.array([u.high for u in unknowns]))
     scale = np.array([u.scale for u in unknowns])
@@ -115,12 +115,12 @@ def fit(
             continue
         searches.append(Start(begin.tolist(), solutions[-1].x.tolist(), rms(solutions[-1].fun)))
     solution = min(solutions, key=lambda t: float(t.cost))
-    for _ in range(_MOST_ROUNDS - 1):
+    for _ in range(_MAX_ROUNDS - 1):
         if _update_weights(residuals, solution.fun):
             break
         solution = solve(solution.x, residuals.one_sided_jacobian, evaluations)
     converged = bool(solution.status > 0)
-    point = _refined(residuals, solution.x, bounds)
+    point = _refine(residuals, solution.x, bounds)
     _update_weights(residuals, residuals(point))
     r, jacobian, r_start = residuals(point), residuals.jacobian(point), residuals(start)  # with the last weights
     result = _evaluate_fit(
@@ -147,7 +147,7 @@ def _update_weights(residuals: Residuals, r: NDArray[np.float64]) -> bool:
     return all(abs(x - 1.0) < _SETTLED for x in factors.values())
 
 
-def _refined(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:
+def _refine(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:
     """The point after a Gauss-Newton step with central differences, if that lowers the sum of squares."""
     jacobian, r = residuals.jacobian(p), residuals(p)
     size = np.where((norms := np.linalg.norm(jacobian, axis=0)) > 0.0, norms, 1.0)
@@ -203,7 +203,7 @@ def _evaluate_fit(
     inside = [k for k, u in enumerate(unknowns) if not (undetermined[k] or _bound_reached(u, float(p[k])))]
     left_out, without = dict.fromkeys(residuals.outputs, math.nan), [math.nan] * len(p)
     by_fold: list[list[float]] = [[] for _ in p]
-    if parts is not None and parts.independent >= FEWEST_PARTS and inside:
+    if parts is not None and parts.independent >= MIN_PARTS and inside:
         columns = jacobian[:, inside]
         clustered = np.sqrt(np.diag(clustered_covariance(columns, r, parts)))
         half[inside] = np.maximum(half[inside], float(stats.t.ppf(0.975, parts.independent - 1.0)) * clustered)
@@ -249,7 +249,7 @@ def overlapping(
 ) -> dict[str, Signal]:
     """The samples of signals that overlap with the simulation at a delay near its first guess.
 
-    `end`: of the simulation, s; `skip`: time that is left out at the beginning, s; `delays`: first guesses, s.
+    `end`: end of the simulation, s; `skip`: time that is left out at the beginning, s; `delays`: first guesses, s.
     """
     results = {}
     for name, signal in outputs.items():

@@ -18,10 +18,10 @@ class FittedUnknown:
     half_width: float
     """Half the width of its 95 % confidence interval; infinite: the log does not determine it."""
     bound: str = ""
-    """``lower`` or ``upper``: it lies at this bound; else empty."""
+    """``lower`` or ``upper``: it lies at this bound; otherwise empty."""
     without: float = math.nan
-    """Residual on parts left out of the fit if the unknown keeps its start value, over that with the unknown fitted; to
-    first order."""
+    """Residual on parts left out of the fit if the unknown keeps its start value, divided by the residual with the
+    unknown fitted; to first order."""
     folds: list[float] = field(default_factory=list)
     """Values if one of four folds of the log is left out, to first order; empty if the log is too short."""
 
@@ -57,7 +57,7 @@ class Fit:
     misfit: dict[str, float]
     """Root mean square residual of each signal after the fit, in its unit."""
     computed_noise: float
-    """Noise of the FMU's outputs, over that of the signals."""
+    """Noise of the FMU's outputs, divided by the noise of the signals."""
     samples: int
     """Number of samples."""
     effective: float

@@ -33,8 +33,8 @@ def nuisances(
 ) -> list[Unknown]:
     """The unknowns of sensors and clocks.
 
-    `kinds`: of `NUISANCES`; `delays`: first guesses by signal, s; that of all signals under ""; `longest`: largest
-    delay, s. Raises `HostError`: a kind is unknown, or two of them exclude each other.
+    `kinds`: kinds in `NUISANCES`; `delays`: first guesses by signal, s; for all signals under ""; `longest`: largest
+    delay, s. Raises `HostError` if a kind is unknown, or two of them exclude each other.
     """
     for name in kinds:
         if name not in NUISANCES:

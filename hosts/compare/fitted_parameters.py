@@ -20,7 +20,7 @@ def fitted_parameters(
     """Parameters to be fitted.
 
     `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `set_values`: values that the user sets, at which the search begins. Raises
-    `HostError`: a name, kind or range is wrong.
+    `HostError` if a name, kind or range is wrong.
     """
     results: list[Unknown] = []
     for text in texts:
@@ -45,9 +45,9 @@ def fitted_parameters(
 
 
 def fit_step(step: float | None, variables: Mapping[str, Variable]) -> dict[str, Value]:
-    """The parameter that sets the inner step of the FMU while it is fitted; empty where none was asked for.
+    """The parameter that sets the inner step of the FMU while it is fitted; empty if none was asked for.
 
-    `step`: in s.
+    `step`: s.
     """
     if step is None:
         return {}

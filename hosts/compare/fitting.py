@@ -33,7 +33,7 @@ class FitRequest:
 
 
 def fit_request(options: argparse.Namespace, task: Task) -> FitRequest:
-    """The checked request of the options; adds a note where an initial speed is measured and not fitted."""
+    """The checked request of the options; adds a note if an initial speed is measured and not fitted."""
     nuisances(options.nuisance, task.outputs, {}, options.longest_delay)  # checks the names
     start = task.segments[0].manoeuvre.start  # as set, or as measured
     names = [t.partition("=")[0].strip() for t in options.fit]

@@ -31,9 +31,9 @@ def inverted_signals(compared: Comparison) -> dict[str, ComparedSignal]:
 
 
 def inverted_input(task: Task, compared: Comparison, inverted: dict[str, ComparedSignal]) -> str:
-    """A sentence on the input whose inversion gives all signals the sign of the simulation; else empty.
+    """A sentence on the input whose inversion gives all signals the sign of the simulation; otherwise empty.
 
-    Each input that can be inverted is tried in a run. `inverted`: of `inverted_signals`.
+    Each input that can be inverted is tried in a run. `inverted`: result of `inverted_signals`.
     """
     for name in task.invertible if inverted else ():
         signal = task.inputs[name]
@@ -51,14 +51,14 @@ def inverted_input(task: Task, compared: Comparison, inverted: dict[str, Compare
         if len(inverted) == 1:
             return f"Or the {label} has the opposite sign: with the other sign the signal has that of the simulation."
         return (
-            f"The {label} has the opposite sign: only with the other sign {_listed(list(inverted))} have the signs of "
-            "the simulation. factor = -1.0 in the alias file changes it."
+            f"The {label} has the opposite sign: only with the other sign {_name_list(list(inverted))} have the signs "
+            "of the simulation. factor = -1.0 in the alias file changes it."
         )
     return ""
 
 
 def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> str:
-    """A sentence on the unit of the measured speed with which all other signals correlate; else empty.
+    """A sentence on the unit of the measured speed with which all other signals correlate; otherwise empty.
 
     Units are tried where no other signal correlates. `right`: signals that agree with others of the log.
     """
@@ -107,5 +107,5 @@ def _with_inverted_input(segment: Segment, name: str) -> Segment:
     )
 
 
-def _listed(names: Sequence[str]) -> str:
+def _name_list(names: Sequence[str]) -> str:
     return ", ".join(names[:-1]) + f" and {names[-1]}"

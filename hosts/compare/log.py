@@ -1,4 +1,4 @@
-"""A log under our names, in the units of the FMU, with times in seconds."""
+"""A log under ALi3 names, in the units of the FMU, with times in seconds."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from hosts.common.numbers import Value
 from hosts.common.units import unit_definition, unit_of
 from hosts.compare.log_aliases import Column, LogAliases
 from hosts.compare.log_file import RawLog
-from hosts.compare.log_times import FEWEST_SAMPLES, TIMES, log_times, name_hint, time_column
+from hosts.compare.log_times import MIN_SAMPLES, TIMES, log_times, name_hint, time_column
 from hosts.compare.repeated_samples import rows_of_a_value
 from hosts.compare.spikes import spike_text, spikes
 from hosts.driving.missed_inputs import count_text
@@ -31,14 +31,15 @@ from hosts.measures.signal import Signal
 
 @dataclass(frozen=True)
 class Log(Summarised):
-    """Signals by our names."""
+    """Signals by ALi3 names."""
 
     inputs: dict[str, Signal]
+    """Signals that drive the FMU."""
     outputs: dict[str, Signal]
-    """`inputs`, `outputs`: signals that drive the FMU, and signals that are compared with it."""
+    """Signals that are compared with the FMU."""
     notes: list[str]
     held: frozenset[str] = frozenset()
-    """Inputs that keep the value of a row up to the next one, where the log is the result of ``ali3 run``."""
+    """Inputs that keep the value of a row up to the next one, if the log is the result of ``ali3 run``."""
     run_start: Mapping[str, Value] | None = None
     """Start values of that run, where its first row is the first of the log."""
 
@@ -53,7 +54,7 @@ def log_for(
     """The signals that a log and an FMU have in common; tunable parameters of the FMU count as inputs.
 
     `overridden`: parameters that are set or fitted, which the log does not drive; `noted`: outputs whose notes are
-    kept; empty: all. Raises `HostError`: a column is missing, is not a signal of the FMU, or its unit or clock is
+    kept; empty: all. Raises `HostError` if a column is missing, is not a signal of the FMU, or its unit or clock is
     wrong.
     """
     tunable = fmu.tunable
@@ -65,23 +66,23 @@ def log_for(
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
     signals: dict[str, Signal] = {}
     origin: float | None = None
-    for ours, column in columns.items():
+    for name, column in columns.items():
         clock = column.time or time_column(raw, aliases)
         if clock not in clocks:
             clocks[clock], origin = log_times(raw, aliases, clock, origin, notes)
-        column_notes = [] if noted and ours in outputs and ours not in noted else notes
-        signal = _without_repeated_times(_signal(fmu, raw, ours, column, *clocks[clock], column_notes), ours in inputs)
-        signals[ours] = _without_spikes(
-            fmu, signal if ours in inputs else _without_repeated_values(fmu, signal, column_notes), column_notes
+        column_notes = [] if noted and name in outputs and name not in noted else notes
+        signal = _without_repeated_times(_signal(fmu, raw, name, column, *clocks[clock], column_notes), name in inputs)
+        signals[name] = _without_spikes(
+            fmu, signal if name in inputs else _without_repeated_values(fmu, signal, column_notes), column_notes
         )
     if jumps := {n: s.jumps for n, s in signals.items() if len(s.jumps)}:
         counts = count_text(jumps, np.concatenate([*jumps.values()]))
         notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {counts}.")
     for name, signal in signals.items():
-        if len(signal.time) < FEWEST_SAMPLES:
+        if len(signal.time) < MIN_SAMPLES:
             raise HostError(
                 f"The log {raw.path} has {len(signal.time)} samples of '{signal.source}' ({name}); at least "
-                f"{FEWEST_SAMPLES} are needed."
+                f"{MIN_SAMPLES} are needed."
             )
     driven = {n: s for n, s in signals.items() if n in inputs}
     if parameters := [n for n in driven if n in tunable]:
@@ -101,22 +102,23 @@ def _columns(
     outputs: Collection[str],
 ) -> Mapping[str, Column]:
     present = [str(c) for c in raw.table.columns]
-    for ours, column in aliases.columns.items():
-        where = f"{aliases.file}: '{ours}'"
-        if ours not in inputs and ours not in outputs:
-            if ours in fmu.variables:
-                causality = fmu.variables[ours].causality
+    for name, column in aliases.columns.items():
+        where = f"{aliases.file}: '{name}'"
+        if name not in inputs and name not in outputs:
+            if name in fmu.variables:
+                causality = fmu.variables[name].causality
                 use = ": set it by --set, or find it by --fit" if causality == "parameter" else ""
                 raise HostError(
                     f"{where} is a {causality} of {fmu.path.name}, which a column of a log cannot be{use}; "
                     "a column can be an input, a tunable parameter or an output."
                 )
-            why = fmu.why_missing(ours)
-            hint = f": {why.rstrip('.')}" if why else name_hint(ours, [*inputs, *outputs])
+            why = fmu.why_missing(name)
+            hint = f": {why.rstrip('.')}" if why else name_hint(name, [*inputs, *outputs])
             raise HostError(f"{where} is not an input or output of {fmu.path.name}{hint}.")
-        for name in (column.name, column.time):
-            if name is not None and name not in present:
-                raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{name_hint(name, present)}.")
+        for column_name in (column.name, column.time):
+            if column_name is not None and column_name not in present:
+                hint = name_hint(column_name, present)
+                raise HostError(f"{where}: the log {raw.path.name} has no column '{column_name}'{hint}.")
     aliased = {c.name for c in aliases.columns.values()}
     by_name = {n: Column(name=n) for n in present if (n in inputs or n in outputs) and n not in aliased}
     columns = {**by_name, **aliases.columns}
@@ -133,15 +135,15 @@ def _columns(
 def _signal(
     fmu: NamedFmu,
     raw: RawLog,
-    ours: str,
+    name: str,
     column: Column,
     time: NDArray[np.float64],
     rows: NDArray[np.int64],
     notes: list[str],
 ) -> Signal:
     values = (raw.numbers(column.name)[rows] - column.offset) / column.factor
-    variable = fmu.variables[ours]
-    unit = variable.unit or unit_of(ours) or "1"
+    variable = fmu.variables[name]
+    unit = variable.unit or unit_of(name) or "1"
     given_unit = column.unit
     if given_unit is None:  # a heading may hold other words in brackets: only a known unit counts
         heading = raw.units.get(column.name, "").strip()
@@ -149,20 +151,20 @@ def _signal(
         if heading and given_unit is None:
             notes.append(
                 f"The log gives '{column.name}' the unit {brief(heading)}, which is not known: its "
-                f"numbers are taken in '{unit}', the unit of '{ours}'; the alias file can give another unit."
+                f"numbers are taken in '{unit}', the unit of '{name}'; the alias file can give another unit."
             )
     if given_unit is not None and given_unit != unit:
-        label = f"The column '{column.name}' of the log ({ours})"
+        label = f"The column '{column.name}' of the log ({name})"
         log_unit, fmu_unit = unit_definition(given_unit, label), known_unit(unit)
-        fmu_unit = fmu_unit or (fmu.table[ours].definition if ours in fmu.table else None)
+        fmu_unit = fmu_unit or (fmu.table[name].definition if name in fmu.table else None)
         if fmu_unit is None or fmu_unit.exponents != log_unit.exponents:
-            raise HostError(f"{label} is in '{given_unit}'; '{ours}' of {fmu.path.name} is in '{unit}'.")
+            raise HostError(f"{label} is in '{given_unit}'; '{name}' of {fmu.path.name} is in '{unit}'.")
         values = (log_unit.factor * values + log_unit.offset - fmu_unit.offset) / fmu_unit.factor
     finite = np.isfinite(values)
     t, values = time[finite], values[finite]
     if unit == "rad" and variable.causality == "output":  # an input may jump
         values = continuous(values)
-    return Signal(ours, column.name, unit, t, values)
+    return Signal(name, column.name, unit, t, values)
 
 
 def _without_repeated_times(signal: Signal, jumps: bool) -> Signal:

@@ -1,4 +1,4 @@
-"""The alias file of a log: the dialect of its table, its clock, and our names for its columns."""
+"""The alias file of a log: the dialect of its table, its clock, and ALi3 names for its columns."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Column(_Scaled):
 
     name: str = Field(title="the name of a column")
     unit: str | None = Field(default=None, title="a unit as text")
-    """None: the unit of the table's heading, else that of the FMU."""
+    """None: the unit of the table's heading, otherwise that of the FMU."""
     time: str | None = Field(default=None, title="the name of a column")
     """Column of times of this column; None: that of the table."""
 
@@ -83,11 +83,11 @@ class Dialect(_Table):
 
 
 class LogAliases(_Table):
-    """The content of the alias file of a log; without one the columns have our names."""
+    """The content of the alias file of a log; without one the columns have ALi3 names."""
 
     dialect: Dialect = Field(default=Dialect(), alias="file", title="a table")
     clock: Clock = Field(default=Clock(), alias="time", title="a table")
-    columns: dict[str, Column] = Field(default_factory=dict, alias="signals", title="columns of the log by our names")
+    columns: dict[str, Column] = Field(default_factory=dict, alias="signals", title="columns of the log by ALi3 names")
     _file: str = ""
 
     @property
@@ -99,7 +99,7 @@ class LogAliases(_Table):
 def read_log_aliases(file: Path) -> LogAliases:
     """Read the alias file of a log.
 
-    `file`: TOML with tables ``[file]``, ``[time]`` and ``[signals]``; in the last ``"our name" = "column"`` or ``"our
+    `file`: TOML with tables ``[file]``, ``[time]`` and ``[signals]``; in the last ``"ALi3 name" = "column"`` or ``"ALi3
     name" = { name = "column", unit = "deg/s", factor = -1.0, offset = 0.0, time = "column of times" }``. Raises
     `HostError` with the file, the key and what would be right.
     """
@@ -113,7 +113,7 @@ def read_log_aliases(file: Path) -> LogAliases:
 
 
 def refuse_log_aliases(file: Path) -> None:
-    """Raise `HostError` where the alias file of a log is given as that of an FMU."""
+    """Raise `HostError` if the alias file of a log is given as that of an FMU."""
     tables = {field.alias for field in LogAliases.model_fields.values()}
     if is_file(file) and (content := read_toml(file)) and set(content) <= tables:
         raise HostError(f"{file} is the alias file of a log; --log-aliases takes it, --aliases that of the FMU.")

@@ -35,7 +35,7 @@ class RawLog:
     table: pd.DataFrame
     """Columns by name."""
     units: dict[str, str]
-    """Units by name, where the file gives them."""
+    """Units by name, if the file gives them."""
     first_row: int
     """Number of lines of the file before the first row."""
     added: int = 0
@@ -59,7 +59,7 @@ class RawLog:
     def numbers(self, name: str) -> NDArray[np.float64]:
         """Values of a column, shape (n,), NaN where a cell is empty.
 
-        Raises `HostError`: a cell is not a number; with its line.
+        Raises `HostError`, with the line, if a cell is not a number.
         """
         column = self.table[name]
         numbers = pd.to_numeric(column, errors="coerce")
@@ -100,8 +100,8 @@ class RawLog:
 def read_log(path: Path, dialect: Dialect) -> RawLog:
     """Read a log.
 
-    `path`: a Parquet file by its suffix, else CSV; `dialect`: stated dialect of a CSV file. Raises `HostError`: it
-    cannot be read.
+    `path`: a Parquet file by its suffix, otherwise CSV; `dialect`: stated dialect of a CSV file. Raises `HostError` if
+    it cannot be read.
     """
     check_file(path, LARGEST, HostError, f"The log {path}")
     if path.suffix.lower() in _MDF:

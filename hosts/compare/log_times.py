@@ -16,15 +16,15 @@ from hosts.compare.csv_dialect import CLOCK_TIME, unit_message
 from hosts.compare.log_aliases import TIME_UNITS, LogAliases
 from hosts.compare.log_file import RawLog
 
-FEWEST_SAMPLES = 10
+MIN_SAMPLES = 10
 TIMES = ("time", "t", "timestamp", "zeit", "time_s", "seconds", "elapsed")
 _UNSORTED = 5.0  # usual intervals: largest decrease of times by rows in a wrong order
 _HOUR = 3600.0
-_SLOWEST = 0.5  # s: longest interval of a test drive, unless the user has named the unit
+_MAX_INTERVAL = 0.5  # s: longest interval of a test drive, unless the user has named the unit
 
 
 def time_column(raw: RawLog, aliases: LogAliases) -> str:
-    """The name of the column of times. Raises `HostError`: there is none."""
+    """The name of the column of times. Raises `HostError` if there is none."""
     present = [str(c) for c in raw.table.columns]
     name = aliases.clock.name
     if name is not None:
@@ -47,8 +47,9 @@ def log_times(
 ) -> tuple[tuple[NDArray[np.float64], NDArray[np.int64]], float]:
     """Times of a column, s, after the first time of the log, their rows, shape (n,) each, and that first time.
 
-    `name`: of the column; `origin`: first time of the log, s; None: that of this column; `notes`: are added to. Raises
-    `HostError`: times are too few, decrease or are not readable.
+    `name`: name of the column; `origin`: first time of the log, s; None: first time of this column; `notes`: list to
+    which notes are added. Raises
+    `HostError` if times are too few, decrease or are not readable.
     """
     clock = aliases.clock
     heading_unit = raw.units.get(name, "").strip()
@@ -60,9 +61,9 @@ def log_times(
     else:
         seconds = raw.numbers(name)
     rows = np.flatnonzero(np.isfinite(seconds))
-    if len(rows) < FEWEST_SAMPLES:
+    if len(rows) < MIN_SAMPLES:
         raise HostError(
-            f"The log {raw.path} has {len(rows)} times in the column '{name}'; at least {FEWEST_SAMPLES} are needed."
+            f"The log {raw.path} has {len(rows)} times in the column '{name}'; at least {MIN_SAMPLES} are needed."
         )
     # Seconds since 1970 leave few digits for milliseconds: the first time is subtracted before scaling.
     zero = scale * (float(seconds[rows[0]]) - clock.offset) / clock.factor
@@ -81,7 +82,7 @@ def log_times(
             "has the value of the last."
         )
     interval = float(np.median(intervals[intervals > 0.0])) if intervals.any() else 0.0
-    if clock.unit is None and unit == "s" and interval > _SLOWEST:
+    if clock.unit is None and unit == "s" and interval > _MAX_INTERVAL:
         raise HostError(
             f"The log {raw.path} has a sample every {interval:g} s in the column '{name}', if that is in seconds; for "
             f'other units the alias file says [time] unit = "ms" (or {", ".join(list(TIME_UNITS)[2:])}).'
@@ -91,7 +92,7 @@ def log_times(
 
 
 def _remedy(steps: NDArray[np.float64], k: int) -> str:
-    """The remedy for decreasing times as the end of a sentence. `k`: index of the first decrease."""
+    """The remedy for decreasing times, as a clause. `k`: index of the first decrease."""
     median, decrease = float(np.median(np.abs(steps))), -float(steps[k])
     if (steps <= 0.0).all():
         return "the last row stands first: turn the order of the rows round"
@@ -133,5 +134,5 @@ def _clock_times(raw: RawLog, name: str, texts: pd.Series[str]) -> NDArray[np.fl
 
 
 def name_hint(name: str, names: Collection[str]) -> str:
-    """The end of a sentence on a missing name: a similar name, or the names that there are."""
+    """The end of a message on a missing name: a similar name, or the existing names."""
     return did_you_mean(name, names, f"it has {some_of(names)}")

@@ -10,8 +10,8 @@ _POINTS = 5
 _ORDER = 4
 _NARROW = 1e-7  # of a range, over which residuals are linear except for noise
 _PROBE = 0.01
-_FINEST = 1e-5
-_WIDEST = 0.02
+_MIN_STEP = 1e-5
+_MAX_STEP = 0.02
 
 
 def measured_noise(values: NDArray[np.float64]) -> float:
@@ -19,9 +19,8 @@ def measured_noise(values: NDArray[np.float64]) -> float:
 
     `values`: shape (n,).
 
-    Notes
-    -----
-    From the median of third differences, which remove the smooth part; their variance is 20 times that of the noise.
+    Notes ----- From the median of third differences, which remove the smooth part; their variance is 20 times the
+    variance of the noise.
     """
     third = np.diff(values, 3)
     return float(np.median(np.abs(third)) / 0.6744897501960817 / np.sqrt(20.0))
@@ -50,7 +49,7 @@ def difference_steps(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Steps of central differences with about equal errors by noise and by truncation.
 
-    `p`: shape (p,); `noise`: of `computed_noise`.
+    `p`: shape (p,); `noise`: result of `computed_noise`.
 
     Returns
     -------
@@ -71,5 +70,5 @@ def difference_steps(
         q[k] += _PROBE * width if q[k] + _PROBE * width <= u.high else -_PROBE * width
         change = rms(residuals(q) - base) / _PROBE
         sensitivities.append(change)
-        steps.append(width * float(np.clip(np.cbrt(3.0 * noise / max(change, 1e-300)), _FINEST, _WIDEST)))
+        steps.append(width * float(np.clip(np.cbrt(3.0 * noise / max(change, 1e-300)), _MIN_STEP, _MAX_STEP)))
     return np.array(steps), np.array(sensitivities)

@@ -20,16 +20,16 @@ from hosts.measures.signal import Signal
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
 _MEASURED = "#8a8a8a"
-_MOST_SIGNALS = 12  # signals of a page
-_MOST_POINTS = 4000
+_MAX_SIGNALS = 12  # signals of a page
+_MAX_POINTS = 4000
 
 
 def comparison_figure(before: Comparison, after: Comparison | None, title: str, inputs: Mapping[str, Signal]) -> Figure:
     """The figure of a comparison: a row of two plots for each signal, and the inputs below.
 
-    `before`: with the parameters of the FMU; `after`: with fitted ones.
+    `before`: result with the parameters of the FMU; `after`: result with fitted ones.
     """
-    names = list(before.signals)[:_MOST_SIGNALS]
+    names = list(before.signals)[:_MAX_SIGNALS]
     rows = len(names) + bool(inputs)
     height = 0.5 + 2.1 * rows
     with plt.rc_context(_STYLE):
@@ -40,7 +40,7 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         shared_axis = None
         for k, name in enumerate(names):
             s = before.signals[name]
-            indices = thinned_indices(s.measured.time, s.measured.values, _MOST_POINTS)
+            indices = thinned_indices(s.measured.time, s.measured.values, _MAX_POINTS)
             unit, factor = shown_in(s.measured.unit, name)
             t, y = s.measured.time[indices], factor * s.measured.values[indices]
             signal_axes = figure.add_subplot(grid[k, 0], sharex=shared_axis)

@@ -13,7 +13,7 @@ from hosts.fmu.input_ranges import beyond_range
 from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.signal import Signal
 
-LONGEST_GAP = 0.2
+MAX_GAP = 0.2
 """Default of the longest gap between samples of an input that is bridged, s."""
 _GAP = 5.0  # median intervals
 _RATIO_TOLERANCE = 1.12
@@ -51,7 +51,7 @@ def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
     for name, signal in outputs.items():
         steps = np.diff(signal.time)
         k = int(np.argmax(steps))
-        if steps[k] > max(_GAP * signal.interval, LONGEST_GAP):
+        if steps[k] > max(_GAP * signal.interval, MAX_GAP):
             notes.append(
                 f"'{signal.source}' ({name}) has no samples from {signal.time[k]:.6g} s to {signal.time[k + 1]:.6g} s; "
                 "nothing is compared there."
@@ -59,9 +59,9 @@ def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
 
 
 def scale_mistake(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
-    """A sentence where a measured signal seems to have another unit or the opposite sign; else empty.
+    """A sentence if a measured signal seems to have another unit or the opposite sign; otherwise empty.
 
-    `delay`: of the signal, s.
+    `delay`: delay of the signal, s.
     """
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     deviation = deviations(signal.time, y, x)
@@ -77,16 +77,16 @@ def scale_mistake(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     ratio = float(np.std(y) / np.std(x))
     by_unit = [(m, f'it looks like {m.words}: unit = "{m.unit}" in the alias file.') for m in misread(signal.unit)]
     by_factor = [(m, "is it in another unit, or is a factor missing?") for m in misread("")]
-    for m, message in (*by_unit, *by_factor):
+    for m, text in (*by_unit, *by_factor):
         if m.usual and 1.0 / _RATIO_TOLERANCE < ratio * m.factor < _RATIO_TOLERANCE:
-            return f"{label} is {ratio:.4g} times as large as in the simulation: {message}"
+            return f"{label} is {ratio:.4g} times as large as in the simulation: {text}"
     return ""
 
 
 def inverted_correlation(signal: Signal, curve: Curve, delay: float = 0.0) -> float | None:
-    """The negative correlation of a measured signal with the opposite sign of the simulation; else None.
+    """The negative correlation of a measured signal with the opposite sign of the simulation; otherwise None.
 
-    `delay`: of the signal, s.
+    `delay`: delay of the signal, s.
     """
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     # An inverted wave also resembles one with a delay of half a period, but less. A speed that falls where the

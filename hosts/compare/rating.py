@@ -1,4 +1,4 @@
-"""A rating of two signals by corridor, phase, magnitude and slope, like that of ISO/TS 18571.
+"""A rating of two signals by corridor, phase, magnitude and slope, like the rating of ISO/TS 18571.
 
 The formulas are from public descriptions of ISO/TS 18571:2014 (Gehre, Gades, Wernicke: Objective rating of signals
 using test and simulation responses, ESV 2009; Zhan, Fu, Yang: Enhanced error assessment of response time histories,
@@ -13,16 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hosts.compare.deviations import is_constant
-from hosts.compare.time_warping import warped
+from hosts.compare.time_warping import warp
 
 POINTS = 1000
 _INNER = 0.05  # of the largest measured value
 _OUTER = 0.5  # of the largest measured value
 _CORRIDOR_POWER = 2.0
-_LONGEST_SHIFT = 0.2  # of the length
-_LARGEST_MAGNITUDE_ERROR = 0.5
+_MAX_SHIFT = 0.2  # of the length
+_MAX_MAGNITUDE_ERROR = 0.5
 _WARPING_WINDOW = 0.1
-_LARGEST_SLOPE_ERROR = 2.0
+_MAX_SLOPE_ERROR = 2.0
 _SMOOTHED_SAMPLES = 9
 _WEIGHTS = (0.4, 0.2, 0.2, 0.2)
 _GRADES = ((0.94, "excellent"), (0.80, "good"), (0.58, "fair"), (0.0, "poor"))
@@ -30,13 +30,13 @@ _GRADES = ((0.94, "excellent"), (0.80, "good"), (0.58, "fair"), (0.0, "poor"))
 
 @dataclass(frozen=True)
 class Rating:
-    """Scores between 0 and 1; NaN where the measured signal is constant."""
+    """Scores from 0 to 1; NaN if the measured signal is constant."""
 
-    corridor: float
-    phase: float
-    magnitude: float
-    slope: float
-    overall: float
+    corridor: float = math.nan
+    phase: float = math.nan
+    magnitude: float = math.nan
+    slope: float = math.nan
+    overall: float = math.nan
 
     @property
     def grade(self) -> str:
@@ -47,13 +47,13 @@ class Rating:
 def rating(measured: ArrayLike, simulated: ArrayLike) -> Rating:
     """Rate a simulated signal.
 
-    `measured`, `simulated`: at the same, equally spaced times, shape (n,); n at least 10.
+    `measured`, `simulated`: values at the same, equally spaced times, shape (n,); n at least 10.
     """
     y, x = np.asarray(measured, float), np.asarray(simulated, float)
     if is_constant(y):
-        return Rating(*5 * (math.nan,))
+        return Rating()
     shift = _best_shift(y, x)
-    corridor, phase = _corridor_score(y, x), max(0.0, 1.0 - abs(shift) / (_LONGEST_SHIFT * len(y)))
+    corridor, phase = _corridor_score(y, x), max(0.0, 1.0 - abs(shift) / (_MAX_SHIFT * len(y)))
     y_cut, x_cut = (y[: len(y) - shift], x[shift:]) if shift >= 0 else (y[-shift:], x[:shift])
     magnitude, slope = _magnitude_score(y_cut, x_cut), _slope_score(y_cut, x_cut)
     return Rating(corridor, phase, magnitude, slope, float(np.dot(_WEIGHTS, (corridor, phase, magnitude, slope))))
@@ -80,7 +80,7 @@ def _best_shift(y: NDArray[np.float64], x: NDArray[np.float64]) -> int:
         return 0
     highest, best_shift = float(np.corrcoef(y, x)[0, 1]), 0
     n = len(y)
-    for k in range(1, int(_LONGEST_SHIFT * n) + 1):
+    for k in range(1, int(_MAX_SHIFT * n) + 1):
         for shift, (a, b) in ((k, (y[: n - k], x[k:])), (-k, (y[k:], x[: n - k]))):
             spread = np.std(a) * np.std(b)
             value = float(np.mean((a - a.mean()) * (b - b.mean())) / spread) if spread > 0.0 else -1.0
@@ -90,17 +90,17 @@ def _best_shift(y: NDArray[np.float64], x: NDArray[np.float64]) -> int:
 
 
 def _magnitude_score(y: NDArray[np.float64], x: NDArray[np.float64]) -> float:
-    y_warped, x_warped = warped(y, x, _WARPING_WINDOW)
+    y_warped, x_warped = warp(y, x, _WARPING_WINDOW)
     size = float(np.sum(np.abs(y_warped)))
     error = float(np.sum(np.abs(x_warped - y_warped))) / size if size > 0.0 else math.inf
-    return max(0.0, 1.0 - error / _LARGEST_MAGNITUDE_ERROR)
+    return max(0.0, 1.0 - error / _MAX_MAGNITUDE_ERROR)
 
 
 def _slope_score(y: NDArray[np.float64], x: NDArray[np.float64]) -> float:
     y_slope, x_slope = _moving_average(np.gradient(y)), _moving_average(np.gradient(x))
     size = float(np.sum(np.abs(y_slope)))
     error = float(np.sum(np.abs(x_slope - y_slope))) / size if size > 0.0 else math.inf
-    return max(0.0, 1.0 - error / _LARGEST_SLOPE_ERROR)
+    return max(0.0, 1.0 - error / _MAX_SLOPE_ERROR)
 
 
 def _moving_average(values: NDArray[np.float64]) -> NDArray[np.float64]:

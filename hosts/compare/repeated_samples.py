@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-_FEWEST_CHANGES = 6
-_FEWEST_ROWS = 3
+_MIN_CHANGES = 6
+_MIN_ROWS = 3
 _JITTER = 0.2  # of the rows of a value
-_REGULAR_SHARE = 0.95  # of the changes
+_REGULAR_FRACTION = 0.95  # of the changes
 _EQUAL = 0.01  # relative difference of changes of equal size
 
 
@@ -21,11 +21,11 @@ def rows_of_a_value(values: NDArray[np.float64]) -> int:
     coarsely quantized signal, but at least half of its changes are of equal size.
     """
     changes = np.flatnonzero(np.diff(values)) + 1
-    if len(changes) < _FEWEST_CHANGES:
+    if len(changes) < _MIN_CHANGES:
         return 1
     spacings, sizes = np.diff(changes), np.abs(np.diff(values))[changes - 1]
     rows = int(np.median(spacings))
     off = np.abs(spacings - rows * np.maximum(np.round(spacings / rows), 1.0)) <= _JITTER * rows
     median = float(np.median(sizes))
     equal = np.abs(sizes - median) < _EQUAL * median
-    return rows if rows >= _FEWEST_ROWS and off.mean() >= _REGULAR_SHARE and equal.mean() < 0.5 else 1
+    return rows if rows >= _MIN_ROWS and off.mean() >= _REGULAR_FRACTION and equal.mean() < 0.5 else 1

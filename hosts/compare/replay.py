@@ -13,7 +13,7 @@ from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.compare.follower_demand import follower_demand
 from hosts.compare.segment_fmu import SegmentFmu, Task
-from hosts.compare.segments import Segment, joined
+from hosts.compare.segments import Segment, join_results
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.result import Result
 from hosts.experiment.experiment import Experiment, Progress
@@ -44,7 +44,7 @@ def replay_manoeuvre(
         Communication step, s.
     hold_inputs : bool
         Whether the FMU holds its inputs during a step. Each then has the measured value of the middle of the step, so
-        that there is no mean delay; else that of the beginning.
+        that there is no mean delay; otherwise that of the beginning.
     integers : collection of str
         Integer inputs, which keep the value of a sample up to the next.
     follower_frequencies : mapping of str to float, optional
@@ -62,7 +62,7 @@ def replay_manoeuvre(
     columns = {
         n: _held_values(s, time, is_before_jump, n in integers)
         if n in integers or n in held
-        else _interpolated(s, input_times, is_before_jump)
+        else _interpolate(s, input_times, is_before_jump)
         for n, s in inputs.items()
     }
     for n, frequency in (follower_frequencies or {}).items():
@@ -76,7 +76,7 @@ def _snapped_to_points(time: NDArray[np.float64], step: float) -> NDArray[np.flo
     return np.where(np.abs(time - points) < ON_TIME, points, time)
 
 
-def _interpolated(signal: Signal, time: NDArray[np.float64], is_before_jump: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _interpolate(signal: Signal, time: NDArray[np.float64], is_before_jump: NDArray[np.bool_]) -> NDArray[np.float64]:
     after = np.interp(time, signal.time, signal.values)
     # Interpolated backwards in time, a jump has its earlier value.
     return np.where(is_before_jump, np.interp(-time, -signal.time[::-1], signal.values[::-1]), after)
@@ -103,7 +103,7 @@ class Replay(Closable):
     segments : sequence of Segment
         Segments of the log, each with its own start values.
     jobs : int
-        Number of processes that share the segments; results do not depend on it.
+        Number of processes that run the segments; results do not depend on it.
 
     Attributes
     ----------
@@ -151,10 +151,10 @@ class Replay(Closable):
         self._progress = None
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive all segments. `values`: start values by our names, in place of those of the manoeuvres.
+        """Drive all segments. `values`: start values by ALi3 names that replace those of the manoeuvres.
 
-        Returns the result under our names; several segments are `joined`. Raises `FailedFmuError`: a process has ended;
-        `StartRefusedError`: the FMU refuses the start values.
+        Returns the result under ALi3 names; see `join_results` for several segments. Raises `FailedFmuError` if a
+        process has ended, `StartRefusedError` if the FMU refuses the start values.
         """
         tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.segments))]
         with Progress(self._experiment, 1.0) if self._progress is None else nullcontext(self._progress) as progress:
@@ -163,10 +163,11 @@ class Replay(Closable):
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):
             self.messages[message] = self.messages.get(message, 0) + 1
-        return results[0] if len(results) == 1 else joined(results, self.segments)
+        return results[0] if len(results) == 1 else join_results(results, self.segments)
 
     def check_reset(self) -> bool:
-        """Check by two drives of the first segment whether a reset reproduces a run; else each drive loads the FMU.
+        """Check by two drives of the first segment whether a reset reproduces a run; otherwise each drive loads the
+        FMU.
 
         Returns whether the FMU is reproducible to the last bit, by a reset or by loading it again.
         """

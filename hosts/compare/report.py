@@ -30,7 +30,7 @@ _FOOTER = (
     "the standard deviation of the measured signal. The rating is like ISO/TS 18571, by public descriptions of it, at "
     "no more than 1000 points; above 0.94 excellent, 0.80 good, 0.58 fair. Intervals are of 95 %; they take into "
     "account that neighbouring residuals are alike, and hold as far as the model can be right at all. Without it: how "
-    "much more is left of parts of the log that are left out in turn where the parameter keeps its start value."
+    "much more is left of parts of the log that are left out in turn if the parameter keeps its start value."
 )
 
 

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 _SECANT = (
     1e-3  # of a range: smaller differences follow gear shifts and kinks of stops, not the descent of the residuals
 )
-_REFUSED_RESIDUAL = 1e3  # where the FMU refuses a step: far above that of any fit
+_REFUSED_RESIDUAL = 1e3  # if the FMU refuses a step: far above the residual of any fit
 
 
 class RefusedError(HostError):
@@ -32,7 +32,7 @@ class RefusedError(HostError):
 
 @dataclass
 class Residuals:
-    """Simulated minus measured over the noise, of all signals in sequence; a function of the unknowns, shape (p,)."""
+    """Simulated minus measured, divided by the noise, all signals in sequence; a function of unknowns, shape (p,)."""
 
     outputs: Mapping[str, Signal]
     unknowns: Sequence[Unknown]
@@ -40,7 +40,7 @@ class Residuals:
     noise: dict[str, float]
     """By signal, in its unit."""
     simulate: Callable[[Mapping[str, float]], Result | str]
-    """Function of the parameters of the FMU; a sentence in place of a result where it refuses them."""
+    """Function of the parameters of the FMU; a sentence instead of a result if it refuses them."""
     steps: Array = field(default_factory=lambda: np.zeros(0))
     """Steps of central differences by the parameters of the FMU, shape (`count`,)."""
     _curve_cache: dict[tuple[float, ...], dict[str, Curve] | str] = field(default_factory=dict)
@@ -83,7 +83,7 @@ class Residuals:
         return default
 
     def jacobian(self, p: Array) -> Array:
-        """Derivatives of shape (n, p); central differences where both sides lie within the bounds."""
+        """Derivatives of shape (n, p); central differences if both sides lie within the bounds."""
         curves = self.accepted_curves(p)
         columns = [self._central_difference(p, k) for k in range(self.count)]
         columns += [self._sensor_derivative(p, k, curves) for k in range(self.count, len(self.unknowns))]
@@ -98,7 +98,7 @@ class Residuals:
         )
 
     def accepted_curves(self, p: Array) -> dict[str, Curve]:
-        """Simulated signals by name. Raises `RefusedError` where the FMU refuses the parameters."""
+        """Simulated signals by name. Raises `RefusedError` if the FMU refuses the parameters."""
         curves = self._curves(p)
         if isinstance(curves, str):
             labels = [

@@ -14,10 +14,10 @@ from hosts.measures.measure import Measure
 
 
 def write_signals(before: Comparison, after: Comparison | None, file: Path) -> None:
-    """Write the signals as CSV at all times of samples; a cell is empty where a signal has no sample.
+    """Write the signals as CSV at all times of samples; a cell is empty if a signal has no sample.
 
-    `after`: with fitted parameters. Columns: ``time [s]``, then of each signal ``NAME.measured``, ``NAME.simulated``
-    and, with fitted parameters, ``NAME.fitted``, with the unit.
+    `after`: comparison with fitted parameters. Columns: ``time [s]``, then of each signal ``NAME.measured``,
+    ``NAME.simulated`` and, with fitted parameters, ``NAME.fitted``, with the unit.
     """
     times = np.unique(np.concatenate([s.measured.time for s in before.signals.values()]))
     columns: dict[str, Any] = {}

@@ -27,15 +27,16 @@ class Outcome:
     """The outcome of a comparison: results before and after a fit, notes and problems."""
 
     before: Comparison
+    """Comparison with the parameters of the FMU."""
     after: Comparison | None
-    """`before`, `after`: with the parameters of the FMU, and with fitted ones if there are any."""
+    """Comparison with fitted parameters, if there are any."""
     fit: Fit | None
     notes: list[str]
     problems: list[str]
 
     @property
     def best(self) -> Comparison:
-        """The comparison with fitted parameters if there are any, else that before."""
+        """The comparison with fitted parameters if there are any, otherwise that before."""
         return self.before if self.after is None else self.after
 
 
@@ -67,7 +68,7 @@ def write_outcome(
         title, outcome.before, outcome.after, outcome.fit, error_bins, outcome.notes, outcome.problems, paths, figure
     )
     if outcome.fit is not None:
-        values = task.fmu.names.values(dict(task.set_values) | outcome.fit.parameters)
+        values = task.fmu.fmu_values(dict(task.set_values) | outcome.fit.parameters)
         description = described(options.fmu)
         parameters = parameter_set_of(Variables(description), description.modelName, values)
         write_parameter_set(parameters, paths[".ssv"], as_built=False)

@@ -20,7 +20,7 @@ _SETTLING = 50  # steps until the steering column is at rest
 
 
 def mean_angle(signals: Mapping[str, Signal]) -> Signal | None:
-    """Mean of the measured angles of both front wheels, or the angle of one; None where none is measured."""
+    """Mean of the measured angles of both front wheels, or the angle of one; None if none is measured."""
     present = [signals[n] for n in ANGLES if n in signals]
     if not present:
         return None
@@ -32,8 +32,8 @@ def mean_angle(signals: Mapping[str, Signal]) -> Signal | None:
 def steering_at_angle(fmu: FmuSource, start: Mapping[str, Value], angle: Signal) -> Signal:
     """The input ``steering`` at which the front wheels of the standing car have the measured mean angle.
 
-    `angle`: of `mean_angle`. Raises `HostError`: the wheels of the FMU do not follow its steering, or the measured
-    angle lies beyond both locks.
+    `angle`: result of `mean_angle`. Raises `HostError` if the wheels of the FMU do not follow its steering, or the
+    measured angle lies beyond both locks.
 
     Notes
     -----

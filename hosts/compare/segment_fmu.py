@@ -16,53 +16,55 @@ from hosts.fmu.fmu import StartRefusedError
 from hosts.fmu.fmu_source import FmuSource, LoadedFmu
 from hosts.measures.signal import Signal
 
-_GAINS = 4.0, 4.0  # pedal per m/s and per m; for accuracy, not comfort
+_PROPORTIONAL_GAIN = 4.0  # pedal per m/s; for accuracy, not comfort
+_INTEGRAL_GAIN = 4.0  # pedal per m
 _ACCELERATION_GAIN = 0.1  # pedal per m/s2
-_FINE = 0.01  # s: longest communication step of these gains; with longer ones a car of 10 m/s2 would oscillate
+_MAX_STEP = 0.01  # s: longest communication step at which a car of 10 m/s2 does not oscillate with these gains
 
-SLIDING = 0.05
-"""Slip of an axle from which on the driver eases the throttle."""
+SLIP_LIMIT = 0.05
+"""Slip of an axle above which the driver reduces the throttle."""
 
-_SMOOTHED = 0.2  # s
-_PARABOLA = 2  # degree
-_UNEVEN_INTERVAL = 0.5  # of the time between samples
+_WINDOW = 0.2  # s
+_DEGREE = 2
+_GAP = 0.5  # deviation of an interval that counts as a gap, of the mean interval
 
 
-def smoothed(speed: Signal) -> Signal:
-    """The speed smoothed by parabolas over 0.2 s, which reduces the noise of the acceleration feedforward.
+def smooth_speed(speed: Signal) -> Signal:
+    """Smooth a speed by a Savitzky-Golay filter, which reduces the noise of the acceleration feedforward.
 
-    Stretches between gaps are smoothed separately; short ones and those of uneven samples are not smoothed.
+    Stretches between gaps are smoothed separately; those shorter than the window are not smoothed.
     """
-    if len(speed.values) < _PARABOLA + 2:
+    if len(speed.values) < _DEGREE + 2:
         return speed
-    window, values = 2 * round(0.5 * _SMOOTHED / speed.interval) + 1, speed.values.copy()
+    window = 2 * round(0.5 * _WINDOW / speed.interval) + 1
+    values = speed.values.copy()
     intervals = np.diff(speed.time)
-    uneven = np.flatnonzero(np.abs(intervals - speed.interval) > _UNEVEN_INTERVAL * speed.interval) + 1
-    for indices in np.split(np.arange(len(values)), uneven):
-        if len(indices) >= window > _PARABOLA + 1:
-            values[indices] = savgol_filter(speed.values[indices], window, _PARABOLA)
+    gaps = np.flatnonzero(np.abs(intervals - speed.interval) > _GAP * speed.interval) + 1
+    for indices in np.split(np.arange(len(values)), gaps):
+        if len(indices) >= window > _DEGREE + 1:
+            values[indices] = savgol_filter(speed.values[indices], window, _DEGREE)
     return replace(speed, values=values)
 
 
-def _speed_holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
-    speed = smoothed(speed)
-    proportional, integral = (gain * min(1.0, _FINE / step) for gain in _GAINS)
+def _make_speed_holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
+    speed = smooth_speed(speed)
+    proportional, integral = (gain * min(1.0, _MAX_STEP / step) for gain in (_PROPORTIONAL_GAIN, _INTEGRAL_GAIN))
 
     def target_speed(t: float) -> float:
         return float(np.interp(t, speed.time, speed.values))
 
-    return SpeedHolder(target_speed, proportional, integral, _ACCELERATION_GAIN, pedal=pedal, sliding=SLIDING)
+    return SpeedHolder(target_speed, proportional, integral, _ACCELERATION_GAIN, pedal=pedal, sliding=SLIP_LIMIT)
 
 
 Task: TypeAlias = tuple[int, dict[str, Value], bool | None]
-"""Number of a segment, start values by our names, and `SegmentFmu.can_reset`."""
+"""Index of a segment, start values by ALi3 names, and `SegmentFmu.can_reset`."""
 
 
 class SegmentFmu(LoadedFmu):
-    """An FMU that drives segments of a log.
+    """Drives segments, as a task of a worker pool.
 
-    `step`: communication step, s; `segments`: by the numbers of tasks. `can_reset`: whether a reset reproduces a run;
-    else the FMU is loaded again for each drive. None: not known.
+    `step`: communication step, s; `segments`: a task names one by its index. `can_reset`: whether a reset reproduces a
+    run; otherwise the FMU is loaded again for each run. None: unknown.
     """
 
     def __init__(self, source: FmuSource, step: float, segments: Sequence[Segment] = ()) -> None:
@@ -70,12 +72,13 @@ class SegmentFmu(LoadedFmu):
         self._step, self._segments = step, list(segments)
         self.can_reset: bool | None = None
 
-    def __call__(self, task: Task, tell: Callable[[Any], None]) -> Result | str:
-        """Drive the segment of a task. Returns a sentence where the FMU refuses the start values."""
-        number, values, self.can_reset = task
+    def __call__(self, task: Task, report_progress: Callable[[Any], None]) -> Result | str:
+        """Drive the segment of a task. Returns a sentence if the FMU refuses the start values."""
+        index, values, self.can_reset = task
         try:
-            total = len(self._segments) * self._segments[number].length / self._step
-            return self.drive(self._segments[number], values, lambda done: tell(done / total))
+            # The fraction done of all segments, as if they were equally long.
+            steps = len(self._segments) * self._segments[index].length / self._step
+            return self.drive(self._segments[index], values, lambda done: report_progress(done / steps))
         except StartRefusedError as error:
             return str(error)
 
@@ -85,10 +88,10 @@ class SegmentFmu(LoadedFmu):
         values: Mapping[str, Value] | None = None,
         progress: Callable[[int], None] = lambda done: None,
     ) -> Result:
-        """Drive one segment. `values`: start values by our names, in place of those of the segment."""
+        """Drive one segment. `values`: start values by ALi3 names that replace those of the segment."""
         if self.can_reset is False:
             self.close()
         manoeuvre = replace(segment.manoeuvre, start={**segment.manoeuvre.start, **(values or {})})
         # A pilot has a state: each run has its own.
-        driver = None if segment.speed is None else _speed_holder(segment.speed, segment.pedal, self._step)
+        driver = None if segment.speed is None else _make_speed_holder(segment.speed, segment.pedal, self._step)
         return run(self.fresh(), manoeuvre, self._step, driver, progress)

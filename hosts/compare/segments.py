@@ -23,7 +23,7 @@ class Segment:
     manoeuvre: Manoeuvre
     """Measured inputs and start values."""
     speed: Signal | None = None
-    """Measured speed, from time 0 on, if a driver holds it in place of the measured pedals."""
+    """Measured speed since time 0, if a driver holds it instead of the measured pedals."""
     pedal: float = 0.0
     """Initial pedal of that driver; negative: brake."""
     begin: float = 0.0
@@ -40,7 +40,7 @@ class Segment:
 def parse_spans(text: str | None) -> Spans | None:
     """Read spans of time from a text of the form ``A:B,C:D``, s; None for all times.
 
-    Raises `HostError`: the text is not of that form, or the times do not increase.
+    Raises `HostError` if the text is not of that form, or the times do not increase.
     """
     if text is None:
         return None
@@ -55,7 +55,7 @@ def parse_spans(text: str | None) -> Spans | None:
 
 
 def window_begins(spans: Spans, length: float, interval: float) -> list[float]:
-    """Begins of the windows within spans of time, s. `length`, `interval`: of a window and between begins, s."""
+    """Starts of the windows within spans of time, s. `length`: of a window, s; `interval`: time between starts, s."""
     return [float(t) for a, b in spans for t in np.arange(a, b - length + 1e-9 * length, interval)]
 
 
@@ -77,7 +77,7 @@ def concatenated_signals(signals: Mapping[str, Signal], segments: Sequence[Segme
     return results
 
 
-def joined(results: Sequence[Result], segments: Sequence[Segment]) -> Result:
+def join_results(results: Sequence[Result], segments: Sequence[Segment]) -> Result:
     """Results of segments as one result; a segment with a refused step keeps its last outputs to its end.
 
     Returns a result without refused steps, whose `starts` are the first rows of the segments.

@@ -9,7 +9,7 @@ from hosts.common.display_units import number_in
 _NEIGHBOURS = 2  # on either side
 _RANGES = 4.0  # of the neighbours
 _MEDIAN_DISTANCES = 30.0  # of the samples from their neighbours
-_LONGEST_INTERVAL = 0.0201  # s between neighbours: in a longer time a pedal or a wheel may move there and back
+_MAX_INTERVAL = 0.0201  # s between neighbours: in a longer time a pedal or a wheel may move there and back
 
 
 def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -21,7 +21,7 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
     -----
     The distance of a spike from the median of the two samples before and the two after it exceeds four times their
     range plus 30 times the median distance (of those that are not zero). Two equal samples, a step, the two samples at
-    either end, and samples more than 20 ms from a neighbour are no spikes.
+    either end, and samples more than 20 ms from a neighbour are not spikes.
     """
     is_spike = np.zeros(len(values), dtype=np.bool_)
     if len(values) <= 2 * _NEIGHBOURS:
@@ -37,7 +37,7 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
     steps = np.diff(time)
     is_near = (
         np.maximum(steps[_NEIGHBOURS - 1 : _NEIGHBOURS - 1 + count], steps[_NEIGHBOURS : _NEIGHBOURS + count])
-        < _LONGEST_INTERVAL
+        < _MAX_INTERVAL
     )
     is_spike[_NEIGHBOURS : _NEIGHBOURS + count] = (distance > threshold) & is_near
     return is_spike
@@ -46,7 +46,7 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
 def spike_text(signal: str, unit: str, time: NDArray[np.float64], values: NDArray[np.float64]) -> str:
     """A sentence on the samples that are left out.
 
-    `signal`: its label for a user; `time`, `values`: of the spikes, s and `unit`, shape (k,), k > 0.
+    `signal`: its label for a user; `time`, `values`: times and values of the spikes, s and `unit`, shape (k,), k > 0.
     """
     texts = (f"{number_in(v, unit)} at {t:.6g} s" for t, v in zip(time, values, strict=True))
     samples = "sample" if len(time) == 1 else "samples"

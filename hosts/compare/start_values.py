@@ -10,10 +10,10 @@ from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.signal import Signal
 
-_AVERAGED = 0.1  # s at the begin of a log
+_AVERAGED = 0.1  # s at the start of a log
 _AT_REFERENCE = " (where the reference point is to be)"
-_LEAST_SPEED = 0.5  # m/s
-_LEAST_YAW_RATE = 0.02  # rad/s
+_MIN_SPEED = 0.5  # m/s
+_MIN_YAW_RATE = 0.02  # rad/s
 _SETTLING = "initial.settling"
 _SETTLED = 2.0  # s, after which the roll of a car on soft springs and dampers has settled to 1 %
 
@@ -67,7 +67,7 @@ def start_values_of_log(
         message = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
         notes.append(f"The start is as measured: {message}{_AT_REFERENCE if 'initial.x' in start else ''}.")
     all_values = {**start, **set_values}
-    is_moving = abs(float(all_values.get("initial.speed", 0.0))) > _LEAST_SPEED and "initial.yaw_rate" in all_values
+    is_moving = abs(float(all_values.get("initial.speed", 0.0))) > _MIN_SPEED and "initial.yaw_rate" in all_values
     if is_moving and _SETTLING in fmu.variables and _SETTLING not in set_values:
         start[_SETTLING] = _SETTLED
         notes.append(
@@ -92,9 +92,9 @@ def _start_values_of_run(
 def _notes_on_missing_values(
     fmu: NamedFmu, speed: float | None, rate: float | None, values: Mapping[str, Value]
 ) -> list[str]:
-    """Notes on a measured speed, m/s, or yaw rate, rad/s, that is no start value, and on a missing speed."""
+    """Notes on a measured speed, m/s, or yaw rate, rad/s, that is not a start value, and on a missing speed."""
     notes = []
-    if speed is not None and abs(speed) > _LEAST_SPEED and "initial.speed" not in values:
+    if speed is not None and abs(speed) > _MIN_SPEED and "initial.speed" not in values:
         notes.append(
             f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, and starts at its own "
             "speed. Let the log begin at rest (--from), or do not compare the first seconds (--skip)."
@@ -103,7 +103,7 @@ def _notes_on_missing_values(
         notes.append(
             "The log has no 'speed': the car starts at rest; if it moved, set it by --set initial.speed=VALUE."
         )
-    if rate is not None and abs(rate) > _LEAST_YAW_RATE and "initial.yaw_rate" not in values:
+    if rate is not None and abs(rate) > _MIN_YAW_RATE and "initial.yaw_rate" not in values:
         notes.append(
             f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate and "
             "starts straight: the first seconds differ (--from begins elsewhere, --skip leaves them out)."
@@ -114,7 +114,7 @@ def _notes_on_missing_values(
 def reference_point(fmu: FmuSource, start: Mapping[str, Value]) -> tuple[float, float]:
     """Position of the reference point of the car at rest from the origin of its drawing, forward and to the left, m.
 
-    `start`: start values; those of pose and speed are not used. Zero where the FMU does not provide the position.
+    `start`: start values; pose and speed are not used. Zero if the FMU does not provide the position.
     """
     return fmu.run_isolated(_reference_point, dict(start), tuple[float, float], start)
 
@@ -135,9 +135,9 @@ def _reference_point(task: tuple[FmuSource, dict[str, Value]], tell: Callable[[f
 def start_values_of_origin(
     start: Mapping[str, Value], measured: Collection[str], point: tuple[float, float]
 ) -> dict[str, Value]:
-    """Start values of the origin of the car's drawing, from those of its reference point.
+    """Start values of the origin of the car's drawing, from start values of its reference point.
 
-    `measured`: names of values of the reference point; `point`: of `reference_point`.
+    `measured`: names of values of the reference point; `point`: result of `reference_point`.
     """
     of_drawing = dict(start)
     yaw, rate = (float(start.get(f"initial.{n}", 0.0)) for n in ("yaw", "yaw_rate"))

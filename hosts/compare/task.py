@@ -16,7 +16,7 @@ from hosts.common.road import options_with_road
 from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
 from hosts.compare.log_file import read_log
-from hosts.compare.log_times import FEWEST_SAMPLES
+from hosts.compare.log_times import MIN_SAMPLES
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import replay_manoeuvre
 from hosts.compare.road_wheels import ANGLES, mean_angle, steering_at_angle
@@ -59,15 +59,16 @@ class Task:
 
     fmu: FmuSource
     inputs: dict[str, Signal]
+    """Inputs since time 0."""
     outputs: dict[str, Signal]
-    """`inputs`, `outputs`: from time 0 on; outputs of windows on the time axis of the comparison."""
+    """Outputs since time 0; of windows on the time axis of the comparison."""
     segments: list[Segment]
     step: float
     """Communication step, s."""
     slopes: bool
     """Whether inputs change during a step."""
     parameters: dict[str, Variable]
-    """Parameters of the FMU, by our names."""
+    """Parameters of the FMU, by ALi3 names."""
     set_values: dict[str, Value]
     notes: list[str]
     windowed: bool = False
@@ -95,22 +96,16 @@ def prepare(options: argparse.Namespace) -> Task:
         source = FmuSource.named(opened.path, opened.table, options.aliases)
         fmu = source.around(opened)
         set_values = settings_of(opened.table, options_with_road(options, options.out)).start
-        our_values = source.ours(set_values)
+        ali3_values = source.ali3_values(set_values)
         fitted_names = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
         # Steering angles, which may drive the car, and the initial speed are used with any selection of signals.
         used_names = {*options.signals, "speed", _ANGLE, *ANGLES} if options.signals else ()
-        log = log_for(fmu, raw, log_aliases, {*our_values, *fitted_names}, used_names)
+        log = log_for(fmu, raw, log_aliases, {*ali3_values, *fitted_names}, used_names)
         notes = log.notes
         inputs, outputs = _selected_signals(log, fmu, options)
-        frequencies = _add_steering_input(fmu, log, inputs, outputs, notes, our_values, fitted_names)
+        frequencies = _add_steering_input(fmu, log, inputs, outputs, notes, ali3_values, fitted_names)
         measured_speed = _speed_to_hold(fmu, log, inputs, notes) if options.hold_speed else None
-        if not inputs and measured_speed is None:
-            raise HostError(
-                f"The log {options.log} has no input of {options.fmu.name}, so that there is nothing to replay; its "
-                f"inputs are {', '.join(fmu.names('input')) or 'none'}: the alias file of the log (--log-aliases) "
-                "names their columns."
-            )
-        missing_inputs = [n for n in fmu.names("input") if n not in inputs and not (measured_speed and n in PEDALS)]
+        missing_inputs = _missing_inputs(fmu, inputs, measured_speed is not None, options)
         if missing_inputs:
             notes.append(f"Not in the log, and held at their start values: {', '.join(missing_inputs)}.")
         inputs, outputs, end = _cut_inputs_and_outputs(inputs, outputs, options)
@@ -125,19 +120,19 @@ def prepare(options: argparse.Namespace) -> Task:
         integers = {n for n in inputs if fmu.variables[n].type == "Integer"}
         slopes = opened.follows_slopes
         all_outputs = outputs | outputs_from_begin(log, options)
-        point = reference_point(source, our_values)
+        point = reference_point(source, ali3_values)
         segments: list[Segment] = []
         missed_notes: list[str] = []
         for begin, length in windows:
             run_start = None if begin or options.begin else log.run_start
             start, start_notes = start_values_of_log(
-                fmu, cut(all_outputs, begin, begin + length), our_values, run_start
+                fmu, cut(all_outputs, begin, begin + length), ali3_values, run_start
             )
             notes += start_notes if not segments else []
             manoeuvre = replay_manoeuvre(
                 options.log.stem,
                 cut(inputs, begin, begin + length),
-                start_values_of_origin(start | our_values, start if run_start is None else (), point),
+                start_values_of_origin(start | ali3_values, start if run_start is None else (), point),
                 length,
                 step,
                 not slopes,
@@ -160,38 +155,56 @@ def prepare(options: argparse.Namespace) -> Task:
         pedal = segments[0].pedal
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
     scales = scales_of(all_outputs)
-    if options.windows is not None:
+    windowed = options.windows is not None
+    if windowed:
         notes.append(
             f"Each of the {len(segments)} windows starts in its measured state; the one above is that of the first."
         )
         outputs, scales = (concatenated_signals(signals, segments) for signals in (outputs, scales))
     elif requested_spans is not None:
-        begin = options.begin or 0.0
-        shifted_spans = tuple((a - begin, b - begin) for a, b in requested_spans)
-        outputs = {n: within_spans(s, shifted_spans) for n, s in outputs.items()}
-    windowed = options.windows is not None
-    plausibility = log_plausibility(options.log.name, all_outputs)
+        outputs = _within_requested_spans(outputs, requested_spans, options)
     return Task(
-        source,
-        inputs,
-        outputs,
-        segments,
-        step,
-        slopes,
-        parameters,
-        our_values,
-        notes,
-        windowed,
-        plausibility,
-        scales,
-        invertible,
+        fmu=source,
+        inputs=inputs,
+        outputs=outputs,
+        segments=segments,
+        step=step,
+        slopes=slopes,
+        parameters=parameters,
+        set_values=ali3_values,
+        notes=notes,
+        windowed=windowed,
+        plausibility=log_plausibility(options.log.name, all_outputs),
+        scales=scales,
+        invertible=invertible,
     )
+
+
+def _missing_inputs(
+    fmu: NamedFmu, inputs: Mapping[str, Signal], holds_speed: bool, options: argparse.Namespace
+) -> list[str]:
+    """Inputs of the FMU that nothing drives. Raises `HostError` if the log drives none."""
+    names = fmu.names("input")
+    if not inputs and not holds_speed:
+        raise HostError(
+            f"The log {options.log} has no input of {options.fmu.name}, so that there is nothing to replay; its "
+            f"inputs are {', '.join(names) or 'none'}: the alias file of the log (--log-aliases) names their columns."
+        )
+    return [name for name in names if name not in inputs and not (holds_speed and name in PEDALS)]
+
+
+def _within_requested_spans(
+    outputs: Mapping[str, Signal], spans: Spans, options: argparse.Namespace
+) -> dict[str, Signal]:
+    begin = options.begin or 0.0
+    shifted_spans = tuple((a - begin, b - begin) for a, b in spans)
+    return {name: within_spans(signal, shifted_spans) for name, signal in outputs.items()}
 
 
 def _driven_windows(
     options: argparse.Namespace, requested_spans: Spans | None, end: float
 ) -> list[tuple[float, float]]:
-    """Begin and length of each window that is driven, s after --from; one window without --windows."""
+    """Start and length of each window that is driven, s after --from; one window without --windows."""
     begin = options.begin or 0.0
     if options.windows is None:
         if options.window_every is not None:
@@ -219,15 +232,15 @@ def _is_invertible(values: NDArray[np.float64], variable: Variable) -> bool:
 
 
 def _missed_input_notes(manoeuvre: Manoeuvre, step: float, slopes: bool, integers: Set[str], begin: float) -> list[str]:
-    """A sentence if an input has a corner or a jump inside a communication step; else none."""
+    """A sentence if an input has a corner or a jump inside a communication step; otherwise empty."""
     missed = missed_inputs(manoeuvre, step, manoeuvre.inputs if slopes else (), integers)
     origin = f" after {begin:g} s of the log" if begin else ""
     return [] if missed is None else [f"{missed[0]}{origin}: {missed[1]}."]
 
 
 def outputs_from_begin(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
-    """All outputs of the log from time 0 on, also those that are not compared, for start values."""
-    return {n: s for n, s in _cut_to_options(log.outputs, options).items() if len(s.time) >= FEWEST_SAMPLES}
+    """All outputs of the log since time 0, also those that are not compared, for start values."""
+    return {n: s for n, s in _cut_to_options(log.outputs, options).items() if len(s.time) >= MIN_SAMPLES}
 
 
 def _speed_to_hold(fmu: NamedFmu, log: Log, inputs: dict[str, Signal], notes: list[str]) -> Signal:
@@ -245,7 +258,7 @@ def _speed_to_hold(fmu: NamedFmu, log: Log, inputs: dict[str, Signal], notes: li
 
 
 def _preferred_step(fmu: NamedFmu, inputs: Mapping[str, Signal], options: argparse.Namespace) -> float | None:
-    """The requested communication step, s; else a multiple of that of the FMU, up to the log's interval or 10 ms."""
+    """The requested communication step, s, or a multiple of that of the FMU, up to the log's interval or 10 ms."""
     if options.step is not None:
         return float(options.step)
     fmu_step = default_step(fmu.description)
@@ -287,9 +300,9 @@ def _add_steering_input(
 ) -> dict[str, float]:
     """Add a steering input to `inputs` from the angle of the steering wheel or of the front wheels in the log.
 
-    The normalised input is the angle over that at full lock. Where a steering ratio is set or fitted, that constant
-    does not hold, and the angle itself is the input. Returns the input with a follower, with its frequency, Hz; empty
-    where there is none.
+    The normalised input is the angle divided by the angle at full lock. If a steering ratio is set or fitted, that
+    constant does not hold, and the angle itself is the input. Returns the input with a follower, with its frequency,
+    Hz; empty if there is none.
     """
     full_lock, frequency = fmu.constants().get(_ANGLE_MAX), fmu.constants().get(_FREQUENCY)
     if _STEERING not in fmu.names("input") or _STEERING in inputs:
@@ -350,10 +363,10 @@ def _cut_inputs_and_outputs(
             raise HostError(f"{name} is {value:g} s; the log's inputs lie between 0 and {last:.6g} s.")
     inputs, outputs = _cut_to_options(inputs, options), _cut_to_options(outputs, options)
     for signal in (*inputs.values(), *outputs.values()):
-        if len(signal.time) < FEWEST_SAMPLES:
+        if len(signal.time) < MIN_SAMPLES:
             raise HostError(
                 f"The log has {len(signal.time)} samples of '{signal.source}' ({signal.name}) between --from and --to; "
-                f"at least {FEWEST_SAMPLES} are needed."
+                f"at least {MIN_SAMPLES} are needed."
             )
     end = min(max(float(s.time[-1]) for s in signals.values()) for signals in (inputs or outputs, outputs))
     if not 0.0 <= options.skip < 0.9 * end:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def warped(
+def warp(
     y: NDArray[np.float64], x: NDArray[np.float64], window: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Both signals along the path of the least sum of squared differences.

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.deviations import rms
-from hosts.compare.segment_fmu import SLIDING
+from hosts.compare.segment_fmu import SLIP_LIMIT
 from hosts.compare.segments import PEDALS, Segment
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
 _FULL_PEDAL = 0.999
-_FEWEST_SAMPLES = 20  # of a bin
+_MIN_SAMPLES = 20  # of a bin
 _BINS: Mapping[str, tuple[str, float]] = {"speed": ("m/s", 10.0), "lateral acceleration": ("m/s2", 2.0)}
 
 
@@ -23,8 +23,9 @@ class Window:
     """A window that was driven from the measured state."""
 
     begin: float
+    """Start in the log, s."""
     end: float
-    """`begin`, `end`: in the log, s."""
+    """End in the log, s."""
     rms: dict[str, float]
     """Root mean square deviation of each signal, in its unit."""
     departed: str
@@ -37,8 +38,9 @@ class Bin:
 
     signal: str
     quantity: str
+    """Quantity of the bounds `low` and `high`."""
     unit: str
-    """`quantity`, `unit`: of the bounds `low` and `high`."""
+    """Unit of the bounds `low` and `high`."""
     low: float
     high: float
     samples: int
@@ -73,7 +75,7 @@ def window_text(windows: Sequence[Window]) -> str:
 
 
 def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
-    """Measured speed and absolute value of the lateral acceleration: yaw rate times speed, else as measured."""
+    """Measured speed and absolute value of the lateral acceleration: yaw rate times speed, otherwise as measured."""
     speed = next((signals[n] for n in ("speed", "chassis.vx") if n in signals), None)
     results = {} if speed is None else {"speed": speed}
     rate, ay = signals.get("chassis.wz"), signals.get("chassis.ay")
@@ -95,7 +97,7 @@ def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
             number = np.floor(np.interp(s.measured.time, scale.time, scale.values) / width)
             for k in np.unique(number):
                 e = error[number == k]
-                if len(e) >= _FEWEST_SAMPLES:
+                if len(e) >= _MIN_SAMPLES:
                     low = float(k * width)
                     results.append(Bin(name, quantity, unit, low, low + width, len(e), rms(e), float(np.mean(e))))
     return results
@@ -115,8 +117,8 @@ def held_speed_text(result: Result, segments: Sequence[Segment]) -> list[str]:
         elsewhere = f"{rms(error[~at_limit]):.2g} m/s rms elsewhere"
         text += f", a pedal at its end for {100.0 * np.mean(at_limit):.0f} % of the time and {elsewhere}"
     if (sliding := _sliding(result)).any():
-        share = np.mean(np.interp(time, result.time, sliding))
-        text += f", eased the throttle over a sliding axle for {100.0 * share:.2g} % of the time"
+        fraction = np.mean(np.interp(time, result.time, sliding))
+        text += f", eased the throttle over a sliding axle for {100.0 * fraction:.2g} % of the time"
     forces = [_axle_force(result, axle) for axle in "FR"]
     if any(f is None for f in forces):
         return [f"{text}."]
@@ -131,7 +133,7 @@ def _sliding(result: Result) -> NDArray[np.bool_]:
         np.minimum(result[left], result[right]) for left, right in slips if left in result and right in result
     ]
     return (
-        np.any([slip > SLIDING for slip in smaller_slips], axis=0)
+        np.any([slip > SLIP_LIMIT for slip in smaller_slips], axis=0)
         if smaller_slips
         else np.zeros(len(result.time), dtype=np.bool_)
     )

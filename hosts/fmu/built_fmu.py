@@ -19,9 +19,9 @@ from hosts.common.errors import HostError
 from hosts.fmu.car import CAR_FILE
 
 _SUFFIXES = (".py", ".c", ".h", ".toml", ".csv", ".npz", ".json", ".road", ".xml", ".txt")
-_MOST_FMUS = 10
+_MAX_FMUS = 10
 _IN_USE = 86400.0  # s, in which a command may still open an FMU
-_LARGEST_FOLDER = 500_000_000  # bytes of a car's folder
+_MAX_FOLDER_SIZE = 500_000_000  # bytes of a car's folder
 
 
 def fmu_of_car(car: str, tell: Callable[[str], None], ports: str | None = None) -> Path:
@@ -69,14 +69,15 @@ def _cached_fmu(subject: str, name: str, options: tuple[str, ...], tell: Callabl
         tell(f"The build of {subject} was stopped and nothing was run; the same command begins again.")
         raise
     with locked(cache):
-        forget_oldest(cache, _MOST_FMUS, _IN_USE)
+        forget_oldest(cache, _MAX_FMUS, _IN_USE)
     return sorted(folder.glob("*.fmu"))[0]
 
 
 def build_fmu(subject: str, options: tuple[str, ...], folder: Path) -> None:
     """Build a native FMU, for this platform unless the options name others.
 
-    `subject`: subject of messages; `options`: of ``ali3 build``. Raises `HostError` with the message of the build.
+    `subject`: subject of messages; `options`: options of ``ali3 build``. Raises `HostError` with the message of the
+    build.
     """
     try:
         run_ali3("build", "--kind", "native", "--platforms", "this", *options, "--out", str(folder))
@@ -88,7 +89,7 @@ def car_digest(car: str) -> str:
     """A digest of the files of a car and of the program that builds it.
 
     `car`: a folder with a file ``car.toml``, or such a file, of which all files of the folder and those it names
-    elsewhere count; else the name of a car of the package.
+    elsewhere count; otherwise the name of a car of the package.
     """
     digest = hashlib.sha256(program_version().encode())
     path = Path(car)
@@ -100,14 +101,14 @@ def car_digest(car: str) -> str:
     with suppress(FileError):  # the build reports the fault
         files |= {*files_in(read_toml(file), file.parent)}
     size = sum(f.stat().st_size for f in files)
-    if size > _LARGEST_FOLDER:
+    if size > _MAX_FOLDER_SIZE:
         raise HostError(
             f"The folder {file.parent} of the car has {1e-6 * size:.0f} MB of files; give the car a folder of its own."
         )
     digest.update(file.name.encode())
     for source in sorted(files):
         digest.update(os.path.relpath(source, file.parent).encode() + b"\n")
-        digest.update(read_bytes(source, _LARGEST_FOLDER, HostError))
+        digest.update(read_bytes(source, _MAX_FOLDER_SIZE, HostError))
     return digest.hexdigest()[:32]
 
 

@@ -8,7 +8,7 @@ CAR_FILE = "car.toml"
 
 
 def is_car(path: Path) -> bool:
-    """Whether a path names a car: a folder with a car file, a TOML file, or a plain name that is no file."""
+    """Whether a path names a car: a folder with a car file, a TOML file, or a plain name that is not a file."""
     if is_folder(path):
         return is_file(path / CAR_FILE)
     if is_file(path):

@@ -18,16 +18,16 @@ from hosts.common.errors import HostError
 from hosts.fmu.scalars import ELEMENTS, Scalar, element_names, scalar_variables
 
 DESCRIPTION = "modelDescription.xml"
-LARGEST_DESCRIPTION = 100_000_000
+MAX_DESCRIPTION_SIZE = 100_000_000
 """Largest size of the description, bytes."""
-MOST_VARIABLES = 200_000
+MAX_VARIABLES = 200_000
 """Largest number of scalar variables."""
-_MOST_ELEMENTS = 20 * MOST_VARIABLES
+_MAX_ELEMENTS = 20 * MAX_VARIABLES
 _DEPTH_OF_VARIABLES = 3
 
 
 def opened(path: Path) -> Archive:
-    """Open an FMU as an archive. Raises `HostError`: the file does not exist, or has a fault of `ali3.archives`."""
+    """Open an FMU as an archive. Raises `HostError` if the file does not exist, or has a fault of `ali3.archives`."""
     if not is_file(path):
         hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
         raise HostError(no_file(path, hint))
@@ -39,7 +39,7 @@ def read_description(
 ) -> tuple[ModelDescription, list[ScalarVariable], dict[str, Scalar]]:
     """Read the description of an FMU of any version that FMPy reads.
 
-    `validate`: whether it must follow its schema. Raises `HostError`: the FMU cannot be read, or exceeds a limit.
+    `validate`: whether it must follow its schema. Raises `HostError` if the FMU cannot be read, or exceeds a limit.
 
     Returns
     -------
@@ -50,8 +50,8 @@ def read_description(
         Variable and index of each scalar, by name.
     """
     with opened(path) as archive:
-        content = archive.read(DESCRIPTION, LARGEST_DESCRIPTION)
-        elements = archive.read(ELEMENTS, LARGEST_DESCRIPTION) if ELEMENTS in archive else b""
+        content = archive.read(DESCRIPTION, MAX_DESCRIPTION_SIZE)
+        elements = archive.read(ELEMENTS, MAX_DESCRIPTION_SIZE) if ELEMENTS in archive else b""
     limit_check = _LimitCheck(path)
     limit_check.check(content)
     try:
@@ -59,7 +59,7 @@ def read_description(
         for v in description.modelVariables:  # FMPy does not read this attribute
             v.intermediateUpdate = str(v.valueReference) in limit_check.intermediate_inputs
         count = sum(math.prod(v.shape or ()) for v in description.modelVariables)
-        if count > raised(MOST_VARIABLES):
+        if count > raised(MAX_VARIABLES):
             raise HostError(_too_many(path, count))
         return description, *scalar_variables(description, element_names(elements.decode()))
     except (ImportError, MemoryError, HostError):
@@ -72,7 +72,7 @@ def read_description(
 
 
 def _too_many(path: Path, count: int) -> str:
-    limit = at_most(count, MOST_VARIABLES)
+    limit = at_most(count, MAX_VARIABLES)
     return f"{path} has {count} variables, the elements of arrays counted; it must have {limit}."
 
 
@@ -84,14 +84,14 @@ class _LimitCheck:
         self.intermediate_inputs: set[str] = set()
         """Value references of variables with ``intermediateUpdate``."""
         self._depth = self._elements = self._variables = 0
-        self._most_variables, self._most_elements = raised(MOST_VARIABLES), raised(_MOST_ELEMENTS)
+        self._most_variables, self._most_elements = raised(MAX_VARIABLES), raised(_MAX_ELEMENTS)
         self._parser = expat.ParserCreate()
         self._parser.StartElementHandler = self._begin
         self._parser.EndElementHandler = self._end
         self._parser.StartDoctypeDeclHandler = self._doctype
 
     def check(self, content: bytes) -> None:
-        """Raises `HostError`: the content is not XML, is nested too deep, or has too many elements."""
+        """Raises `HostError` if the content is not XML, is nested too deep, or has too many elements."""
         try:
             self._parser.Parse(content, True)
         except expat.ExpatError as error:

@@ -1,4 +1,4 @@
-"""An FMU opened through FMPy: names in place of value references, statuses and messages collected."""
+"""An FMU opened through FMPy: names instead of value references, statuses and messages collected."""
 
 import math
 import sys
@@ -27,7 +27,7 @@ from hosts.fmu.instance import Instance, State, inputs_within_steps
 from hosts.fmu.scalars import TEXTS, NamedScalars, Scalar, constants_of
 from hosts.fmu.variables import Variables, check_co_simulation
 
-_MOST_MESSAGES = 10_000  # until the list is cleared
+_MAX_MESSAGES = 10_000  # until the list is cleared
 
 
 class StepRefusedError(Exception):
@@ -77,7 +77,7 @@ class Fmu(Closable, NamedScalars):
         self._remove: weakref.finalize[..., Fmu] | None = None
 
     def load(self) -> Instance:
-        """Load the library and instantiate the FMU unless it is loaded. Raises `HostError`: it cannot be loaded."""
+        """Load the library and instantiate the FMU unless it is loaded. Raises `HostError` if it cannot be loaded."""
         if self._loaded is not None:
             return self._loaded
         path = self.path
@@ -188,7 +188,7 @@ class Fmu(Closable, NamedScalars):
         return set_slopes
 
     def _interpolating_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        """The same in FMI 3.0: intermediate updates interpolate linearly from the values at the begin of the step."""
+        """The same in FMI 3.0: intermediate updates interpolate linearly from the values at the start of the step."""
         instance, set_values, get_values = (
             self._instance,
             self._instance.setter(self.scalars(names)),
@@ -268,7 +268,7 @@ class Fmu(Closable, NamedScalars):
             raise HostError(f"{self.path.name} cannot {action}: its model description does not offer it.")
 
     def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
-        """Start values from the model description, zero where there is none."""
+        """Start values from the model description, zero if there is none."""
         return np.array([float(self.variables[n].start or 0.0) for n in names])
 
     def constants(self) -> dict[str, float]:
@@ -287,7 +287,7 @@ class Fmu(Closable, NamedScalars):
         return self.messages[-1] if self.messages else ""
 
     def _log(self, status: int, category: str, message: str) -> None:
-        if status > 0 and message and category != "logNotComputed" and len(self.messages) < _MOST_MESSAGES:
+        if status > 0 and message and category != "logNotComputed" and len(self.messages) < _MAX_MESSAGES:
             self.messages.append(shortened(message))
-            if len(self.messages) == _MOST_MESSAGES:
-                self.messages.append(f"The FMU has sent more than {_MOST_MESSAGES} messages; the others are left out.")
+            if len(self.messages) == _MAX_MESSAGES:
+                self.messages.append(f"The FMU has sent more than {_MAX_MESSAGES} messages; the others are left out.")

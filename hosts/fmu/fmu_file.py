@@ -11,7 +11,7 @@ from hosts.fmu.car import is_car
 
 DIST = Path("dist", "PrototypeCar.fmu")
 CAR = "prototype"
-"""`DIST`, `CAR`: the FMU of a command without one: this file if it exists, else the FMU of this car."""
+"""`DIST`, `CAR`: the FMU of a command without one: this file if it exists, otherwise the FMU of this car."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ def find_fmu(fmu_or_car: Path | None, tell: Callable[[str], None]) -> FoundFmu:
     """The FMU of a command.
 
     `fmu_or_car`: an FMU, or a car by its name, folder or file; `tell`: called with the messages of the build of a
-    car. Raises `HostError`: the car cannot be built; with the message of the build.
+    car. Raises `HostError` with the message of the build if the car cannot be built.
     """
     if fmu_or_car is None and DIST.is_file():
         return FoundFmu(DIST)

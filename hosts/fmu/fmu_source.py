@@ -1,4 +1,4 @@
-"""An FMU file under our names, as plain data that passes to another process."""
+"""An FMU file under ALi3 names, as plain data that passes to another process."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hosts.common.numbers import Value
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.alias_option import aliases_of
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.named_fmu import NamedFmu, under_our_names
+from hosts.fmu.named_fmu import NamedFmu, with_aliases
 from hosts.fmu.named_row import NamedRow
 from hosts.fmu.own_process import files_of, in_own_process
 from hosts.fmu.variables import Variables
@@ -27,7 +27,7 @@ class _OpenFmu(Protocol):
 
 @dataclass(frozen=True)
 class FmuSource:
-    """The path of an FMU and the aliases of its variables; other rooms see only our names."""
+    """The path of an FMU and the aliases of its variables; other rooms see only ALi3 names."""
 
     path: Path
     """Absolute."""
@@ -55,7 +55,7 @@ class FmuSource:
 
     @property
     def constants(self) -> Mapping[str, float]:
-        """Constants of the alias file, by our names."""
+        """Constants of the alias file, by ALi3 names."""
         return self.names.constants
 
     @property
@@ -68,45 +68,45 @@ class FmuSource:
         """Number of aliases and derived variables."""
         return len(self.names.aliases) + len(self.names.derived)
 
-    def called(self, theirs: Sequence[str]) -> tuple[str, ...]:
-        """Our names of variables; a variable without an alias keeps its name."""
-        return self.names.names(theirs)
+    def called(self, fmu_names: Sequence[str]) -> tuple[str, ...]:
+        """ALi3 names of variables; a variable without an alias keeps its name."""
+        return self.names.names(fmu_names)
 
-    def outputs(self, theirs: Sequence[str]) -> tuple[str, ...]:
-        """Our names of outputs, then those of derived variables."""
-        return (*self.called(theirs), *(d.ours for d in self.names.derived))
+    def outputs(self, fmu_names: Sequence[str]) -> tuple[str, ...]:
+        """ALi3 names of outputs, then names of derived variables."""
+        return (*self.called(fmu_names), *(d.name for d in self.names.derived))
 
-    def row(self, theirs: Sequence[str]) -> NamedRow:
-        """The conversion of rows of these variables to our names and units."""
-        return NamedRow(self.names, theirs)
+    def row(self, fmu_names: Sequence[str]) -> NamedRow:
+        """The conversion of rows of these variables to ALi3 names and units."""
+        return NamedRow(self.names, fmu_names)
 
-    def theirs(self, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Start values, converted from our names and units to those of the FMU."""
-        return self.names.values(values)
+    def fmu_values(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Start values, converted from ALi3 names and units to those of the FMU."""
+        return self.names.fmu_values(values)
 
-    def ours(self, values: Mapping[str, Value]) -> dict[str, Value]:
-        """Start values, converted from the names and units of the FMU to ours."""
-        return self.names.own_values(values)
+    def ali3_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
+        """Start values, converted from names and units of the FMU to those of ALi3."""
+        return self.names.ali3_values(values)
 
     def inputs(self, values: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-        """Values and rates of inputs, converted from our names and units to those of the FMU."""
+        """Values and rates of inputs, converted from ALi3 names and units to those of the FMU."""
         return self.names.inputs(values)
 
     def why_missing(self, name: str) -> str:
-        """A sentence on why the FMU lacks one of our names; empty if the reason is not known."""
+        """A sentence on why the FMU lacks an ALi3 name; empty if the reason is not known."""
         return self.names.why_missing(name)
 
     def around(self, fmu: Fmu) -> NamedFmu:
-        """An open FMU under our names, as a `NamedFmu` also without aliases."""
+        """An open FMU under ALi3 names, as a `NamedFmu` also without aliases."""
         return NamedFmu(fmu, self.names)
 
     def seen(self, fmu: Fmu) -> Fmu | NamedFmu:
-        """An open FMU under our names; itself without aliases."""
-        return under_our_names(fmu, self.names)
+        """An open FMU under ALi3 names; the FMU itself if there are no aliases."""
+        return with_aliases(fmu, self.names)
 
     @contextmanager
     def opened(self) -> Iterator[Fmu | NamedFmu]:
-        """A context with the opened FMU under our names. Raises `HostError`: it cannot be read."""
+        """A context with the opened FMU under ALi3 names. Raises `HostError` if it cannot be read."""
         with Fmu(self.path) as fmu:
             yield self.seen(fmu)
 
@@ -126,7 +126,7 @@ class FmuSource:
 
 
 class LoadedFmu:
-    """An FMU under our names that is loaded by its first use, so that it can be passed to another process before."""
+    """An FMU under ALi3 names, loaded at its first use, so that it can be passed to another process before."""
 
     def __init__(self, source: FmuSource) -> None:
         self._source = source

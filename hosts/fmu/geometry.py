@@ -29,8 +29,8 @@ def scene_of(
 
     `settings`: parameters that were set: a road file is drawn from the file that its parameter names, with the scenery
     of the world whose record lies beside it; `world`: the world of the road file, named in `missing` where its record
-    does not exist. Returns None if the FMU has no scene, as FMUs of other programs. Raises `HostError`: the FMU cannot
-    be read, or its scene has another format.
+    does not exist. Returns None if the FMU has no scene, as FMUs of other programs. Raises `HostError` if the FMU
+    cannot be read, or its scene has another format.
     """
     try:
         with opened(path) as fmu:

@@ -10,14 +10,14 @@ from ali3.units import misread, typeset
 from hosts.fmu.variables import Variable
 
 ROUNDING = 1e-6  # of the range
-LEAST = 0.02  # of the range, which values in another unit must reach
-CLIPPED = 1.2  # times the range, up to which a factor or an offset is assumed in place of another unit
+MIN_FRACTION = 0.02  # of the range, which values in another unit must reach
+CLIPPED = 1.2  # times the range, up to which a factor or an offset is assumed instead of another unit
 
 
 def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "row") -> str:
     """A sentence on values beyond the range; empty if all are within it, up to rounding.
 
-    `values`: in the unit of the variable, shape (n,); `where`: noun of messages for their numbers, from 1.
+    `values`: values in the unit of the variable, shape (n,); `where`: noun of messages for their numbers, from 1.
     """
     low, high = variable.low, variable.high
     span = high - low if math.isfinite(high - low) else _limit(variable)
@@ -27,7 +27,7 @@ def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "
         return ""
     count, first = int((excess > ROUNDING * span).sum()), int(np.argmax(excess > ROUNDING * span))
     unit = unit_text(typeset(variable.unit))
-    count_text = f"from {where} {first + 1} on {count} of {len(values)} are beyond"
+    count_text = f"{count} of {len(values)} are beyond, the first in {where} {first + 1}"
     reached = f"reaches {values[worst]:.6g}{unit} in {where} {worst + 1} ({count_text})"
     return f"{reached}; the range of the FMU's input is {variable.range}{_hint(variable, values)}"
 
@@ -50,6 +50,6 @@ def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
         if m.taken == candidates[0].taken  # only units of the quantity of the input itself
         and low <= m.factor * float(values.min())
         and m.factor * float(values.max()) <= high
-        and m.factor * largest >= LEAST * limit
+        and m.factor * largest >= MIN_FRACTION * limit
     ]
     return f"; it looks like {' or '.join(units)}." if units else "; is its unit right?"

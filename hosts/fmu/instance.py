@@ -25,7 +25,7 @@ from hosts.fmu.array_values import ArrayValues
 from hosts.fmu.scalars import Scalar
 
 _WARNING = 1
-_MOST_RAW_MESSAGES = 256
+_MAX_RAW_MESSAGES = 256
 _GUARD = bytes(range(1, 65))  # behind the buffer of a state, to detect writes beyond it
 State: TypeAlias = ctypes.c_void_p
 """Pointer to a state in the memory of an FMU."""
@@ -52,8 +52,8 @@ _NUMBERS: dict[int, dict[str, tuple[str, Any]]] = {
 class Instance:
     """An instance of an FMU of FMI 2.0 or 3.0; a call with an error status raises `FMICallException` of FMPy.
 
-    `on_message`: called with status, category and text of each message; `token`: in place of that of the description;
-    `resources`: a location in place of that of the resources, a URI in FMI 2.0, a path in FMI 3.0.
+    `on_message`: called with status, category and text of each message; `token`: replaces the token of the description;
+    `resources`: a location instead of that of the resources, a URI in FMI 2.0, a path in FMI 3.0.
 
     `is_fmi3`: whether the FMU follows FMI 3.0; `raw_messages`: the last messages as the FMU sent them;
     `incomplete_messages`: number of those without category or text; `set_inputs_at`: called with the times within the
@@ -79,7 +79,7 @@ class Instance:
             "instanceName": name,
         }
 
-        self.raw_messages: deque[str] = deque(maxlen=_MOST_RAW_MESSAGES)
+        self.raw_messages: deque[str] = deque(maxlen=_MAX_RAW_MESSAGES)
         self._last_message, self._as_described = "", token is None and resources is None
         self.incomplete_messages = 0
 
@@ -267,7 +267,7 @@ class Instance:
         (self.slave.freeFMUState if self.is_fmi3 else self.slave.freeFMUstate)(state)
 
     def state_bytes(self) -> bytes:
-        """The present state as bytes. Raises `HostError`: it is larger than a file of a state may be."""
+        """The present state as bytes. Raises `HostError` if it is larger than a file of a state may be."""
         state, size = self.state(), ctypes.c_size_t()
         get_size = self.slave.fmi3SerializedFMUStateSize if self.is_fmi3 else self.slave.fmi2SerializedFMUstateSize
         try:
@@ -312,12 +312,12 @@ def _with_call_marks(slave: Any) -> Any:
         if name.startswith(("fmi2", "fmi3")):
             function = getattr(slave.dll, name)
             # Functions with a status are called directly, without the two Python frames of FMPy.
-            call = _checked(name, function) if function.restype is ctypes.c_int else getattr(slave, name)
+            call = _with_check(name, function) if function.restype is ctypes.c_int else getattr(slave, name)
             setattr(slave, name, marked(name, call))
     return slave
 
 
-def _checked(name: str, function: Callable[..., int]) -> Callable[..., int]:
+def _with_check(name: str, function: Callable[..., int]) -> Callable[..., int]:
     """A function of an FMU that raises `FMICallException` if its status is above a warning."""
 
     def call(*arguments: Any) -> int:

@@ -1,4 +1,4 @@
-"""An FMU whose variables have our names and our units."""
+"""An FMU whose variables have ALi3 names and units."""
 
 import copy
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -26,25 +26,25 @@ class NamedFmu(NamedScalars):
     Attributes
     ----------
     variables : dict of str to ScalarVariable
-        By our names, in the order of the model description; converted variables have our units. Derived variables
+        By ALi3 names, in the order of the model description; converted variables have ALi3 units. Derived variables
         follow as outputs.
     table : dict of str to Variable
-        The same with ranges and start values in our units.
+        The same with ranges and start values in ALi3 units.
     """
 
     def __init__(self, fmu: Fmu, aliases: Aliases) -> None:
         self._fmu = fmu
         self.aliases = aliases
-        by_name = {alias.theirs: alias for alias in aliases.aliases}
-        self._alias = {a.ours: a for a in (by_name.get(n, Alias(n, n)) for n in fmu.variables)}
+        by_name = {alias.fmu_name: alias for alias in aliases.aliases}
+        self._alias = {a.name: a for a in (by_name.get(n, Alias(n, n)) for n in fmu.variables)}
         self.path: Path = fmu.path
         self.description = fmu.description
         self.messages = fmu.messages
-        self.variables = {ours: _renamed_variable(fmu.variables[a.theirs], a) for ours, a in self._alias.items()}
+        self.variables = {name: _renamed_variable(fmu.variables[a.fmu_name], a) for name, a in self._alias.items()}
         self.table = {
-            a.ours: _scaled_variable(fmu.table[a.theirs], a)
+            a.name: _scaled_variable(fmu.table[a.fmu_name], a)
             for a in self._alias.values()
-            if a.theirs in fmu.table.names
+            if a.fmu_name in fmu.table.names
         }
         self._inputs, self._outputs = self.names("input"), self.names("output")
         self._derivation = Derivation(aliases.derived, (*self._inputs, *self._outputs))
@@ -54,8 +54,8 @@ class NamedFmu(NamedScalars):
         self._time = 0.0
 
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
-        """See `Fmu.initialise`; `start` is in our names and units."""
-        self._fmu.initialise(self.aliases.values(start), start_time)
+        """See `Fmu.initialise`; `start` is in ALi3 names and units."""
+        self._fmu.initialise(self.aliases.fmu_values(start), start_time)
         self._store_inputs({name: float(x) for name, x in start.items() if name in self._input_values})
         self._time = start_time
 
@@ -67,13 +67,13 @@ class NamedFmu(NamedScalars):
 
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         aliases = self._aliases_of(names)
-        set_theirs = self._fmu.setter([a.theirs for a in aliases])
+        set_fmu_values = self._fmu.setter([a.fmu_name for a in aliases])
         if all(map(_is_identity, aliases)) and not self._derivation.names:
-            return set_theirs
+            return set_fmu_values
         scales = [(a.factor, a.offset) for a in aliases]
 
         def set_values(values: Sequence[float]) -> None:
-            set_theirs([f * x + o for (f, o), x in zip(scales, values, strict=True)])
+            set_fmu_values([f * x + o for (f, o), x in zip(scales, values, strict=True)])
             self._store_inputs(dict(zip(names, values, strict=True)))
 
         return set_values
@@ -83,13 +83,13 @@ class NamedFmu(NamedScalars):
         return self._fmu.follows_slopes
 
     def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        """See `Fmu.slope_setter`; in our units."""
+        """See `Fmu.slope_setter`; in ALi3 units."""
         aliases = self._aliases_of(names)
-        set_theirs = self._fmu.slope_setter([a.theirs for a in aliases])
+        set_fmu_values = self._fmu.slope_setter([a.fmu_name for a in aliases])
         factors = [a.factor for a in aliases]
 
         def set_slopes(slopes: Sequence[float]) -> None:
-            set_theirs([f * x for f, x in zip(factors, slopes, strict=True)])
+            set_fmu_values([f * x for f, x in zip(factors, slopes, strict=True)])
             self._slopes = dict(zip(names, slopes, strict=True))
 
         return set_slopes
@@ -99,13 +99,13 @@ class NamedFmu(NamedScalars):
         if any(name in self._derivation.names for name in names):
             return self._reader_of_derived(names)
         aliases = self._aliases_of(names)
-        read_theirs = self._fmu.reader([a.theirs for a in aliases])
+        read_fmu_values = self._fmu.reader([a.fmu_name for a in aliases])
         if all(map(_is_identity, aliases)):
-            return read_theirs
+            return read_fmu_values
         factors, offsets = np.array([(a.factor, a.offset) for a in aliases]).T
 
         def read_values(into: NDArray[np.float64]) -> None:
-            read_theirs(into)
+            read_fmu_values(into)
             into -= offsets
             into /= factors
 
@@ -138,9 +138,9 @@ class NamedFmu(NamedScalars):
         self._fmu.restore_bytes(content)
 
     def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
-        """See `Fmu.start_values`; in our units."""
+        """See `Fmu.start_values`; in ALi3 units."""
         aliases = self._aliases_of(names)
-        values = self._fmu.start_values([a.theirs for a in aliases])
+        values = self._fmu.start_values([a.fmu_name for a in aliases])
         return np.array([(x - a.offset) / a.factor for a, x in zip(aliases, values, strict=True)])
 
     def constants(self) -> dict[str, float]:
@@ -151,7 +151,7 @@ class NamedFmu(NamedScalars):
 
     @property
     def derived(self) -> tuple[str, ...]:
-        return tuple(d.ours for d in self.aliases.derived)
+        return tuple(d.name for d in self.aliases.derived)
 
     def derive(
         self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64]
@@ -162,7 +162,7 @@ class NamedFmu(NamedScalars):
         return dict(zip(derivation.names, derivation.record(time, values[:, given_columns]).T, strict=True))
 
     def why_missing(self, name: str) -> str:
-        """A sentence on why the FMU lacks one of our names; empty if the reason is not known."""
+        """A sentence on why the FMU lacks an ALi3 name; empty if the reason is not known."""
         return self.aliases.why_missing(name)
 
     def _aliases_of(self, names: Iterable[str]) -> list[Alias]:
@@ -181,25 +181,25 @@ def _is_identity(alias: Alias) -> bool:
 
 
 def _renamed_variable(variable: ScalarVariable, alias: Alias) -> ScalarVariable:
-    if alias.ours == alias.theirs and _is_identity(alias):
+    if alias.name == alias.fmu_name and _is_identity(alias):
         return variable
     renamed = copy.copy(variable)
-    renamed.name = alias.ours
+    renamed.name = alias.name
     if not variable.unit or not _is_identity(alias):
-        renamed.unit = unit_of(alias.ours)
+        renamed.unit = unit_of(alias.name)
     return renamed
 
 
 def _scaled_variable(variable: Variable, alias: Alias) -> Variable:
-    if alias.ours == alias.theirs and _is_identity(alias):
+    if alias.name == alias.fmu_name and _is_identity(alias):
         return variable
     low, high = sorted((x - alias.offset) / alias.factor for x in (variable.low, variable.high))
     start = variable.start
     if not _is_identity(alias) and isinstance(start, (int, float)) and not isinstance(start, bool):
         start = (start - alias.offset) / alias.factor
-    return replace(variable, name=alias.ours, low=low, high=high, start=start)
+    return replace(variable, name=alias.name, low=low, high=high, start=start)
 
 
-def under_our_names(fmu: Fmu, aliases: Aliases) -> Fmu | NamedFmu:
-    """The FMU under our names; itself without aliases."""
+def with_aliases(fmu: Fmu, aliases: Aliases) -> Fmu | NamedFmu:
+    """The FMU under ALi3 names; the FMU itself if there are no aliases."""
     return NamedFmu(fmu, aliases) if aliases.aliases or aliases.derived or aliases.constants else fmu

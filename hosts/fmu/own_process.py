@@ -12,10 +12,10 @@ from hosts.common.numbers import Value
 from hosts.common.road import report_starts
 
 PATIENCE = 300.0
-"""Longest time of a step, a start or an end of an FMU, s."""
+"""Longest time of a step, a start or the end of an FMU, s."""
 
-T = TypeVar("T")
-R = TypeVar("R")
+_Task = TypeVar("_Task")
+_Result = TypeVar("_Result")
 
 
 def files_of(values: Mapping[str, Value]) -> list[Path]:
@@ -31,17 +31,17 @@ def files_of_drives(fmu: Path, starts: Iterable[Mapping[str, Value]]) -> list[Pa
 
 
 def in_own_process(
-    work: Callable[[T, Tell], R],
-    task: T,
+    work: Callable[[_Task, Tell], _Result],
+    task: _Task,
     answer: Any,
     reads: Iterable[Path],
     tell: Callable[[float], None] = lambda done: None,
-) -> R:
-    """The result of one task. `work`, `answer`, `reads`: see `Isolated`; `tell`: called with its progress.
+) -> _Result:
+    """Run one task in an isolated process. `work`, `answer`, `reads`: see `Isolated`; `tell`: called with its progress.
 
-    Raises `HostError`: the work has raised a `UserError`; `FailedFmuError`: the process has ended.
+    Raises `HostError` if the work has raised a `UserError`, `FailedFmuError` if the process has ended.
     """
-    process: Isolated[T, R] = Isolated(work, answer, reads=reads)
+    process: Isolated[_Task, _Result] = Isolated(work, answer, reads=reads)
     with closing(process):
         try:
             result = process.do(task, tell, PATIENCE)

@@ -14,7 +14,7 @@ from hosts.fmu.variables import Variable, Variables, kind_text
 def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
     """Settings of an SSV file, in the units of the FMU.
 
-    Raises `HostError`: a name, value, type or unit is wrong. Raises `ParameterSetError`: it is not a parameter set.
+    Raises `HostError` if a name, value, type or unit is wrong, `ParameterSetError` if it is not a parameter set.
     """
     parameters = read_parameter_set(file)
     return [_setting_of_entry(entry, parameters, variables, file.name) for entry in parameters.entries]
@@ -31,7 +31,7 @@ def _setting_of_entry(entry: Entry, parameters: ParameterSet, variables: Variabl
     converted = (
         variable.from_display(value, entry.unit, source)
         if definition is None
-        else _converted(variable, value, entry.unit, definition, source)
+        else _convert(variable, value, entry.unit, definition, source)
     )
     original = "" if converted == value else f"{value:g} {entry.unit}"
     return Setting(
@@ -51,7 +51,7 @@ def _value_of_entry(variable: Variable, kind: str, text: str, source: str) -> Va
     return variable.read(text, source)
 
 
-def _converted(variable: Variable, value: float, name: str, unit: UnitDefinition, source: str) -> float:
+def _convert(variable: Variable, value: float, name: str, unit: UnitDefinition, source: str) -> float:
     fmu_unit = variable.definition
     if fmu_unit is None:
         raise HostError(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ali3.unit_definition import KINDS
 
 ELEMENTS = "extra/org.ali3.elements/elements.txt"
-"""File of an FMU with a line for each array: its name and those of its elements, separated by blanks."""
+"""File of an FMU with a line for each array: its name and the names of its elements, separated by spaces."""
 
 TEXTS = ("String", "Binary")
 """Types whose start values are elements of XML."""
@@ -26,8 +26,9 @@ class Scalar:
     type: str
     """Of FMI, such as ``Real`` or ``Float64``."""
     index: int = 0
+    """Index among the values of the variable."""
     size: int = 1
-    """`index`, `size`: index among the values of the variable, and their number."""
+    """Number of values of the variable."""
 
 
 class NamedScalars:
@@ -62,7 +63,7 @@ def constants_of(variables: Mapping[str, ScalarVariable]) -> dict[str, float]:
 
 
 def element_names(text: str) -> dict[str, list[str]]:
-    """Names of the elements of the arrays, by the name of the array. `text`: of the file `ELEMENTS`."""
+    """Names of the elements of the arrays, by the name of the array. `text`: content of the file `ELEMENTS`."""
     return {names[0]: names[1:] for line in text.splitlines() if (names := line.split())}
 
 
@@ -71,7 +72,7 @@ def scalar_variables(
 ) -> tuple[list[ScalarVariable], dict[str, Scalar]]:
     """The scalar variables of a description, elements of arrays included, and the address of each.
 
-    `names`: of elements, see `element_names`; others are called ``position[1]``, ``matrix[1,2]``.
+    `names`: names of elements, see `element_names`; others are called ``position[1]``, ``matrix[1,2]``.
 
     Returns
     -------

@@ -17,7 +17,7 @@ class Setting:
     source: str
     """Source of the value, for messages."""
     original: str = ""
-    """Original value and unit, if converted; else empty."""
+    """Original value and unit, if converted; otherwise empty."""
 
     @property
     def changes(self) -> bool:

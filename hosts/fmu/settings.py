@@ -14,7 +14,7 @@ from hosts.fmu.variables import Variables
 
 START_OF = "start of "
 """Prefix of the source of start values of a manoeuvre."""
-_MOST_IN_TITLE = 2
+_MAX_SETTINGS_IN_TITLE = 2
 
 
 class Settings:
@@ -37,11 +37,11 @@ class Settings:
         return sorted((s for s in self._settings.values() if s.changes), key=lambda s: order.index(s.variable.name))
 
     def add_numbers(self, values: Mapping[str, Value], source: str) -> None:
-        """Add values in the units of the FMU. `source`: of the values, for messages.
+        """Add values in the units of the FMU. `source`: source of the values, for messages.
 
-        Raises `HostError`: a name, value or type is wrong.
+        Raises `HostError` if a name, value or type is wrong.
         """
-        self._put([self._checked(name, value, source) for name, value in values.items()])
+        self._put([self._check_setting(name, value, source) for name, value in values.items()])
 
     def add_texts(self, values: Iterable[tuple[str, str]], source: str) -> None:
         """Add values as text, in the units of the FMU or with a unit; see `add_numbers`."""
@@ -58,7 +58,7 @@ class Settings:
             self._notes.append((v.name, f"{v.with_unit(value)} as in the FMU ({source})"))
 
     def add_set(self, file: Path) -> None:
-        """Add values of an SSV file; those of the FMU itself replace nothing, for a set may list all parameters."""
+        """Add values of an SSV file; default values of the FMU replace nothing, for a set may list all parameters."""
         settings, source = settings_of_file(file, self._variables), file.name
         self._put([setting for setting in settings if setting.changes])
         unchanged = {setting.variable.name for setting in settings if not setting.changes}
@@ -76,7 +76,7 @@ class Settings:
             )
 
     def add_options(self, fmu_options: FmuOptions, fidelity: float | None = None) -> None:
-        """Add the settings of the command line; see `add_numbers`. `fidelity`: of the option ``--fidelity``."""
+        """Add the settings of the command line; see `add_numbers`. `fidelity`: value of ``--fidelity``."""
         for file in fmu_options.sets:
             self.add_set(file)
         self.add_texts(fmu_options.values, "--set")
@@ -86,7 +86,7 @@ class Settings:
             self.add_numbers({"fidelity": fidelity}, "--fidelity")
 
     def discard_overwritten(self, names: Iterable[str], reason: str) -> None:
-        """Drop settings of variables that are overwritten from the start on, with a note. `reason`: for the note."""
+        """Drop settings of variables that are overwritten at the start, with a note. `reason`: text of the note."""
         for name in names:
             if name in self._settings:
                 setting = self._settings.pop(name)
@@ -102,7 +102,7 @@ class Settings:
     def title(self, name: str) -> str:
         """A title: the name and the first changes of the user."""
         changes = [s for s in self.changes if not s.source.startswith(START_OF)]
-        texts = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in changes[:_MOST_IN_TITLE]]
+        texts = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in changes[:_MAX_SETTINGS_IN_TITLE]]
         suffix = [f"{len(changes) - len(texts)} more"] if len(changes) > len(texts) else []
         return ", ".join([name, *texts, *suffix])
 
@@ -119,13 +119,13 @@ class Settings:
                 self._notes.append((name, f"{setting.source} replaces {old} of {before.source}"))
             self._settings[name] = setting
 
-    def _checked(self, name: str, value: Value, source: str) -> Setting:
+    def _check_setting(self, name: str, value: Value, source: str) -> Setting:
         variable = self._variables.settable(name, source)
         return Setting(variable, variable.check(value, source), source)
 
 
 def settings_of(variables: Variables, fmu_options: FmuOptions) -> Settings:
-    """The settings of the command line for an FMU. Raises `HostError`: a name, value, type or unit is wrong."""
+    """The settings of the command line for an FMU. Raises `HostError` if a name, value, type or unit is wrong."""
     settings = Settings(variables)
     settings.add_options(fmu_options)
     return settings

@@ -14,7 +14,7 @@ _BY_RATIO = ("vehicle.steering_wheel_angle_max", "vehicle.steering_ratio")
 def steering_as_set(constants: Mapping[str, float], table: Variables, start: Mapping[str, Value]) -> dict[str, float]:
     """Constants of the steering with the ratio that is set; the rack or arm keeps its position at full lock.
 
-    `constants`: of the FMU, which are those of the car file. Result: empty if the ratio is that of the car file.
+    `constants`: constants of the FMU, as in the car file. Result: empty if the car file has this ratio.
     """
     scale = 1.0
     for name, power in RATIOS.items():

@@ -43,8 +43,9 @@ class Variable:
     """"1" without a unit."""
     start: Value | None
     low: float
+    """Lower end of the range; -inf if open."""
     high: float
-    """`low`, `high`: ends of the range, infinite where open."""
+    """Upper end of the range; inf if open."""
     definition: UnitDefinition | None
     """Definition of the unit, if the FMU has one."""
     displays: dict[str, tuple[float, float]]
@@ -67,7 +68,7 @@ class Variable:
 
     @property
     def may_be_set(self) -> bool:
-        """Whether it is a parameter or an input that is no constant."""
+        """Whether it is a parameter or an input, and not a constant."""
         return self.causality in ("parameter", "input") and self.variability != "constant"
 
     @property
@@ -80,8 +81,8 @@ class Variable:
     def read(self, text: str, source: str, with_unit: bool = False) -> Value:
         """The checked value of a text.
 
-        `source`: of the text, for messages; `with_unit`: whether a unit may follow the number, as on the command line
-        but not in files. Raises `HostError`: it is not a value of this variable.
+        `source`: source of the text, for messages; `with_unit`: whether a unit may follow the number, as on the command
+        line but not in files. Raises `HostError` if it is not a value of this variable.
         """
         if self.kind == "String":
             return text
@@ -101,7 +102,7 @@ class Variable:
     def check(self, value: Value, source: str) -> Value:
         """The value, converted to the type of the variable.
 
-        Raises `HostError`: it has another type or is out of the range.
+        Raises `HostError` if it has another type or is out of the range.
         """
         if self.kind == "String" or isinstance(value, str):
             if self.kind != "String" or not isinstance(value, str):
@@ -125,7 +126,7 @@ class Variable:
     def from_display(self, value: float, unit: str, source: str) -> float:
         """A value converted from a display unit of the FMU to the unit of the variable.
 
-        Raises `HostError`: the variable has no such display unit.
+        Raises `HostError` if the variable has no such display unit.
         """
         if unit not in self.displays:
             raise HostError(
@@ -153,9 +154,9 @@ class Variables:
         return [v for v in self._variables.values() if v.causality == "parameter"]
 
     def settable(self, name: str, source: str) -> Variable:
-        """A variable that may be set before the start. `source`: of the name, for messages.
+        """A variable that may be set before the start. `source`: source of the name, for messages.
 
-        Raises `HostError`: the variable does not exist, or may not be set.
+        Raises `HostError` if the variable does not exist, or may not be set.
         """
         variable = self._variables.get(name)
         if variable is None and (elements := [n for n in self.names if n.startswith(f"{name}[")]):
@@ -224,7 +225,7 @@ def _start(text: Any, kind: str) -> Value | None:
 
 
 def check_co_simulation(path: Path, description: ModelDescription) -> None:
-    """Raises `HostError`: the FMU is not for co-simulation of FMI 2.0 or 3.0."""
+    """Raises `HostError` if the FMU is not for co-simulation of FMI 2.0 or 3.0."""
     if description.coSimulation is None or description.fmiVersion[0] not in "23":
         kind = "" if description.coSimulation is not None else " for model exchange"
         raise HostError(

@@ -11,20 +11,20 @@ from hosts.measures.frequency_response import FrequencyResponse
 
 @dataclass(frozen=True)
 class Bandwidth:
-    """Measures of a frequency response; NaN where they are not in its range."""
+    """Measures of a frequency response; NaN if they are not in its range."""
 
-    low_gain: float
-    """Gain at the lowest frequency, in units of output over input."""
-    gain_bandwidth: float
+    low_gain: float = math.nan
+    """Gain at the lowest frequency, in units of output per input."""
+    gain_bandwidth: float = math.nan
     """Frequency at which the gain is `low_gain` / sqrt(2) (-3 dB), Hz."""
-    phase_bandwidth: float
+    phase_bandwidth: float = math.nan
     """Frequency at which the phase lag is 45 degrees, Hz."""
-    equivalent_time: float
+    equivalent_time: float = math.nan
     """1 / (2 pi `phase_bandwidth`), s: time constant of the first-order lag with that phase bandwidth."""
-    resonance: float
+    resonance: float = math.nan
     """Frequency of the largest gain, Hz; NaN if that is at an end of the range."""
-    resonance_ratio: float
-    """Gain at the resonance over `low_gain`."""
+    resonance_ratio: float = math.nan
+    """Gain at the resonance divided by `low_gain`."""
 
 
 def bandwidth(response: FrequencyResponse) -> Bandwidth:
@@ -38,7 +38,7 @@ def bandwidth(response: FrequencyResponse) -> Bandwidth:
     half turn. The phase at the lowest frequency is not subtracted.
     """
     if len(response.frequency) < 3:
-        return Bandwidth(*6 * (math.nan,))
+        return Bandwidth()
     gain, f = response.gain, response.frequency
     low_gain = float(gain[0])
     phase = response.phase
@@ -48,10 +48,10 @@ def bandwidth(response: FrequencyResponse) -> Bandwidth:
     peak = int(np.argmax(gain))
     inside = 0 < peak < len(f) - 1
     return Bandwidth(
-        low_gain,
-        crossing(f, gain, low_gain / math.sqrt(2.0)),
-        phase_bandwidth,
-        1.0 / (2.0 * math.pi * phase_bandwidth),
-        float(f[peak]) if inside else math.nan,
-        float(gain[peak] / low_gain) if inside else math.nan,
+        low_gain=low_gain,
+        gain_bandwidth=crossing(f, gain, low_gain / math.sqrt(2.0)),
+        phase_bandwidth=phase_bandwidth,
+        equivalent_time=1.0 / (2.0 * math.pi * phase_bandwidth),
+        resonance=float(f[peak]) if inside else math.nan,
+        resonance_ratio=float(gain[peak] / low_gain) if inside else math.nan,
     )

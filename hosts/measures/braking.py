@@ -18,7 +18,7 @@ def travelled(time: NDArray[np.float64], speed: NDArray[np.float64]) -> NDArray[
 def time_below(time: NDArray[np.float64], speed: NDArray[np.float64], threshold: float, after: float) -> float:
     """First time at which a speed falls to a threshold, s, by linear interpolation; NaN if it does not.
 
-    `time`, `speed`: in s, m/s, shape (n,); `threshold`: in m/s; `after`: earlier times do not count, s.
+    `time`, `speed`: s, m/s, shape (n,); `threshold`: m/s; `after`: earlier times do not count, s.
     """
     below = np.flatnonzero((speed <= threshold) & (time >= after - 1e-9))
     if not len(below):
@@ -43,7 +43,7 @@ def mean_fully_developed_deceleration(
 ) -> float:
     """Deceleration averaged over the distance from 80 % to 10 % of the initial speed, m/s2; NaN if 10 % is not reached.
 
-    `time`, `speed`: in s, m/s, shape (n,); `onset`: time of the first pedal motion, s; `initial`: speed at the onset,
+    `time`, `speed`: s, m/s, shape (n,); `onset`: time of the first pedal motion, s; `initial`: speed at the onset,
     m/s.
 
     Notes
@@ -61,7 +61,7 @@ def stopping_distance(
 ) -> float:
     """Distance from the onset of braking to rest, m; NaN if the car does not stop.
 
-    `time`, `speed`: in s, m/s, shape (n,); `onset`: in s; `deceleration`: below the speed `STANDING`, m/s2.
+    `time`, `speed`: s, m/s, shape (n,); `onset`: s; `deceleration`: below the speed `STANDING`, m/s2.
     """
     last_distance = STANDING**2 / (2.0 * deceleration) if deceleration > 0.0 else math.nan
     return distance_between(time, speed, onset, time_below(time, speed, STANDING, onset)) + last_distance
@@ -77,7 +77,7 @@ def time_to_reach(
 ) -> float:
     """Time from the onset until the deceleration first reaches a threshold, s; NaN if it does not.
 
-    `time`, `deceleration`: in s, m/s2, shape (n,); `threshold`: in m/s2; `onset`: in s.
+    `time`, `deceleration`: s, m/s2, shape (n,); `threshold`: m/s2; `onset`: s.
     """
     return time_below(time, -deceleration, -threshold, onset) - onset
 
@@ -85,7 +85,7 @@ def time_to_reach(
 def locked(slip: NDArray[np.float64], speed: NDArray[np.float64], slowest: float = 3.0) -> NDArray[np.bool_]:
     """Whether wheels are locked while the car moves, shape (n, m).
 
-    `slip`: longitudinal slips, -1 for a locked wheel, shape (n, m); `speed`: in m/s, shape (n,); `slowest`: speed up to
+    `slip`: longitudinal slips, -1 for a locked wheel, shape (n, m); `speed`: m/s, shape (n,); `slowest`: speed up to
     which a locked wheel does not count, m/s.
     """
     return np.asarray((slip < -0.9) & (speed > slowest)[:, None])

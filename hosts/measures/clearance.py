@@ -11,7 +11,7 @@ def outline(
 ) -> NDArray[np.float64]:
     """Corners of rectangles: front left, rear left, rear right, front right, m, shape (n, 4, 2).
 
-    `x`, `y`, `yaw`: centre and heading in the same axes, m and rad, shape (n,); `length`, `width`: in m.
+    `x`, `y`, `yaw`: centre and heading in the same axes, m and rad, shape (n,); `length`, `width`: m.
     """
     ahead, aside = np.stack([np.cos(yaw), np.sin(yaw)], -1), np.stack([-np.sin(yaw), np.cos(yaw)], -1)
     signs = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * 0.5 * np.array([length, width])
@@ -32,7 +32,7 @@ def clearance(
     """Distance of a car's outline from the cones along the edges of the lanes, m, shape (n,).
 
     `x`, `y`, `yaw`: centre of the outline and heading, m and rad, in the axes of the course, shape (n,); `length`,
-    `width`: in m. A negative distance is the depth by which cones are hit; between lanes the distance is infinite.
+    `width`: m. A negative distance is the depth by which cones are hit; between lanes the distance is infinite.
 
     Notes
     -----

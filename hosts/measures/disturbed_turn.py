@@ -5,9 +5,9 @@ from numpy.typing import NDArray
 
 
 def circle_through(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float, float]:
-    """Least-squares circle through points, after Kåsa. `x`, `y`: in m, shape (n,).
+    """Least-squares circle through points, after Kåsa. `x`, `y`: m, shape (n,).
 
-    Returns `centre_x`, `centre_y` and `radius`: in m.
+    Returns `centre_x`, `centre_y` and `radius`, m.
     """
     # Relative to the mean, which reduces rounding errors.
     mx, my = float(x.mean()), float(y.mean())
@@ -19,7 +19,7 @@ def circle_through(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[floa
 def distance_from_circle(
     x: NDArray[np.float64], y: NDArray[np.float64], circle: tuple[float, float, float]
 ) -> NDArray[np.float64]:
-    """Distance of points from a circle, m, positive outside, shape (n,). `circle`: of `circle_through`."""
+    """Distance of points from a circle, m, positive outside, shape (n,). `circle`: result of `circle_through`."""
     return np.asarray(np.hypot(x - circle[0], y - circle[1]) - circle[2])
 
 

@@ -3,13 +3,13 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ali3.low_pass import phaseless_low_pass as phaseless_low_pass
+from ali3.low_pass import phaseless_low_pass as phaseless_low_pass  # beside the other filters of signals
 
 
 def resample(
     time: ArrayLike, values: ArrayLike, interval: float, first: float | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A signal at equally spaced times, by linear interpolation.
+    """Resample a signal at equally spaced times, by linear interpolation.
 
     Parameters
     ----------
@@ -17,14 +17,14 @@ def resample(
         s, increasing; need not be equally spaced.
     values : array_like, shape (n,)
     interval : float
-        Between the new samples, s; one longer than that of the old samples needs a low-pass filter before.
+        Time between the new samples, s; if it is longer than between the old ones, filter the signal before.
     first : float, optional
-        Time of the first new sample, s; by default that of the first old one.
+        Time of the first new sample, s; by default the time of the first old one.
 
     Returns
     -------
     time, values : ndarray of shape (m,)
-        From `first` to the last within the signal.
+        Samples from `first` to the end of the signal.
 
     Raises
     ------
@@ -38,16 +38,16 @@ def resample(
         raise ValueError(f"The interval is {interval:g} s; it must be positive.")
     if not np.isfinite(x).all():
         raise ValueError(f"The signal is not finite at {t[~np.isfinite(x)][0]:g} s.")
-    # Half a thousandth of an interval, so that rounding errors do not remove the last sample.
-    begin = t[0] if first is None else first
-    even_times = begin + interval * np.arange(int((t[-1] - begin) / interval + 5e-4) + 1)
+    # 5e-4 of an interval, so that rounding errors do not remove the last sample.
+    start = t[0] if first is None else first
+    even_times = start + interval * np.arange(int((t[-1] - start) / interval + 5e-4) + 1)
     return np.asarray(even_times, float), np.asarray(np.interp(even_times, t, x), float)
 
 
 def crossing(time: NDArray[np.float64], values: NDArray[np.float64], level: float, after: float = -np.inf) -> float:
     """First time at which a signal crosses a level, s, by linear interpolation; NaN if it does not.
 
-    `time`, `values`: shape (n,); `after`: earlier crossings do not count, s.
+    `time`, `values`: shape (n,); `after`: time before which crossings do not count, s.
     """
     is_below = np.signbit(values - level)
     candidates = np.flatnonzero((is_below[1:] != is_below[:-1]) & (time[1:] > after))

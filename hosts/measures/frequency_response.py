@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.signal import csd
 
 _RELATIVE_WIDTH = 0.03
-"""Half width of the band over which spectra are averaged, over its frequency."""
+"""Half width of the band over which spectra are averaged, relative to its frequency."""
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class FrequencyResponse:
     response: NDArray[np.complex128]
     """Shape (n,): output over input."""
     coherence: NDArray[np.float64]
-    """Shape (n,): share of the power of the output that is linear in the input, 0 to 1."""
+    """Shape (n,): fraction of the power of the output that is linear in the input, 0 to 1."""
 
     @property
     def gain(self) -> NDArray[np.float64]:
@@ -51,7 +51,7 @@ def frequency_response(
     Parameters
     ----------
     excitation, answer : ndarray of shape (n,)
-        Input and output at even times, less their values at rest.
+        Input and output at even times, minus their values at rest.
     interval : float
         Between samples, s.
     frequency : ndarray of shape (m,)

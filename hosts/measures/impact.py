@@ -11,7 +11,7 @@ from hosts.measures.wheels import LIFTED
 def weight_from_momentum(time: NDArray[np.float64], load: NDArray[np.float64]) -> float:
     """Weight of a car that rests vertically at the first and at the last sample.
 
-    `time`, `load`: in s, sum of the normal forces of a level road in N, shape (n,). Returns the weight, N.
+    `time`, `load`: s, sum of the normal forces of a level road in N, shape (n,). Returns the weight, N.
 
     Notes
     -----
@@ -44,7 +44,7 @@ def settling_time(time: NDArray[np.float64], values: NDArray[np.float64], final:
 
 
 def rebound(height: NDArray[np.float64]) -> tuple[int, int]:
-    """Samples of the end of the first fall and of the largest height after it. `height`: in m, shape (n,)."""
+    """Samples of the end of the first fall and of the largest height after it. `height`: m, shape (n,)."""
     rising = np.flatnonzero(np.diff(height) > 0.0)
     lowest = int(rising[0]) if len(rising) else len(height) - 1
     return lowest, lowest + int(np.argmax(height[lowest:]))

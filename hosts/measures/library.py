@@ -26,21 +26,23 @@ from hosts.measures.wheels import at_wheels, duration, lifted_wheels
 
 
 def _wheels(result: Result, quantity: str) -> NDArray[np.float64]:
-    """A quantity of the four wheels, shape (n, 4). Raises `HostError` where a wheel does not have it."""
+    """A quantity of the four wheels, shape (n, 4). Raises `HostError` if a wheel does not have it."""
     values = at_wheels(result, quantity)
     if values is None:
         raise HostError(f"The car does not provide wheel_{WHEELS[0]}.{quantity} and the like.")
     return values
 
 
-def _array_function(numpy: Callable[[Any], Any]) -> Callable[[Any], float]:
-    """A function of an array that is NaN for an empty array."""
-    return lambda values: float(numpy(values)) if np.size(values) else math.nan
+def _array_function(function: Callable[[Any], Any]) -> Callable[[Any], float]:
+    """The function of an array, but NaN for an empty array."""
+    return lambda values: float(function(values)) if np.size(values) else math.nan
 
 
-def _array_or_numbers_function(python: Callable[[Any], float], numpy: Callable[[Any], Any]) -> Callable[..., float]:
-    """A function of an array as `_array_function`, or of several numbers as in Python."""
-    return lambda *values: float(python(values)) if len(values) > 1 else _array_function(numpy)(*values)
+def _array_or_numbers_function(
+    of_numbers: Callable[[Any], float], of_array: Callable[[Any], Any]
+) -> Callable[..., float]:
+    """`_array_function` for one argument, `of_numbers` for several."""
+    return lambda *values: float(of_numbers(values)) if len(values) > 1 else _array_function(of_array)(*values)
 
 
 LIBRARY: Mapping[str, Callable[..., Any]] = {

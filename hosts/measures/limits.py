@@ -28,7 +28,7 @@ class _LimitsFile(BaseModel):
 def read_limits(file: Path) -> dict[str, LimitEntry]:
     """Read the table ``[limits]`` of a file, which may be a study file.
 
-    Raises `HostError`: there is no such table, or an entry is wrong, with the key, its value and a remedy.
+    Raises `HostError` if there is no such table, or an entry is wrong, with the key, its value and a remedy.
     """
     record = read_toml(file, HostError)
     try:
@@ -40,8 +40,8 @@ def read_limits(file: Path) -> dict[str, LimitEntry]:
 def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Limit]:
     """Limits by the columns of measures, in the units of the measures.
 
-    `entries`: of the file; a name may omit the prefix of its test if it is unique without; `columns`: units of all
-    measures. Raises `HostError`: there is no such measure, or the unit is one of another quantity.
+    `entries`: entries of the file; a name may omit the prefix of its test if it is unique without; `columns`: units of
+    all measures. Raises `HostError` if there is no such measure, or the unit is one of another quantity.
     """
     results: dict[str, Limit] = {}
     for name, entry in entries.items():
@@ -57,7 +57,7 @@ def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], sou
 
 
 def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Any]:
-    """Limits by the columns of measures for JSON, with None where there is no limit; see `limits_of`."""
+    """Limits by the columns of measures for JSON, with None if there is no limit; see `limits_of`."""
     return {
         column: {"min": or_null(limit.lowest), "max": or_null(limit.highest), "unit": columns[column]}
         for column, limit in limits_of(entries, columns, source).items()
@@ -65,7 +65,7 @@ def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str],
 
 
 def column_of(name: str, columns: Mapping[str, str], label: str) -> str:
-    """The column of a name with or without its prefix. Raises `HostError`: there is none, or several."""
+    """The column of a name with or without its prefix. Raises `HostError` if there is none, or several."""
     matches = [name] if name in columns else [c for c in columns if c.endswith(f".{name}")]
     if len(matches) == 1:
         return matches[0]

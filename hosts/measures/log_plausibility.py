@@ -16,20 +16,20 @@ from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, 
 from hosts.measures.samples import joint_sample_values, sample_values
 from hosts.measures.signal import Signal
 
-LEAST_DELAY = 0.1  # s
+MIN_DELAY = 0.1  # s
 RATES = ("chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", STEERING)
 TIMES = (
     (2.0, "time twice as fast"),
     (0.5, "time half as fast"),
-    (1e-3, "ms in place of s"),
-    (60.0, "minutes in place of s"),
+    (1e-3, "ms instead of s"),
+    (60.0, "minutes instead of s"),
 )
-RIM = ((1.0 / 0.31, "m/s of the rim in place of rad/s"),)
+RIM = ((1.0 / 0.31, "m/s of the rim instead of rad/s"),)
 PAIRS = (("chassis.ax", "chassis.ay"), PATH, *pairwise(WHEELS))
 
 
 def log_plausibility(what: str, signals: Signals) -> Plausibility:
-    """Plausibility of a log. `what`: its file; `signals`: by our names, in SI units."""
+    """Plausibility of a log. `what`: its file; `signals`: by ALi3 names, in SI units."""
 
     def values(signals: Signals) -> list[Value]:
         return [*log_values(signals), *sample_values(signals)]
@@ -86,7 +86,7 @@ def _corrected_logs(signals: Signals, plausibility: Plausibility) -> Iterator[tu
         if a in signals and b in signals:
             swapped = {a: replace(signals[b], name=a), b: replace(signals[a], name=b)}
             yield f"'{signals[a].source}' and '{signals[b].source}' exchanged", {a, b}, {**signals, **swapped}, False
-    times = [(message, factor, False) for factor, message in TIMES]  # other factors cannot be seen in windows of 1 s
+    times = [(words, factor, False) for factor, words in TIMES]  # other factors cannot be seen in windows of 1 s
     for message, factor, is_fitted in (*times, *_correcting_factors(plausibility, ("time",), ())):
         corrected = {n: replace(s, time=factor * s.time) for n, s in signals.items()}
         yield message if not is_fitted else f"{message} on the times", {"time"}, corrected, is_fitted
@@ -140,10 +140,10 @@ def _correcting_factors(
     if is_inverted and low <= 1.0 <= high:
         yield "the other sign", -1.0, False
     elif not has_ratio:
-        yield from ((message, factor, False) for factor, message in factors)
+        yield from ((words, factor, False) for factor, words in factors)
     elif low <= high and not low <= 1.0 <= high:
         middle = float(np.sqrt(low * high))
-        inside = [(message, sign * factor, False) for factor, message in factors if low <= factor <= high]
+        inside = [(words, sign * factor, False) for factor, words in factors if low <= factor <= high]
         yield from sorted(inside, key=lambda candidate: abs(np.log(abs(candidate[1]) / middle)))[:1]
         if not inside:
             yield f"a factor of {sign * middle:.3g} ({low:.3g} to {high:.3g})", sign * middle, True
@@ -154,7 +154,7 @@ def _shifted_logs(
 ) -> Iterator[tuple[str, set[str], Signals, bool]]:
     """The log without the delay of a signal, if all its relations agree on it, and without the offset of a rate."""
     delays = [-power * v.value for v, power in _relations_with_powers(plausibility, "_late", (s.name,))]
-    if delays and min(map(abs, delays)) > LEAST_DELAY and np.ptp(delays) <= 2.0 * LEAST_DELAY:
+    if delays and min(map(abs, delays)) > MIN_DELAY and np.ptp(delays) <= 2.0 * MIN_DELAY:
         delay = float(np.mean(delays))
         message = f"a delay of {delay:.2f} s (within {FINE:g} s) of {label}"
         yield message, {s.name}, {**signals, s.name: replace(s, time=s.time - delay)}, False

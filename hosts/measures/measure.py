@@ -16,15 +16,16 @@ class Limit:
     source: str
     """Source of the limit, such as standard and clause."""
     lowest: float = -math.inf
+    """Lower limit, in the unit of the measure; infinite: none."""
     highest: float = math.inf
-    """`lowest`, `highest`: in the unit of the measure; infinite: not limited."""
+    """Upper limit, in the unit of the measure; infinite: none."""
 
     def holds(self, value: float) -> bool:
         """Whether a value is within the limits; NaN is not."""
         return self.lowest <= value <= self.highest
 
     def range_text(self, unit: str = "") -> str:
-        """The allowed range as text. `unit`: of the limits, as printed."""
+        """The allowed range as text. `unit`: unit of the limits, as printed."""
         low, high = (f"{x:.5g}" for x in (self.lowest, self.highest))
         if math.isinf(self.lowest):
             text = "no limit" if math.isinf(self.highest) else f"at most {high}"
@@ -40,7 +41,7 @@ class Measure:
     name: str
     """Within its test, such as ``yaw_rate.response_time``; letters, digits, dots and underscores."""
     value: float
-    """In `unit`; NaN where the run does not yield it, with the reason in `note`."""
+    """In `unit`; NaN if the run does not yield it, with the reason in `note`."""
     unit: str
     """In the notation of FMI, such as ``rad/s``; ``1``: none."""
     text: str
@@ -59,7 +60,7 @@ class Measure:
 
     @property
     def is_kept(self) -> bool | None:
-        """Whether the limit is kept; None where there is no limit, or the number does not exist."""
+        """Whether the limit is kept; None if there is no limit, or the number does not exist."""
         return self.limit.holds(self.value) if self.limit is not None and self.exists else None
 
     def displayed(self) -> Measure:

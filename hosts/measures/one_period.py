@@ -7,68 +7,78 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import correlate, correlation_lags
 
-from hosts.measures.peak import interpolated_peak
+from hosts.measures.peak import first_direction, interpolated_peak
+
+_ROUND_OFF = 1e-9  # s
 
 
 @dataclass(frozen=True)
-class OnePeriod:
-    """Measures of one quantity."""
+class SinusoidalResponse:
+    """Measures of the response of one quantity to one period of sinusoidal steering; NaN by default."""
 
-    correlation_lag: float
+    correlation_lag: float = math.nan
     """Lag at the best correlation with the steering, s; positive: behind the steering."""
-    correlation: float
+    correlation: float = math.nan
     """Correlation coefficient at that lag, -1 to 1."""
-    first_lag: float
-    second_lag: float
-    """`first_lag`, `second_lag`: from the first peak of the steering to that of the quantity, and from the second to
-    the second, s."""
-    first_ratio: float
-    second_ratio: float
-    """`first_ratio`, `second_ratio`: peaks of the quantity over those of the steering, in units of quantity over angle.
-    """
-    hysteresis: float
-    """Area of the loop over the steering angle, over that of the ellipse in its bounding rectangle; the sine of the
-    phase lag where both are sinusoidal."""
-
-
-NOTHING = OnePeriod(*7 * (math.nan,))
+    first_lag: float = math.nan
+    """Lag of its first peak behind the first peak of the steering, s."""
+    second_lag: float = math.nan
+    """Lag of its second peak behind the second peak of the steering, s."""
+    first_ratio: float = math.nan
+    """Ratio of its first peak to the first peak of the steering, in the unit of the quantity per rad."""
+    second_ratio: float = math.nan
+    """Ratio of its second peak to the second peak of the steering, in the unit of the quantity per rad."""
+    hysteresis: float = math.nan
+    """Area of its loop over the steering angle, relative to the ellipse in the bounding rectangle of the loop; the sine
+    of the phase lag if both are sinusoidal."""
 
 
 def correlation_lag(
-    excitation: NDArray[np.float64], response: NDArray[np.float64], interval: float, longest: float
+    excitation: NDArray[np.float64], response: NDArray[np.float64], interval: float, max_lag: float
 ) -> tuple[float, float]:
     """Lag of a response at the best correlation with its excitation, s, and the correlation coefficient.
 
-    `excitation`, `response`: equally spaced, zero outside, shape (n,); `interval`: between samples, s; `longest`:
-    largest lag, s. The lag is interpolated by a parabola.
+    `excitation`, `response`: equally spaced samples, zero outside, shape (n,); `interval`: time between samples, s;
+    `max_lag`: largest lag, s. The lag is interpolated by a parabola.
     """
     lags = correlation_lags(len(response), len(excitation)) * interval
     product = correlate(response, excitation) / math.sqrt(
         float(np.dot(excitation, excitation) * np.dot(response, response))
     )
-    is_within = np.abs(lags) <= longest + 1e-9
+    is_within = np.abs(lags) <= max_lag + _ROUND_OFF
     return interpolated_peak(lags[is_within], product[is_within])
 
 
-def one_period(
-    time: NDArray[np.float64], steering: NDArray[np.float64], values: NDArray[np.float64], longest: float = 0.9
-) -> OnePeriod:
-    """Measures of the response of one quantity to one period; all NaN where a signal is zero or not finite.
+def measure_response(
+    time: NDArray[np.float64], steering: NDArray[np.float64], values: NDArray[np.float64], max_lag: float
+) -> SinusoidalResponse:
+    """Measure the response of one quantity to one period; all NaN if a signal is zero or `values` are not finite.
 
-    `time`: equally spaced, s, shape (n,); `steering`, `values`: less their values before the period, shape (n,);
-    `values` has the sign of the steering in the steady state; `longest`: largest lag, s; less than half of the period.
+    `time`: equally spaced, s, shape (n,); `steering`, `values`: signals minus their values before the period, shape
+    (n,), steering in rad; `values`: positive for positive steering in the steady state; `max_lag`: largest lag, s, less
+    than half of the period.
     """
     if len(time) < 5 or not np.isfinite(values).all() or not values.any() or not steering.any():
-        return NOTHING
-    lag, correlation = correlation_lag(steering, values, float(time[1] - time[0]), longest)
-    side = math.copysign(1.0, float(steering[np.flatnonzero(np.abs(steering) > 0.5 * np.abs(steering).max())[0]]))
+        return SinusoidalResponse()
+    lag, correlation = correlation_lag(steering, values, float(time[1] - time[0]), max_lag)
+    direction = first_direction(steering)
     lags, ratios = [], []
-    for direction in (side, -side):
-        peak_time, peak = interpolated_peak(time, direction * steering)
-        is_near = (time >= peak_time - 0.1 * longest) & (time <= peak_time + longest)
-        response_time, response_peak = interpolated_peak(time[is_near], direction * values[is_near])
+    for sign in (direction, -direction):
+        peak_time, peak = interpolated_peak(time, sign * steering)
+        # A response may lead the steering slightly.
+        is_near = (time >= peak_time - 0.1 * max_lag) & (time <= peak_time + max_lag)
+        response_time, response_peak = interpolated_peak(time[is_near], sign * values[is_near])
         lags.append(response_time - peak_time)
         ratios.append(response_peak / peak)
+    # Shoelace formula; the loop is closed, as both signals end at zero.
     area = 0.5 * abs(float(np.sum(steering[:-1] * values[1:] - steering[1:] * values[:-1])))
     ellipse = math.pi * 0.25 * float(np.ptp(steering) * np.ptp(values))
-    return OnePeriod(lag, correlation, lags[0], lags[1], ratios[0], ratios[1], area / ellipse)
+    return SinusoidalResponse(
+        correlation_lag=lag,
+        correlation=correlation,
+        first_lag=lags[0],
+        second_lag=lags[1],
+        first_ratio=ratios[0],
+        second_ratio=ratios[1],
+        hysteresis=area / ellipse,
+    )

@@ -1,4 +1,6 @@
-"""The peak of a sampled signal, interpolated between samples."""
+"""The interpolated peak of a sampled signal, and the direction of its first half wave."""
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,3 +18,9 @@ def interpolated_peak(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[f
     curvature = a - 2.0 * b + c
     shift = 0.5 * (a - c) / curvature if curvature < 0.0 else 0.0
     return float(x[k] + shift * (x[k + 1] - x[k])), b - 0.25 * (a - c) * shift
+
+
+def first_direction(values: NDArray[np.float64]) -> float:
+    """Sign of the first half wave of a signal: of its first sample above half of the largest; 1 for a zero signal."""
+    indices = np.flatnonzero(np.abs(values) > 0.5 * np.abs(values).max())
+    return math.copysign(1.0, float(values[indices[0]])) if len(indices) else 1.0

@@ -18,10 +18,10 @@ from hosts.measures.signal import Signal
 Array: TypeAlias = NDArray[np.float64]
 Signals: TypeAlias = Mapping[str, Signal]
 WINDOW = 1.0  # s over which rates are compared
-MOST_WINDOWS = 4000  # windows of a log that are compared
-LEAST = {"turn": 0.6, "accelerate": 0.3, "move": 2.0, "yaw": 0.03}
+MAX_WINDOWS = 4000  # windows of a log that are compared
+MIN_VALUES = {"turn": 0.6, "accelerate": 0.3, "move": 2.0, "yaw": 0.03}
 """Smallest values that are evaluated, m/s2, m/s2, m/s, rad/s."""
-STILL = {"chassis.ax": LEAST["accelerate"], "chassis.ay": LEAST["turn"], "chassis.wz": LEAST["yaw"]} | {
+STILL = {"chassis.ax": MIN_VALUES["accelerate"], "chassis.ay": MIN_VALUES["turn"], "chassis.wz": MIN_VALUES["yaw"]} | {
     "chassis.x": 0.5, "chassis.y": 0.5}  # fmt: skip
 """Standard deviations below which a car stands, m/s2, rad/s, m."""
 SPINS = 2.0  # rad/s: speed from which a wheel rolls
@@ -52,14 +52,14 @@ def log_values(signals: Signals) -> list[Value]:
     speed_name = speed_of(signals)
     if speed_name is not None:
         results += [*_turn_values(signals, speed_name), *_steering_values(signals)]
-        results += _rate_values(signals, "accelerate", signals[speed_name], "chassis.ax", LEAST["accelerate"])
+        results += _rate_values(signals, "accelerate", signals[speed_name], "chassis.ax", MIN_VALUES["accelerate"])
         results += _path_values(signals, speed_name)
         if (path_direction := _path_direction(signals)) is not None:
-            results += _rate_values(signals, "course", path_direction, "chassis.wz", LEAST["yaw"])
+            results += _rate_values(signals, "course", path_direction, "chassis.wz", MIN_VALUES["yaw"])
         for name in WHEELS:
             if name in signals:
                 wheel_speed = interpolated(signals[name], signals[speed_name].time)
-                is_moving = (np.abs(signals[speed_name].values) > LEAST["move"]) & (
+                is_moving = (np.abs(signals[speed_name].values) > MIN_VALUES["move"]) & (
                     wheel_speed != 0.0
                 )  # a locked wheel has no radius
                 if is_moving.sum() > 10:
@@ -68,7 +68,7 @@ def log_values(signals: Signals) -> list[Value]:
     if "chassis.yaw" in signals:
         yaw = signals["chassis.yaw"]
         results += _rate_values(
-            signals, "heading", replace(yaw, values=np.unwrap(yaw.values)), "chassis.wz", LEAST["yaw"]
+            signals, "heading", replace(yaw, values=np.unwrap(yaw.values)), "chassis.wz", MIN_VALUES["yaw"]
         )
     for key, name in (
         ("speed", speed_name or "speed"),
@@ -84,7 +84,7 @@ def log_values(signals: Signals) -> list[Value]:
 
 
 def _stands(signals: Signals) -> bool:
-    """Whether the signals beside the speed are those of a car that stands; False where there are none."""
+    """Whether the signals beside the speed show that the car stands; False if there are none."""
     still = [float(np.std(signals[n].values)) < least for n, least in STILL.items() if n in signals]
     still += [float(np.abs(signals[n].values).max()) < SPINS for n in WHEELS if n in signals]
     return bool(still) and all(still)
@@ -101,7 +101,7 @@ def interpolated(signal: Signal, time: Array) -> Array:
 
 
 def speed_of(signals: Signals) -> str | None:
-    """Name of the speed of a log; None where it has none."""
+    """Name of the speed of a log; None if it has none."""
     return next((n for n in SPEEDS if n in signals), None)
 
 
@@ -111,7 +111,7 @@ def _steering_values(signals: Signals) -> Iterator[Value]:
         return
     wz = signals["chassis.wz"]
     angle = interpolated(signals[STEERING], wz.time)
-    if np.std(wz.values) > LEAST["yaw"] and np.std(angle) > LEAST["yaw"]:
+    if np.std(wz.values) > MIN_VALUES["yaw"] and np.std(angle) > MIN_VALUES["yaw"]:
         correlation = _correlation(angle, wz.values)
         yield Value(QUANTITIES["steer_alike"], correlation, keys_of(signals, STEERING, "chassis.wz"))
 
@@ -127,21 +127,21 @@ def _turn_values(signals: Signals, speed_name: str) -> Iterator[Value]:
         return np.asarray(np.interp(ay.time + delay, ay.time, ay.values))
 
     yield from _relation_values(
-        keys_of(signals, speed_name, "chassis.wz", "chassis.ay"), "turn", product, delayed, LEAST["turn"]
+        keys_of(signals, speed_name, "chassis.wz", "chassis.ay"), "turn", product, delayed, MIN_VALUES["turn"]
     )
 
 
 def _path_direction(signals: Signals) -> Signal | None:
-    """Direction of the path over half a window, rad; None without a path, or where the car does not move."""
+    """Direction of the path over half a window, rad; None without a path, or if the car does not move."""
     if not set(PATH) <= signals.keys():
         return None
     x, y = (signals[n] for n in PATH)
     begin, end = max(x.time[0], y.time[0]), min(x.time[-1], y.time[-1])
-    if not 3.0 < (end - begin) / WINDOW < MOST_WINDOWS:
+    if not 3.0 < (end - begin) / WINDOW < MAX_WINDOWS:
         return None
     t = np.arange(begin, end, 0.5 * WINDOW)
     dx, dy = (np.diff(interpolated(s, t)) for s in (x, y))
-    is_moving = np.hypot(dx, dy) > LEAST["move"] * 0.5 * WINDOW
+    is_moving = np.hypot(dx, dy) > MIN_VALUES["move"] * 0.5 * WINDOW
     if is_moving.sum() < len(t) - 1 or len(t) < 6:
         return None
     return Signal(x.name, x.source, "rad", t[:-1] + 0.25 * WINDOW, np.unwrap(np.arctan2(dy, dx)))
@@ -155,7 +155,7 @@ def _rate_values(signals: Signals, key: str, state: Signal, rate: str, least: fl
     begin, end = max(state.time[0], r.time[0]), min(state.time[-1], r.time[-1])
     if end - begin < 5.0 * WINDOW:
         return
-    starts = np.linspace(begin, end - WINDOW, min(int(2.0 * (end - begin) / WINDOW), MOST_WINDOWS))
+    starts = np.linspace(begin, end - WINDOW, min(int(2.0 * (end - begin) / WINDOW), MAX_WINDOWS))
     summed_rate = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(r.time) * (r.values[1:] + r.values[:-1]))])
 
     def change(at: Array, of: Array, delay: float = 0.0) -> Array:
@@ -173,7 +173,8 @@ def _relation_values(
 ) -> Iterator[Value]:
     """Ratio, correlation, offset and delay of a quantity computed in two ways.
 
-    `first`: by the first way, shape (n,); `delayed`: by the second way, as a function of a delay that is removed, s.
+    `first`: values by the first way, shape (n,); `delayed`: values by the second way, as a function of a delay that is
+    removed, s.
     """
     second = delayed(0.0)
     first_spread, second_spread = float(np.std(first)), float(np.std(second))
@@ -195,7 +196,7 @@ def _correlation(first: Array, second: Array) -> float:
 
 
 def _delay(first: Array, delayed: Callable[[float], Array]) -> float:
-    """Delay of the second signal behind the first, s; 0 where it is not significant."""
+    """Delay of the second signal behind the first, s; 0 if it is not significant."""
     undelayed, best = abs(_correlation(first, delayed(0.0))), 0.0
     for step, reach in ((COARSE, LATEST), (FINE, COARSE)):
         delays = best + np.arange(-reach, reach + 1e-9, step)
@@ -209,7 +210,7 @@ def _path_values(signals: Signals, speed_name: str) -> Iterator[Value]:
         return
     x = signals["chassis.x"]
     y, speed = interpolated(signals["chassis.y"], x.time), np.abs(interpolated(signals[speed_name], x.time))
-    is_moving = 0.5 * (speed[1:] + speed[:-1]) > LEAST["move"]
+    is_moving = 0.5 * (speed[1:] + speed[:-1]) > MIN_VALUES["move"]
     travelled = np.hypot(np.diff(x.values), np.diff(y))[is_moving].sum()
     distance = (0.5 * np.diff(x.time) * (speed[1:] + speed[:-1]))[is_moving].sum()
     if is_moving.sum() > 10 and distance > 0.0:

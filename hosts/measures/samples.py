@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ali3.plausibility import Value, far_values
-from hosts.measures.relations import LEAST, PATH, QUANTITIES, SPEEDS, WHEELS, Array, Signals, keys_of, speed_of
+from hosts.measures.relations import MIN_VALUES, PATH, QUANTITIES, SPEEDS, WHEELS, Array, Signals, keys_of, speed_of
 from hosts.measures.signal import Signal
 
-FEWEST_EQUAL = 10  # samples
+MIN_EQUAL_SAMPLES = 10  # samples
 MOVED = {"speed": 1.5, "ay": 1.0, "yaw": 0.15, "way": 5.0}
 """Changes from which a sensor must respond, m/s, m/s2, rad, m."""
 CLIPPED = ("chassis.ax", "chassis.ay", "chassis.wz")
@@ -54,7 +54,7 @@ def _clipped_count(values: Array) -> int:
         levels, counts = np.unique(signed_values, return_counts=True)
         if len(levels) < 2 or abs(levels[-1] + levels[0]) > ENDS * levels[-1]:
             return 0
-        if counts[-1] < max(FEWEST_EQUAL, PEAK * counts[-2]):
+        if counts[-1] < max(MIN_EQUAL_SAMPLES, PEAK * counts[-2]):
             return 0
         result += int(counts[-1])
     return result
@@ -64,7 +64,7 @@ def _longest_constant(signal: Signal, signals: Signals, speed_name: str) -> floa
     """Duration of the longest constant stretch in which the signal must change by others, s."""
     ends = np.flatnonzero(np.concatenate([[True], np.diff(signal.values) != 0.0, [True]]))
     longest = 0.0
-    for k in np.flatnonzero(np.diff(ends) >= FEWEST_EQUAL):
+    for k in np.flatnonzero(np.diff(ends) >= MIN_EQUAL_SAMPLES):
         first, last = ends[k], ends[k + 1] - 1
         begin, end = float(signal.time[first]), float(signal.time[last])
         if end - begin > longest and _changes(signal, signals, speed_name, begin, end, float(signal.values[first])):
@@ -88,7 +88,7 @@ def _changes(signal: Signal, signals: Signals, speed_name: str, begin: float, en
     if signal.name in WHEELS:
         return len(speed) > 0 and float(np.ptp(speed)) > MOVED["speed"]
     if signal.name == "chassis.ax":
-        least = MOVED["speed"] + LEAST["accelerate"] * duration  # a sensor has an offset
+        least = MOVED["speed"] + MIN_VALUES["accelerate"] * duration  # a sensor has an offset
         return len(speed) > 0 and abs(float(speed[-1] - speed[0]) - value * duration) > least
     if signal.name == "chassis.wz":
         return len(ay) > 0 and float(np.ptp(ay)) > MOVED["ay"]
@@ -98,7 +98,9 @@ def _changes(signal: Signal, signals: Signals, speed_name: str, begin: float, en
         return len(wz) > 0 and abs(float(wz.mean())) * duration > MOVED["yaw"]
     if signal.name in PATH and len(speed) > 0:
         other_axes = [float(np.ptp(of(n))) for n in PATH if n != signal.name and len(of(n))]
-        rolling_speed = np.where(np.abs(speed) > LEAST["move"], np.abs(speed), 0.0)  # a sensor may drift at standstill
+        rolling_speed = np.where(
+            np.abs(speed) > MIN_VALUES["move"], np.abs(speed), 0.0
+        )  # a sensor may drift at standstill
         return float(rolling_speed.mean()) * duration > MOVED["way"] + 1.5 * sum(other_axes)
     return False
 

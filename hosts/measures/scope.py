@@ -50,10 +50,10 @@ class Scope:
         return Scope(self._names | dict(names), self._formulas, self._functions)
 
     def evaluate(self, expression: str) -> Any:
-        """The value of an expression. Raises `HostError` where a signal that it reads is missing."""
+        """The value of an expression. Raises `HostError` if a signal that it reads is missing."""
         functions = {**LIBRARY, **self._functions}
         evaluator = simpleeval.EvalWithCompoundTypes(dict(_OPERATORS), functions, self)
-        return evaluator.eval(expression, _parsed(expression))
+        return evaluator.eval(expression, _parse(expression))
 
     def formatted(self, template: str) -> str:
         """A text with the values of its ``{expression:format}``, as of an f-string of Python."""
@@ -61,5 +61,5 @@ class Scope:
 
 
 @lru_cache(maxsize=2000)
-def _parsed(expression: str) -> ast.expr:
+def _parse(expression: str) -> ast.expr:
     return ast.parse(expression.strip(), mode="eval").body

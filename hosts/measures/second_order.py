@@ -15,16 +15,16 @@ from hosts.measures.frequency_response import FrequencyResponse
 class SecondOrder:
     """The response gain (1 + a s + b s²) / (1 + 2 zeta s / w + s² / w²)."""
 
-    gain: float
-    """Steady-state gain, in units of output over input."""
-    natural_frequency: float
+    gain: float = math.nan
+    """Steady-state gain, in units of output per input."""
+    natural_frequency: float = math.nan
     """w, undamped, rad/s."""
-    damping_ratio: float
+    damping_ratio: float = math.nan
     """zeta."""
-    lead: tuple[float, float]
+    lead: tuple[float, float] = (math.nan, math.nan)
     """a in s and b in s² of the numerator."""
-    misfit: float
-    """RMS of fit minus data over the RMS of the data."""
+    misfit: float = math.nan
+    """RMS of fit minus data, divided by the RMS of the data."""
 
     def response(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Response at frequencies in Hz."""
@@ -34,15 +34,12 @@ class SecondOrder:
         return np.asarray(self.gain * (1 + a * s + b * s**2) / _denominator(s, w, self.damping_ratio))
 
 
-NOTHING = SecondOrder(*3 * (math.nan,), (math.nan, math.nan), math.nan)
-
-
 def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int]) -> list[SecondOrder]:
     """Fit one natural frequency and damping ratio to several responses, each with its own gain and numerator.
 
-    `responses`: of one system, at four frequencies or more each; `zeros`: degrees of the numerators: 1 for the yaw rate
-    and the sideslip angle of a bicycle model, 2 for its lateral acceleration, 0 for a mass on a spring. Returns a fit
-    for each response; all NaN if the search does not converge.
+    `responses`: responses of one system, at four frequencies or more each; `zeros`: degrees of the numerators: 1 for
+    the yaw rate and the sideslip angle of a bicycle model, 2 for its lateral acceleration, 0 for a mass on a spring.
+    Returns a fit for each response; all NaN if the search does not converge.
 
     Notes
     -----
@@ -50,14 +47,14 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
     given denominator gains and numerators are linear unknowns, so that only w and zeta are searched.
     """
     if not responses or any(len(r.frequency) < 4 or not np.abs(r.response).max() > 0.0 for r in responses):
-        return [NOTHING] * len(responses)
+        return [SecondOrder()] * len(responses)
 
     def numerators(p: NDArray[np.float64]) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
         results, misfits = [], []
         for r, n in zip(responses, zeros, strict=True):
             s = 2j * math.pi * r.frequency
             basis = np.stack([s**k for k in range(n + 1)], 1) / _denominator(s, math.exp(p[0]), p[1])[:, None]
-            # The weight of a frequency is its share of the octaves.
+            # The weight of a frequency is its fraction of the octaves.
             weight = np.sqrt(np.maximum(r.coherence, 0.0) * np.gradient(np.log(r.frequency)))
             weight = weight / math.sqrt(float(np.sum(np.abs(weight * r.response) ** 2)))
             a, b = weight[:, None] * basis, weight * r.response
@@ -75,7 +72,7 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
     solutions = [least_squares(misfit, x, bounds=([-3.0, 0.0], [7.0, 20.0])) for x in start_points]
     best = min((t for t in solutions if t.success), key=lambda t: float(t.cost), default=None)
     if best is None:
-        return [NOTHING] * len(responses)
+        return [SecondOrder()] * len(responses)
     w, zeta = math.exp(best.x[0]), float(best.x[1])
     fits = []
     for r, x in zip(responses, numerators(best.x)[0], strict=True):

@@ -1,4 +1,4 @@
-"""Measures of a run with sine with dwell steering: begin and completion of steer, yaw rate ratios, displacement."""
+"""Measures of a run with sine-with-dwell steering: beginning and completion of steer, yaw rate ratios, displacement."""
 
 import math
 from dataclasses import dataclass
@@ -8,100 +8,102 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid, trapezoid
 
 from hosts.measures.filters import crossing
+from hosts.measures.peak import first_direction
 
-BEGIN = math.radians(5.0)
-"""Steering-wheel angle at the begin of steer, rad."""
+_BEGINNING_ANGLE = math.radians(5.0)  # rad, S7.11.5 of 49 CFR 571.126
+_DISPLACEMENT_DELAY = 1.07  # s, S5.2.3
+_ROUND_OFF = 1e-9  # s
 
 
 @dataclass(frozen=True)
 class SineWithDwell:
-    """Measures of a run; NaN where the record ends before."""
+    """Measures of a run; NaN if the record is too short."""
 
-    begin: float
-    completion: float
-    """`begin`, `completion`: begin and completion of steer (BOS, COS), s."""
-    ratio_1_00: float
-    ratio_1_75: float
-    """`ratio_1_00`, `ratio_1_75`: yaw rate 1.00 and 1.75 s after the completion over its second peak, the first one
-    after the steering reversal; negative: the yaw rate has changed its sign."""
-    displacement: float
-    """Absolute lateral displacement 1.07 s after the begin, m."""
-    sideslip: float
-    """Largest absolute sideslip angle until 1.75 s after the completion, rad; NaN without the signal."""
+    beginning: float = math.nan
+    """Beginning of steer (BOS), s."""
+    completion: float = math.nan
+    """Completion of steer (COS), s."""
+    yaw_rate_ratio_1_00: float = math.nan
+    """Yaw rate 1.00 s after completion of steer, relative to its first peak after the steering reversal; negative: the
+    yaw rate has changed its sign."""
+    yaw_rate_ratio_1_75: float = math.nan
+    """Likewise 1.75 s after completion of steer."""
+    displacement: float = math.nan
+    """Absolute lateral displacement 1.07 s after beginning of steer, m."""
+    sideslip: float = math.nan
+    """Largest absolute sideslip angle until 1.75 s after completion of steer, rad; NaN without the signal."""
 
 
-NOTHING = SineWithDwell(*6 * (math.nan,))
-
-
-def sine_with_dwell(
+def measure_sine_with_dwell(
     time: NDArray[np.float64],
     steering: NDArray[np.float64],
     yaw_rate: NDArray[np.float64],
-    acceleration: NDArray[np.float64],
+    lateral_acceleration: NDArray[np.float64],
     sideslip: NDArray[np.float64] | None = None,
 ) -> SineWithDwell:
-    """Measures of a run.
+    """Measure a run with sine-with-dwell steering.
 
-    `time`: in s, shape (n,); `steering`, `yaw_rate`, `acceleration`: in rad, rad/s, m/s², shape (n,): filtered, with a
-    mean of zero before the steering; the acceleration is that of the centre of mass, lateral and in the plane of the
-    road; `sideslip`: in rad, shape (n,).
+    `time`: times, s, shape (n,); `steering`, `yaw_rate`, `lateral_acceleration`: signals in rad, rad/s, m/s², shape
+    (n,), filtered, with a mean of zero before the steering; acceleration of the centre of mass in the plane of the
+    road; `sideslip`: sideslip angle, rad, shape (n,).
 
     Notes
     -----
-    The displacement is the double integral of the lateral acceleration from the begin of steer, as in the regulation;
-    it differs from that of the path, since the acceleration includes speed times yaw rate.
+    The displacement is the double integral of the lateral acceleration from beginning of steer, as in the regulation;
+    it differs from the displacement of the path, since the acceleration includes speed times yaw rate.
     """
-    side = _steering_side(steering)
-    begin = crossing(time, side * steering, BEGIN)
-    reversal = crossing(time, side * steering, 0.0, begin)
-    completion = _completion(time, side * steering, reversal)
+    direction = first_direction(steering)
+    beginning = crossing(time, direction * steering, _BEGINNING_ANGLE)
+    if not math.isfinite(beginning):
+        return SineWithDwell()
+    displacement = _displacement(beginning, time, lateral_acceleration)
+    reversal = crossing(time, direction * steering, 0.0, beginning)
+    completion = _completion(time, direction * steering, reversal)
     if not math.isfinite(completion):
-        return NOTHING if not math.isfinite(begin) else _begin_and_displacement(begin, time, acceleration)
-    peak = _peak(time, -side * yaw_rate, reversal)
-
-    def yaw_rate_ratio(delay: float) -> float:
-        t = completion + delay
-        return -side * float(np.interp(t, time, yaw_rate)) / peak if t <= time[-1] + 1e-9 else math.nan
-
-    largest = math.nan
+        return SineWithDwell(beginning=beginning, displacement=displacement)
+    response = -direction * yaw_rate
+    peak = _peak(time, response, reversal)
+    max_sideslip = math.nan
     if sideslip is not None:
-        window = (time >= begin) & (time <= completion + 1.75)
-        largest = float(np.abs(sideslip[window]).max())
-    first = _begin_and_displacement(begin, time, acceleration)
-    return SineWithDwell(begin, completion, yaw_rate_ratio(1.0), yaw_rate_ratio(1.75), first.displacement, largest)
+        window = (time >= beginning) & (time <= completion + 1.75)
+        max_sideslip = float(np.abs(sideslip[window]).max())
+    return SineWithDwell(
+        beginning=beginning,
+        completion=completion,
+        yaw_rate_ratio_1_00=_value_at(completion + 1.0, time, response) / peak,
+        yaw_rate_ratio_1_75=_value_at(completion + 1.75, time, response) / peak,
+        displacement=displacement,
+        sideslip=max_sideslip,
+    )
 
 
-def _steering_side(steering: NDArray[np.float64]) -> float:
-    """1 if the first half wave is to the left, -1 if to the right."""
-    indices = np.flatnonzero(np.abs(steering) > 0.5 * np.abs(steering).max())
-    return math.copysign(1.0, float(steering[indices[0]])) if len(indices) else 1.0
+def _value_at(t: float, time: NDArray[np.float64], values: NDArray[np.float64]) -> float:
+    """Value of a signal at a time, s; NaN after its end."""
+    return float(np.interp(t, time, values)) if t <= time[-1] + _ROUND_OFF else math.nan
 
 
 def _completion(time: NDArray[np.float64], steering: NDArray[np.float64], reversal: float) -> float:
     """Time at which the steering wheel returns to straight ahead after the dwell, s; NaN if it does not."""
     if not math.isfinite(reversal):
         return math.nan
-    lowest = int(np.argmin(steering))
+    second_peak = int(np.argmin(steering))
     # The filtered angle oscillates about zero after the end: below 1 % of the amplitude it is zero.
-    return crossing(time, steering, 0.01 * float(steering[lowest]), max(reversal, float(time[lowest])))
+    return crossing(time, steering, 0.01 * float(steering[second_peak]), max(reversal, float(time[second_peak])))
 
 
-def _peak(time: NDArray[np.float64], yaw_rate: NDArray[np.float64], begin: float) -> float:
-    """First positive local maximum of the yaw rate after a time, s; the largest value where there is none."""
-    values = yaw_rate[time >= begin]
+def _peak(time: NDArray[np.float64], yaw_rate: NDArray[np.float64], start: float) -> float:
+    """First positive local maximum of the yaw rate after a time, s; the largest value if there is none."""
+    values = yaw_rate[time >= start]
     peaks = np.flatnonzero((values[1:-1] > values[:-2]) & (values[1:-1] >= values[2:]) & (values[1:-1] > 0.0)) + 1
     return float(values[peaks[0]]) if len(peaks) else float(values.max())
 
 
-def _begin_and_displacement(
-    begin: float, time: NDArray[np.float64], acceleration: NDArray[np.float64]
-) -> SineWithDwell:
-    """The measures with the begin of steer and the displacement only."""
-    end = begin + 1.07
-    if time[-1] < end - 1e-9:
-        return SineWithDwell(begin, *5 * (math.nan,))
-    inner = time[(time > begin) & (time < end)]
-    t = np.concatenate([[begin], inner, [end]])
+def _displacement(beginning: float, time: NDArray[np.float64], acceleration: NDArray[np.float64]) -> float:
+    """Absolute double integral of the acceleration from beginning of steer, m; NaN if the record is too short."""
+    end = beginning + _DISPLACEMENT_DELAY
+    if time[-1] < end - _ROUND_OFF:
+        return math.nan
+    inner = time[(time > beginning) & (time < end)]
+    t = np.concatenate([[beginning], inner, [end]])
     velocity = np.asarray(cumulative_trapezoid(np.interp(t, time, acceleration), t, initial=0))
-    displacement = float(trapezoid(velocity, t))
-    return SineWithDwell(begin, *3 * (math.nan,), abs(displacement), math.nan)
+    return abs(float(trapezoid(velocity, t)))

@@ -14,23 +14,20 @@ from hosts.measures.peak import interpolated_peak
 
 @dataclass(frozen=True)
 class StepResponse:
-    """Measures of one quantity; NaN where the record does not yield them."""
+    """Measures of one quantity; NaN if the record does not yield them."""
 
-    steady: float
-    """Mean over the window of the steady state, less the mean before the step, in the unit of the quantity."""
-    response_time: float
+    steady: float = math.nan
+    """Mean over the window of the steady state, minus the mean before the step, in the unit of the quantity."""
+    response_time: float = math.nan
     """From the reference time to 90 % of `steady`, s."""
-    peak: float
+    peak: float = math.nan
     """Largest value after the step, in the direction and the unit of `steady`; `steady` if there is no overshoot."""
-    peak_response_time: float
+    peak_response_time: float = math.nan
     """From the reference time to the peak, s; NaN if the response does not overshoot."""
-    overshoot: float
+    overshoot: float = math.nan
     """(`peak` - `steady`) / `steady`; 0 if the response does not overshoot."""
-    unsteadiness: float
-    """Standard deviation in the window of the steady state over the absolute value of `steady`."""
-
-
-NOTHING = StepResponse(*6 * (float("nan"),))
+    unsteadiness: float = math.nan
+    """Standard deviation in the window of the steady state, divided by the absolute value of `steady`."""
 
 
 def mean_between(
@@ -66,21 +63,21 @@ def step_response(
     """Measures of the response of one quantity.
 
     `time`, `values`: shape (n,); `reference`: reference time, s; `before`, `steady`: begin and end of the windows
-    before the step and of the steady state, s. All measures are NaN where the record ends before the end of the steady
+    before the step and of the steady state, s. All measures are NaN if the record ends before the end of the steady
     window, or the quantity does not change.
 
     Notes
     -----
-    The peak is interpolated between samples. An excess below 1 % over the steady value is not an overshoot: the
+    The peak is interpolated between samples. An excess below 1 % of the steady value is not an overshoot: the
     response still settles, or the car loses speed in the turn.
     """
     if not np.isfinite(reference) or len(time) < 3 or time[-1] < steady[1] - 1e-6 or not np.isfinite(values).all():
-        return NOTHING
+        return StepResponse()
     initial = mean_between(time, values, *before)[0]
     mean, deviation = mean_between(time, values, *steady)
     final = mean - initial
     if not np.isfinite(final) or final == 0.0:
-        return NOTHING
+        return StepResponse()
     relative = (values - initial) / final
     response_time = crossing(time, relative, 0.9, before[1]) - reference
     first = int(np.searchsorted(time, before[1]))
@@ -105,7 +102,7 @@ def step_of_steering(
 ) -> dict[str, Any]:
     """The `angle` of the step, rad, its `rise` time from 10 to 90 %, s, and the response of each signal by name.
 
-    See `reference_time` for the arguments. Numbers are NaN where the record ends before the end of the steady window.
+    See `reference_time` for the arguments. Numbers are NaN if the record ends before the end of the steady window.
     """
     angle = rise = reference = math.nan
     if len(time) and time[-1] >= steady[1] - 1e-6:

@@ -18,7 +18,7 @@ _STEP_LOW = 2.37
 _STEP_LOW_Q = 0.91
 _STEP_HIGH = 3.35
 _STEP_HIGH_Q = 0.91
-LONGEST_STEP = 0.005
+MAX_STEP = 0.005
 """Longest interval of samples, s: the error of the weighting is below 3 % up to 20 Hz, with 2 ms up to 45 Hz."""
 
 
@@ -44,7 +44,7 @@ def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.float64]:
     """Vertical acceleration weighted with Wk, m/s2, shape (n,); the filter starts at rest.
 
-    `acceleration`: in m/s2, zero at rest, shape (n,); `interval`: between samples, s.
+    `acceleration`: m/s2, zero at rest, shape (n,); `interval`: between samples, s.
     """
     # In factors, since the coefficients of degree 8 have large rounding errors at short intervals.
     factors: Any = bilinear_zpk(*tf2zpk(*weighting_wk()), fs=1.0 / interval)
@@ -54,7 +54,7 @@ def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.f
 def largest_running_rms(values: NDArray[np.float64], interval: float) -> float:
     """Largest root mean square in a moving window of 1 s (MTVV of ISO 2631-1), in the unit of `values`.
 
-    `values`: zero before the first sample, shape (n,); `interval`: in s.
+    `values`: zero before the first sample, shape (n,); `interval`: s.
     """
     samples = max(1, round(1.0 / interval))
     summed_squares = np.cumsum(np.concatenate([np.zeros(samples), np.square(values)]))

@@ -11,7 +11,7 @@ LIFTED = 1.0
 
 
 def at_wheels(result: Result, quantity: str) -> NDArray[np.float64] | None:
-    """A quantity of the four wheels in the order of `WHEELS`, shape (n, 4); None where a wheel does not have it.
+    """A quantity of the four wheels in the order of `WHEELS`, shape (n, 4); None if a wheel does not have it.
 
     `quantity`: such as ``Fz`` of ``wheel_FL.Fz``.
     """
@@ -27,6 +27,6 @@ def lifted_wheels(loads: NDArray[np.float64]) -> NDArray[np.bool_]:
 def duration(time: NDArray[np.float64], state: NDArray[np.bool_]) -> float:
     """Duration for which a condition holds, s: the sum of the steps at whose ends it holds.
 
-    `time`: in s, shape (n,); `state`: whether the condition holds, shape (n,).
+    `time`: s, shape (n,); `state`: whether the condition holds, shape (n,).
     """
     return float(np.diff(time)[state[1:]].sum())

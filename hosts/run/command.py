@@ -97,8 +97,8 @@ def _run(options: argparse.Namespace) -> int:
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
         set_options = options_with_road(options, options.out)
-        manoeuvre, settings = apply_settings(opened, manoeuvre, set_options, options.fidelity, source.theirs)
-        manoeuvre = replace(manoeuvre, start=source.ours(manoeuvre.start))
+        manoeuvre, settings = apply_settings(opened, manoeuvre, set_options, options.fidelity, source.fmu_values)
+        manoeuvre = replace(manoeuvre, start=source.ali3_values(manoeuvre.start))
         without_manoeuvre = options.manoeuvre is None
         stem = _snake_case(path.stem) if without_manoeuvre else f"{_snake_case(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)

@@ -34,7 +34,7 @@ class AccessControl:
     def refusal(self, path: str, headers: Mapping[str, str]) -> str:
         """A sentence on why a request is refused; empty if it is accepted.
 
-        `path`: with its query; `headers`: ``Host`` and, from browsers, ``Origin``, each at most once.
+        `path`: path with its query; `headers`: ``Host`` and, from browsers, ``Origin``, each at most once.
         """
         host = headers.get("Host", "")
         if not self._is_own_host(host):

@@ -1,4 +1,4 @@
-"""A car of the simulator under our names."""
+"""A car of the simulator under ALi3 names."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -15,7 +15,7 @@ class AliasedCar:
     Attributes
     ----------
     names, inputs : tuple of str
-        Our names; in `names` those of derived variables follow.
+        ALi3 names; in `names`, names of derived variables follow.
     units : dict of str to str
         Of the names; "" for converted values.
     constants : dict of str to float
@@ -41,7 +41,7 @@ class AliasedCar:
         self._car.command(name, value)
 
     def restart(self, changes: Mapping[str, Value]) -> None:
-        self._car.restart(self._source.theirs(changes))
+        self._car.restart(self._source.fmu_values(changes))
 
     def latest(self) -> CarState:
         moment = self._car.latest()

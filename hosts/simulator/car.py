@@ -24,18 +24,18 @@ from hosts.simulator.step_times import StepTimes
 
 __all__ = ["Car", "CarSettings", "CarState", "Event", "StepTimes"]
 
-SLOWEST = 0.05
+MIN_SPEED = 0.05
 """Least speed of slow motion, simulated over wall time."""
 _ROW_SECONDS = 8.0
-_LEAST_ROWS = 2000
-_MOST_ROW_BYTES = 1 << 24
+_MIN_ROWS = 2000
+_MAX_ROW_BYTES = 1 << 24
 
 
 class Car(Closable):
     """An FMU that runs in its own process; it begins paused, at time 0.
 
-    `names`: numeric inputs, then numeric outputs; `units`: by name; `step`: communication step, s. Raises `HostError`:
-    the FMU cannot be started. Every method raises it after the process has ended unexpectedly.
+    `names`: numeric inputs, then numeric outputs; `units`: units by name; `step`: communication step, s. Raises
+    `HostError` if the FMU cannot be started. Every method raises it after the process has ended unexpectedly.
     """
 
     def __init__(self, settings: CarSettings) -> None:
@@ -58,8 +58,8 @@ class Car(Closable):
         self._lock, self._request_count = threading.Lock(), 0
         self._requests = np.zeros(3 * len(self.inputs))
         self._closed = False
-        rows = max(_LEAST_ROWS, round(_ROW_SECONDS / settings.step)) if settings.record is not None else 1
-        rows = min(rows, max(1, _MOST_ROW_BYTES // (8 * (len(ROW) + len(self.names)))))
+        rows = max(_MIN_ROWS, round(_ROW_SECONDS / settings.step)) if settings.record is not None else 1
+        rows = min(rows, max(1, _MAX_ROW_BYTES // (8 * (len(ROW) + len(self.names)))))
         sizes = Sizes(len(self.inputs), len(self.names), rows)
         self._shared = SharedValues(sizes)
         self._shared.flags[RECORDING] = settings.record is not None
@@ -97,9 +97,9 @@ class Car(Closable):
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:
         """Request values of inputs.
 
-        `values`: by input, its value, which is limited to the range of the model description, and its largest change
-        per second of simulated time; integers always change at once, as with an infinite rate. Raises `HostError`: an
-        input does not exist or a number cannot be used; then no input changes.
+        `values`: for each input its value, which is limited to the range of the model description, and its largest
+        change per second of simulated time; integers always change at once, as with an infinite rate. Raises
+        `HostError` if an input does not exist or a number cannot be used; then no input changes.
         """
         checked = []
         for name, (value, rate) in values.items():
@@ -125,7 +125,7 @@ class Car(Closable):
 
         `name`: ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
         simulated over wall time), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``. Raises
-        `HostError`: the command does not exist, or its value cannot be used.
+        `HostError` if the command does not exist, or its value cannot be used.
         """
         commands = COMMANDS[:-1]
         if name not in commands:
@@ -134,8 +134,8 @@ class Car(Closable):
             value = value or 1.0
             if not (1.0 <= value <= 1e9 and value == int(value)):
                 raise HostError(f"The number of steps is {value:g}; it must be a whole number of at least 1.")
-        elif name == "speed" and not SLOWEST <= value <= 1.0:
-            raise HostError(f"The speed is {value:g}; it must be from {SLOWEST:g} to 1.")
+        elif name == "speed" and not MIN_SPEED <= value <= 1.0:
+            raise HostError(f"The speed is {value:g}; it must be from {MIN_SPEED:g} to 1.")
         elif name == "rewind" and not (math.isfinite(value) and value > 0.0):
             raise HostError(f"The time to rewind is {value:g} s; it must be positive.")
         with self._lock:
@@ -144,8 +144,8 @@ class Car(Closable):
     def restart(self, changes: Mapping[str, Value]) -> None:
         """Start again at time 0 with other start values, which later resets keep.
 
-        `changes`: parameters and start values that replace present ones. Raises `HostError`: a parameter or input does
-        not exist, or cannot have this value.
+        `changes`: parameters and start values that replace present ones. Raises `HostError` if a parameter or input
+        does not exist, or cannot have this value.
         """
         checked = {n: self._table.settable(n, "start values").check(v, "start values") for n, v in changes.items()}
         with self._lock:
@@ -182,8 +182,8 @@ class Car(Closable):
                 self._last_times = StepTimes.of(self._shared.times, self.step, self._settings.paced)
         return self._last_times
 
-    def close(self, progress: Callable[[float], object] = lambda share: None) -> None:
-        """End the process within 2 s. `progress`: called with the finished share of a recording."""
+    def close(self, progress: Callable[[float], object] = lambda fraction: None) -> None:
+        """End the process within 2 s. `progress`: called with the finished fraction of a recording."""
         self.step_times()
         with self._lock:
             if self._closed:

@@ -24,7 +24,7 @@ class CarSettings:
     step: float = 0.002
     """Communication step, s."""
     paced: bool = True
-    """Whether steps are made in real time, else as fast as possible."""
+    """Whether steps are made in real time, otherwise as fast as possible."""
     record: Path | None = None
     interval: float | None = None
     """Between recorded outputs, s; default: see `hosts.recordings.recorded_columns`."""
@@ -46,19 +46,21 @@ class CarState:
     epoch: int
     """Number of rewinds and new starts so far; values must not be interpolated across them."""
     running: bool
+    """Whether the car is not paused."""
     refused: bool
+    """Whether the FMU refused the last step."""
     behind: bool
-    """`running`, `refused`, `behind`: not paused; the FMU refused the last step; the car is late or was late within
-    the last second."""
+    """Whether the car is late or was late within the last second."""
     speed: float
     """Requested ratio of simulated to wall time."""
     wall: float
     """Time of writing, by `time.perf_counter`, which all processes of a machine share, s."""
     cost: float
+    """Wall time of the last step, s."""
     worst: float
+    """Largest wall time of a step of about the last second, s."""
     lateness: float
-    """`cost`, `worst`, `lateness`: wall time of the last step, the largest of about the last second, and delay of the
-    begin of the last step, s."""
+    """Delay of the start of the last step, s."""
     missed: int
     """Deadlines missed so far."""
     saved: float

@@ -46,7 +46,7 @@ class Order:
 def run_car(order: Order, tell: Callable[[str], None]) -> None:
     """Drive the FMU until the main process sets the stop flag; the work of a process, see `ali3.isolated_processes`.
 
-    `tell`: called once, with an empty text, when the FMU has started. Raises `HostError`: it cannot be started.
+    `tell`: called once, with an empty text, when the FMU has started. Raises `HostError` if it cannot be started.
     """
     resource_tracker.register = lambda *_: None  # the main process owns the memory
     shared = SharedValues(order.sizes, order.memory)

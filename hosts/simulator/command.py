@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from hosts.simulator.run_report import RunReport
 
 _LOCAL_ADDRESS = "127.0.0.1"
-_LONGEST_RUN = 1e6
+_MAX_RUN_TIME = 1e6
 _TITLE = "ALi3: take the wheel"
 _BAR = "{desc}: {percentage:3.0f} % |{bar}| {elapsed}<{remaining}"
 _RECORDING_OPTIONS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu", "confined")
@@ -61,7 +61,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "Ctrl-C ends with a report of the step times. With --recording: say what a recording holds, repeat\n"
         "it, or make a manoeuvre of it.",
     )
-    add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype; of a recording: the one that was recorded")
+    add_fmu(parser, "?", "dist/PrototypeCar.fmu, otherwise prototype; of a recording: the one that was recorded")
     add_option(parser, "--world", "proving_ground")
     parser.add_argument("--place", metavar="NAME", help="of the world, where the car starts; default: its first")
     add_option(parser, "--step", "0.002", default=0.002)
@@ -73,7 +73,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(parser, "--interval", "about 0.025 of what is drawn, 0.1 of other outputs; inputs at every step")
     add_option(parser, "--json")
     page = parser.add_argument_group("with a page")
-    page.add_argument("--port", type=int, metavar="N", help="port of the server; default: the first free from 8765 on")
+    page.add_argument("--port", type=int, metavar="N", help="port of the server; default: the first free >= 8765")
     page.add_argument(
         "--listen",
         default=_LOCAL_ADDRESS,
@@ -131,8 +131,8 @@ def _check_options(options: argparse.Namespace) -> None:
         )
     if options.headless and options.stop_time is None and options.manoeuvre is None:
         raise HostError("A run without a page needs its length: --headless --stop-time T, or a --manoeuvre.")
-    if options.stop_time is not None and not 0.0 < options.stop_time <= _LONGEST_RUN:
-        raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_LONGEST_RUN:g}.")
+    if options.stop_time is not None and not 0.0 < options.stop_time <= _MAX_RUN_TIME:
+        raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_MAX_RUN_TIME:g}.")
     if options.manoeuvre is not None and options.seed is not None:
         raise HostError("Inputs are given by --manoeuvre and by --seed; give one of them.")
 
@@ -172,7 +172,7 @@ def _reported_end(car: Car, options: argparse.Namespace, report: RunReport) -> I
             report.tell(f"The recording {options.record} is put together ...")
         try:
             with bar(total=1.0, desc="recording", bar_format=_BAR) as progress_bar:
-                car.close(lambda share: progress_bar.update(share - progress_bar.n))
+                car.close(lambda fraction: progress_bar.update(fraction - progress_bar.n))
         finally:
             with suppress(HostError):  # the end of the car has been reported
                 for event in car.events():

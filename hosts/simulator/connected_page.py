@@ -10,10 +10,10 @@ from hosts.common.errors import HostError
 
 IN_FLIGHT = 2
 """Largest number of frames that a page has not acknowledged."""
-MOST_TEXTS = 200
+MAX_TEXTS = 200
 MESSAGES_PER_SECOND = 400.0
 BURST = 800.0
-MOST_MALFORMED = 20
+MAX_MALFORMED = 20
 STALLED = 2.0
 """Time without a message from a page with frames, s, after which its inputs are released."""
 
@@ -21,7 +21,7 @@ STALLED = 2.0
 class ConnectedPage:
     """The state of a connected page.
 
-    `number`: from 1, for names of its sources; `now`: a monotonic clock, s.
+    `number`: number of the page, from 1, for names of its sources; `now`: a monotonic clock, s.
     """
 
     def __init__(self, number: int, connection: ServerConnection, now: Callable[[], float] = time.monotonic) -> None:
@@ -31,7 +31,7 @@ class ConnectedPage:
         self.watches_devices = False
         self.stalled = False
         self.watched = False  # has acknowledged a frame
-        self.texts: deque[str] = deque(maxlen=MOST_TEXTS)  # when full, the oldest is dropped
+        self.texts: deque[str] = deque(maxlen=MAX_TEXTS)  # when full, the oldest is dropped
         self._now = now
         self._unacknowledged: deque[tuple[float, float]] = deque()
         self._last_message = now()
@@ -45,7 +45,7 @@ class ConnectedPage:
         return name
 
     def heard(self) -> None:
-        """Note a received message. Raises `HostError`: the page sends too many."""
+        """Note a received message. Raises `HostError` if the page sends too many."""
         now = self._now()
         self._message_allowance = (
             min(BURST, self._message_allowance + (now - self._last_message) * MESSAGES_PER_SECOND) - 1.0
@@ -56,10 +56,10 @@ class ConnectedPage:
             raise HostError(f"A page may send {MESSAGES_PER_SECOND:g} messages a second; this one sent more.")
 
     def malformed(self) -> None:
-        """Note a malformed message. Raises `HostError`: the page has sent too many."""
+        """Note a malformed message. Raises `HostError` if the page has sent too many."""
         self._malformed += 1
-        if self._malformed > MOST_MALFORMED:
-            raise HostError(f"More than {MOST_MALFORMED} messages of this page were wrong.")
+        if self._malformed > MAX_MALFORMED:
+            raise HostError(f"More than {MAX_MALFORMED} messages of this page were wrong.")
 
     def sent(self, count: float) -> None:
         """Note that the frame of this count was sent."""

@@ -21,14 +21,14 @@ def missing_variables(inputs: Collection[str], outputs: Collection[str]) -> tupl
 def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], has_drawing: bool) -> str:
     """Sentences on what an FMU lacks to be driven, a remedy, and what works without; empty if nothing is missing.
 
-    `inputs`, `outputs`: our names, after aliases.
+    `inputs`, `outputs`: ALi3 names, after aliases.
     """
     missing_inputs, missing_outputs = missing_variables(inputs, outputs)
     lacks = [f"no input {', '.join(missing_inputs)}"] if missing_inputs else []
     lacks += [f"no output {', '.join(missing_outputs)}"] if missing_outputs else []
     if not lacks:
         return ""
-    subject = "its inputs that have our names can be moved; it" if len(missing_inputs) < len(PEDALS) + 1 else "it"
+    subject = "its inputs that have ALi3 names can be moved; it" if len(missing_inputs) < len(PEDALS) + 1 else "it"
     picture = "" if has_drawing else ", but is not drawn, since it has no drawing"
     return (
         f"{path.name} has {' and '.join(lacks)}, which driving needs. If it has them under other names, an alias file "

@@ -39,7 +39,7 @@ class ConstantInputs:
 class ManoeuvreDriver:
     """A driver with the inputs of a manoeuvre: of its table and of its driver, if it has one.
 
-    Raises `HostError`: the car lacks a variable, or the manoeuvre needs a run before.
+    Raises `HostError` if the car lacks a variable, or the manoeuvre needs a previous run.
     """
 
     def __init__(self, manoeuvre: Manoeuvre, car: AliasedCar) -> None:
@@ -80,7 +80,7 @@ def with_start_of(request: DriveRequest, manoeuvre: Manoeuvre | None) -> DriveRe
 
 
 def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, seed: int | None) -> HeadlessDriver:
-    """The driver of a car. `seed`: of a random driver, without a manoeuvre."""
+    """The driver of a car. `seed`: seed of a random driver, without a manoeuvre."""
     if manoeuvre is not None:
         return ManoeuvreDriver(manoeuvre, car)
     return ConstantInputs() if seed is None else RandomDriver(seed, car.inputs)

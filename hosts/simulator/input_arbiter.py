@@ -37,7 +37,7 @@ class InputArbiter:
 
     Each input follows the source whose request last changed by more than `MOVED`. Several threads may call it.
 
-    `car_want`: called with `Wanted`; `inputs`: of the car; requests for others are ignored.
+    `car_want`: called with `Wanted`; `inputs`: inputs of the car; requests for others are ignored.
     """
 
     def __init__(self, car_want: Callable[[Wanted], None], inputs: Collection[str]) -> None:

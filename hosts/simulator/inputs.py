@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 class Inputs:
     """Values of the inputs and their targets.
 
-    `start`: values at every new start, n; `whole`: whether each is an integer, which changes at once. `values`: of the
-    last or next step, shape (n,).
+    `start`: values at every new start, n; `whole`: whether each is an integer, which changes at once. `values`: values
+    of the last or next step, shape (n,).
     """
 
     def __init__(self, start: Sequence[float], whole: Sequence[bool]) -> None:
@@ -23,7 +23,7 @@ class Inputs:
     def want(self, wants: NDArray[np.float64]) -> None:
         """Set the requested values of inputs.
 
-        `wants`: for each input its value, largest change per second (infinite: at once) and the number of the request,
+        `wants`: of each input its value, largest change per second (infinite: at once) and the number of the request,
         shape (3 n,); requests before the last `restart` are ignored.
         """
         for k in range(len(self._rates)):

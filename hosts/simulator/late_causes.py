@@ -11,7 +11,7 @@ CAUSES = ("ran", "others", "stolen")
 
 
 class LateCauses:
-    """Determines the cause with the longest time. `clock`: of the calling thread."""
+    """Determines the cause with the longest time. `clock`: clock of the calling thread."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
@@ -24,9 +24,10 @@ class LateCauses:
     def of_step(self, elapsed: float, period: float, late: bool) -> str:
         """Take a step into account.
 
-        `elapsed`: from its scheduled begin, or a later end of the step before, to its end, s; `period`: its scheduled
-        length, s; `late`: whether it missed its deadline. Returns one of `CAUSES`, or an empty text if the step was not
-        late or the cause is not known. A step that is late only because of the one before has the same cause.
+        `elapsed`: time from its scheduled start, or a later end of the step before, to its end, s; `period`: its
+        scheduled length, s; `late`: whether it missed its deadline. Returns one of `CAUSES`, or an empty text if the
+        step was not late or the cause is not known. A step that is late only because of the one before has the same
+        cause.
         """
         spent = self._clock.spent()
         if spent is None or self._before is None:

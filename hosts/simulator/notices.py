@@ -12,7 +12,7 @@ from hosts.simulator.step_times import TimesRecord
 NOT_FINITE = "not finite"
 """Kind of the notice of a value that is not finite."""
 _PERIOD = 1.0
-_LEAST_RESIDUAL = 1e-4
+_MIN_RESIDUAL = 1e-4
 """Residual up to which there is no notice, m."""
 _ITERATION_LIMIT = "solver.step_iterations"
 _COUNT = "solver.capped_steps"
@@ -51,7 +51,7 @@ class Notices:
             # Messages on the limit of iterations are in the count.
             if self._capped < 0 or _ITERATION_LIMIT not in message:
                 self._messages, self._message = self._messages + 1, message
-        is_reported = self._steps and (self._residual < 0 or self._largest > _LEAST_RESIDUAL)
+        is_reported = self._steps and (self._residual < 0 or self._largest > _MIN_RESIDUAL)
         if not (is_reported or self._messages) or self._clock.now() < self._next:
             return []
         self._next = self._clock.now() + _PERIOD

@@ -60,7 +60,7 @@ def drive_with_pages(
 ) -> None:
     """Serve pages until Ctrl-C. `car`: paused; the first frame of the first page starts it.
 
-    Raises `HostError`: the car has ended.
+    Raises `HostError` if the car has ended.
     """
     arbiter = InputArbiter(car.want, car.inputs)
     server = Server(car, arbiter, content, page_server.access, report.event)

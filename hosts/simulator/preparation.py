@@ -25,7 +25,7 @@ from hosts.recordings.recording import check_folder
 from hosts.simulator.drivability import not_drivable
 
 ITERATIONS = "solver.step_iterations"
-_MOST_ITERATIONS = 6
+_MAX_ITERATIONS = 6
 """Limit for an inner step of about 2 ms; its residual is measured in docs/fmu.md."""
 _EMPTY_SCENE = {"format": "ALi3 scene", "version": 1, "extent": 5.0, "frames": {}, "shapes": []}
 
@@ -66,7 +66,7 @@ class Prepared:
     def hello(
         self, constants: Mapping[str, float], columns: tuple[str, ...], step: float, record: str
     ) -> dict[str, Any]:
-        """The first message to a page, under our names."""
+        """The first message to a page, under ALi3 names."""
         record_of_fmu = description_record(self.description, self.variables)
         names = self.source.called([v["name"] for v in record_of_fmu["variables"]])
         for variable, name in zip(record_of_fmu["variables"], names, strict=True):
@@ -90,7 +90,7 @@ class Prepared:
 def prepare(request: DriveRequest, tell: Callable[[str], None]) -> Prepared:
     """Find, check and read what a drive needs. `tell`: called with messages.
 
-    Raises `HostError`: something is wrong or cannot be used; with a remedy.
+    Raises `HostError` with a remedy if something is wrong or cannot be used.
     """
     if request.record is not None:
         check_folder(request.record)
@@ -167,10 +167,10 @@ def _settings(request: DriveRequest, source: FmuSource, variables: Variables, wo
     place = request.place if request.place is not None else next(iter(places), None)
     if place is not None:
         start |= places[place]
-    start = {name: value for name, value in source.theirs(start).items() if name in variables.names}
+    start = {name: value for name, value in source.fmu_values(start).items() if name in variables.names}
     settings = Settings(variables)
     if ITERATIONS in variables.names:
-        settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")
+        settings.add_numbers({ITERATIONS: _MAX_ITERATIONS}, "real time")
     settings.add_numbers(start, f"the world {world.name}")
     settings.add_numbers(request.start(variables.names), f"{START_OF}{request.manoeuvre}")
     settings.add_options(request.fmu_options, request.fidelity)

@@ -20,8 +20,8 @@ _PATIENCE = (1.4, 0.4)
 class Process:
     """The process that drives an FMU, as an object of the main process.
 
-    `ended`: the reason why it has ended unexpectedly, else None. Raises `HostError`: the FMU cannot be started;
-    `FailedFmuError`: the FMU has crashed the process.
+    `ended`: the reason why it has ended unexpectedly, or None. Raises `HostError` if the FMU cannot be started,
+    `FailedFmuError` if the FMU has crashed the process.
     """
 
     def __init__(self, order: Order) -> None:

@@ -13,7 +13,7 @@ from hosts.simulator.car_events import Event
 from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, ROW, STATE_HEAD, SharedValues
 
 _PERIOD = 0.03
-_MOST_EVENTS = 10_000  # until the next call of `events`
+_MAX_EVENTS = 10_000  # until the next call of `events`
 RECORDING_CUT = "recording"
 """Kind of the event of an incomplete recording."""
 _REMEDY = "What was written so far can be opened; make room, or record into another folder."
@@ -36,7 +36,7 @@ class ProcessMessages:
     def __init__(self, shared: SharedValues, recorder: Records | None) -> None:
         self._shared, self._recorder = shared, recorder
         self._lock, self._end = threading.Lock(), threading.Event()
-        self._events: deque[Event] = deque(maxlen=_MOST_EVENTS)
+        self._events: deque[Event] = deque(maxlen=_MAX_EVENTS)
         self._events_to_record: list[dict[str, Any]] = []
         self._lost = {LOST_ROWS: 0, LOST_MESSAGES: 0}
         self._thread: threading.Thread | None = None
@@ -57,7 +57,7 @@ class ProcessMessages:
     def close(self, progress: Callable[[float], object]) -> None:
         """Collect the remaining messages after the end of the process, and finish the recording.
 
-        `progress`: called with the finished share of its table.
+        `progress`: called with the finished fraction of its table.
         """
         with self._lock:
             self._collect()

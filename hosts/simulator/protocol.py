@@ -23,14 +23,14 @@ HEADER = struct.Struct("<4I10d")
 RUNNING = 1
 REFUSED = 2
 BEHIND = 4
-LARGEST_MESSAGE = 4096
+MAX_MESSAGE_SIZE = 4096
 """Largest size of a message of a page, bytes."""
 SOURCES = ("keys", "gamepad", "touch")
 COMMANDS = ("run", "pause", "step", "speed", "reset", "rewind", "upright")
 DEVICE_MESSAGES = ("assign", "assign by moving", "calibrate", "reset mapping", "device settings", "test force")
 """Types of messages that are passed on to the devices."""
-_MOST_INPUTS = 64
-_LARGEST_NUMBER = 1e9
+_MAX_INPUTS = 64
+_MAX_NUMBER = 1e9
 
 
 def frame(state: CarState, step: float) -> bytes:
@@ -132,8 +132,8 @@ def _read_want(message: dict[str, Any], inputs: Collection[str]) -> Want:
     source, values = message.get("source"), message.get("values")
     if source not in SOURCES:
         raise HostError(f"The source of a request is {_short(source)}; it must be {', '.join(SOURCES)}.")
-    if not isinstance(values, dict) or len(values) > _MOST_INPUTS:
-        raise HostError(f"The values of a request must be an object of at most {_MOST_INPUTS} inputs.")
+    if not isinstance(values, dict) or len(values) > _MAX_INPUTS:
+        raise HostError(f"The values of a request must be an object of at most {_MAX_INPUTS} inputs.")
     results = {}
     for name, pair in values.items():
         if name not in inputs:
@@ -188,7 +188,7 @@ _READERS: dict[str, Callable[[dict[str, Any], Collection[str]], Message]] = {
 } | dict.fromkeys(DEVICE_MESSAGES, _read_for_devices)
 
 
-def _number(value: Any, subject: str, largest: float = _LARGEST_NUMBER) -> float:
+def _number(value: Any, subject: str, largest: float = _MAX_NUMBER) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= largest:
         raise HostError(f"{subject} is {_short(value)}; it must be a number of at most {largest:g}.")
     return float(value)

@@ -6,13 +6,13 @@ from hosts.simulator.clock import Clock
 from hosts.simulator.late_causes import LateCauses
 from hosts.simulator.step_times import TimesRecord
 
-MOST_LATE = 0.25
+MAX_LATENESS = 0.25
 """Lateness, s, above which the schedule is moved to now and the lost time is reported."""
 _LATE = 0.05
 _RECOVERY = 1.0
 _REPORT_PERIOD = 5.0
 _WINDOW = 1.0
-_LONGEST_SLEEP = 0.02
+_MAX_SLEEP = 0.02
 _PAUSE = 0.001
 
 
@@ -20,12 +20,12 @@ class RealTimeClock:
     """The schedule of the steps.
 
     Each step has a scheduled begin and a deadline, at which the next one begins. After a late step the next ones follow
-    without a pause until the schedule is met. Above `MOST_LATE` the schedule is moved to now, and the deadlines in
+    without a pause until the schedule is met. Above `MAX_LATENESS` the schedule is moved to now, and the deadlines in
     between count as missed and the time as lost.
 
     `step`: communication step, s; `paced`: if not, a step begins at the end of the one before, and none is late.
-    `speed`: requested ratio of simulated to wall time; `lateness`, `cost`: of the last step, s; `behind`: whether the
-    car is late or was late within the last second.
+    `speed`: requested ratio of simulated to wall time; `lateness`, `cost`: lateness and wall time of the last step, s;
+    `behind`: whether the car is late or was late within the last second.
     """
 
     def __init__(self, clock: Clock, step: float, times: TimesRecord, paced: bool = True) -> None:
@@ -52,13 +52,13 @@ class RealTimeClock:
         self._causes.restart()
 
     def wait(self) -> bool:
-        """Sleep towards the begin of the next step, for at most 20 ms; whether it is reached."""
+        """Sleep towards the start of the next step, for at most 20 ms; whether it is reached."""
         now = self._clock.now()
         if not self._paced:
             self._began = now
             return True
         if self._due > now:
-            self._clock.sleep_until(min(self._due, now + _LONGEST_SLEEP))
+            self._clock.sleep_until(min(self._due, now + _MAX_SLEEP))
             now = self._clock.now()
         if self._due > now:
             return False
@@ -68,7 +68,7 @@ class RealTimeClock:
     def done(self) -> str:
         """Count a step that was made, and schedule the next.
 
-        Returns a message if the car begins or ends to be behind, else an empty text.
+        Returns a message if the car begins or ends to be behind, otherwise an empty text.
         """
         now, times, period = self._clock.now(), self._times, self.period
         self.cost = now - self._began
@@ -84,7 +84,7 @@ class RealTimeClock:
         cause = self._causes.of_step(elapsed, period, late > 0.0)
         if late > 0.0:
             missed = 1
-        if late > MOST_LATE:
+        if late > MAX_LATENESS:
             # A pause for threads of the same priority, because steps that are always late never sleep.
             self._due, lost = now + _PAUSE, late + _PAUSE
             missed += int(late / period)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from hosts.simulator.preparation import Prepared
     from hosts.simulator.step_times import StepTimes
 
-_MOST_EVENTS = 1000
+_MAX_EVENTS = 1000
 
 
 class RunReport:
@@ -43,7 +43,7 @@ class RunReport:
     def event(self, kind: str, text: str) -> None:
         """Show and store an event of the car."""
         self._kinds[kind] += 1
-        if len(self._events) < _MOST_EVENTS:
+        if len(self._events) < _MAX_EVENTS:
             self._events.append({"kind": kind, "text": text})
         self.tell(text)
 
@@ -64,8 +64,8 @@ class RunReport:
             "settings": prepared.settings.records(),
             "built": prepared.fmu.built,
         }
-        for name, message in prepared.settings.rows():
-            self.tell(f"{name}: {message}")
+        for name, text in prepared.settings.rows():
+            self.tell(f"{name}: {text}")
         self.tell(f"Inputs are held over each step of {1e3 * step:g} ms: they act {500.0 * step:g} ms late on average.")
 
     def ready(self) -> None:
@@ -79,7 +79,7 @@ class RunReport:
         self.tell(f"First frame sent to a page {self.passed('first frame'):.2f} s after the start of the command.")
 
     def finish(self, times: StepTimes, file: Path | None) -> None:
-        """Show the report, and write it. `file`: JSON. Raises `FileError`: it cannot be written."""
+        """Show the report, and write it. `file`: JSON. Raises `FileError` if it cannot be written."""
         self.tell(times.text())
         if self._kinds:
             counts = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))

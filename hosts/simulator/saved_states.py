@@ -12,8 +12,8 @@ from hosts.fmu.instance import State
 SECONDS = 30.0
 EVERY = 0.5
 # Each new start saves a state; more states shorten the time that can be rewound.
-_MOST_STATES = 200
-_MOST_BYTES = 1 << 26  # of the inputs; with many inputs or short steps it shortens that time too
+_MAX_STATES = 200
+_MAX_BYTES = 1 << 26  # of the inputs; with many inputs or short steps it shortens that time too
 
 
 class SavesStates(Protocol):
@@ -29,8 +29,9 @@ class Mark:
     """A past step, with the start of the FMU before it."""
 
     count: int
+    """Count in the row of the step."""
     epoch: int
-    """`count`, `epoch`: of the row of the step."""
+    """Epoch in the row of the step."""
     begin: float
     """Start time of the FMU, s."""
     steps: int
@@ -52,7 +53,7 @@ class SavedStates:
 
     def __init__(self, fmu: SavesStates, inputs: int, step: float) -> None:
         self._fmu, self._step = fmu, step
-        limit = _MOST_BYTES // (8 * inputs + 16)
+        limit = _MAX_BYTES // (8 * inputs + 16)
         self._every = max(1, min(round(EVERY / step), limit // 8))
         self._length = max(1, min(round(SECONDS / step), limit))
         capacity = self._length + self._every + 1
@@ -96,14 +97,14 @@ class SavedStates:
     def _save(self, mark: Mark) -> None:
         self._saved.append(_Saved(self._step_number, self._fmu.state(), mark))
         while len(self._saved) > 1 and (
-            self._saved[1].step_number <= self._step_number - self._length or len(self._saved) > _MOST_STATES
+            self._saved[1].step_number <= self._step_number - self._length or len(self._saved) > _MAX_STATES
         ):
             self._fmu.free(self._saved.popleft().state)
 
     def back(self, steps: int) -> tuple[Mark, NDArray[np.float64], NDArray[np.float64]]:
         """Restore the last saved state that is not after the step that lies `steps` back.
 
-        `steps`: at most the property `steps`.
+        `steps`: number of steps, at most the property `steps`.
 
         Returns
         -------

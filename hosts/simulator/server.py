@@ -24,7 +24,7 @@ from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.connected_page import ConnectedPage
 from hosts.simulator.input_arbiter import InputArbiter
 from hosts.simulator.server_needs import Content, ShownDevices
-from hosts.simulator.web import BACKLOG, MOST_PAGES, Web
+from hosts.simulator.web import BACKLOG, MAX_PAGES, Web
 
 FRAME_PERIOD = 1 / 120
 """Shortest time between frames of a page, s."""
@@ -35,7 +35,7 @@ _PUMP_PERIOD = 0.05
 _POLICY_VIOLATION = 1008
 _CAR_ENDED = 1011  # of RFC 6455: the server cannot go on
 _ANSWER_TIMEOUT = 120  # s, for a world over a slow connection
-_LONGEST_REASON = 120  # a close frame takes 123 bytes
+_MAX_REASON_LENGTH = 120  # a close frame takes 123 bytes
 
 
 class Server:
@@ -104,7 +104,7 @@ class Server:
             process_request=lambda connection, request: self._web.answer(connection, request, len(self._pages)),
             create_connection=self._web.connection_type(),
             compression=None,
-            max_size=protocol.LARGEST_MESSAGE,
+            max_size=protocol.MAX_MESSAGE_SIZE,
             max_queue=32,
             open_timeout=_ANSWER_TIMEOUT,
             close_timeout=1,
@@ -119,7 +119,7 @@ class Server:
                     task.result()
             except HostError as error:  # the reason for the pages
                 for page in list(self._pages.values()):
-                    await page.connection.close(_CAR_ENDED, str(error)[:_LONGEST_REASON])
+                    await page.connection.close(_CAR_ENDED, str(error)[:_MAX_REASON_LENGTH])
                 raise
             finally:
                 self._web.end_strangers()
@@ -128,7 +128,7 @@ class Server:
 
     async def _serve_page(self, connection: ServerConnection) -> None:
         """Serve one page until it is closed."""
-        if len(self._pages) >= MOST_PAGES:  # several pages connected at the same time
+        if len(self._pages) >= MAX_PAGES:  # several pages connected at the same time
             await connection.close(_POLICY_VIOLATION, "Too many pages are connected.")
             return
         self._page_count += 1
@@ -166,7 +166,7 @@ class Server:
     async def _close_page(self, page: ConnectedPage, error: HostError) -> None:
         """Close the connection of a page that violates a limit."""
         self._tell("told", f"Page {page.number} is closed: {error}")
-        await page.connection.close(_POLICY_VIOLATION, str(error)[:_LONGEST_REASON])
+        await page.connection.close(_POLICY_VIOLATION, str(error)[:_MAX_REASON_LENGTH])
 
     def _pause_without_pages(self) -> None:
         """Pause the car if no page is left."""

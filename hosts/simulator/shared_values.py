@@ -16,9 +16,9 @@ MOMENT = (
     *("count", "time", "epoch", "running", "refused", "behind", "speed", "wall"),
     *("cost", "worst", "lateness", "missed", "saved"),
 )
-"""Values of a state before those of the columns."""
+"""Number of values of a state before the columns."""
 ROW = ("count", "time", "epoch")
-"""Values of a row of a recording before those of the columns."""
+"""Number of values of a row of a recording before the columns."""
 STATE_HEAD = Struct("<qq")
 """Count and epoch of the row after which a state was saved."""
 STOP, RECORDING, LOST_ROWS, LOST_MESSAGES = range(4)
@@ -166,8 +166,9 @@ class Sizes:
     """Sizes that determine the layout of the shared memory."""
 
     inputs: int
+    """Number of inputs."""
     columns: int
-    """`inputs`, `columns`: number of inputs, and of inputs and outputs."""
+    """Number of inputs and outputs."""
     rows: int
     """Largest number of waiting rows of a recording."""
 
@@ -175,7 +176,7 @@ class Sizes:
 class SharedValues:
     """Views of the shared memory.
 
-    `name`: of memory that another process has created; None: it is created.
+    `name`: name of memory that another process has created; None: it is created.
 
     Attributes
     ----------

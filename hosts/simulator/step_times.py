@@ -50,7 +50,7 @@ class TimesRecord:
         return self._values[_INDICES[name]]
 
     def add_step(self, cost: float, lateness: float) -> None:
-        """Count a step. `cost`: its wall time, s; `lateness`: of its begin, s."""
+        """Count a step. `cost`: its wall time, s; `lateness`: delay of its start, s."""
         values = self._values
         values[_COST + bin_of(cost)] += 1.0
         values[_LATENESS + bin_of(lateness)] += 1.0
@@ -74,7 +74,7 @@ class Spread:
     """s."""
 
     def quantile(self, probability: float) -> float:
-        """The quantile, s, as the upper edge of its bin (6 %); 0 without steps. `probability`: from 0 to 1."""
+        """The quantile, s, as the upper edge of its bin (6 %); 0 without steps. `probability`: number from 0 to 1."""
         total = float(self.counts.sum())
         if total == 0.0:
             return 0.0
@@ -128,10 +128,11 @@ class StepTimes:
     scheduled: float
     """Wall time of these steps at the requested speeds, s."""
     wall: float
+    """Wall time in which the car ran, s."""
     paused: float
-    """`wall`, `paused`: wall time in which the car ran and in which it was paused, s."""
+    """Wall time in which the car was paused, s."""
     missed: int
-    """Number of steps that ended after the scheduled begin of the next."""
+    """Number of steps that ended after the scheduled start of the next."""
     missed_by: dict[str, int]
     """Their number by each of `CAUSES`; all zero if the system does not report causes."""
     skipped: int
@@ -139,8 +140,9 @@ class StepTimes:
     lost: float
     """Wall time by which the schedule was moved, s."""
     cost: Spread
+    """Wall time of a step, s."""
     lateness: Spread
-    """`cost`, `lateness`: wall time of a step, and delay of its begin."""
+    """Delay of the start of a step, s."""
     mean: float
     """Mean cost, s."""
     capped: int
@@ -199,7 +201,7 @@ class StepTimes:
             # deadlines left out by a moved schedule are missed too
             deadlines = max(self.missed, round(self.steps * (1.0 + self.lost / self.scheduled)))
             rows += [
-                f"lateness of its begin: {self.lateness.words()}",
+                f"lateness of its start: {self.lateness.words()}",
                 f"missed deadlines: {self.missed} of {deadlines} ({100.0 * self.missed / deadlines:.3g} %)",
             ]
             if any(self.missed_by.values()):

@@ -20,10 +20,10 @@ from hosts.common.errors import HostError
 from hosts.simulator.access_control import AccessControl
 
 DRIVE = "/drive"
-MOST_STRANGERS = 64
+MAX_STRANGERS = 64
 """Largest number of connections without the token; a further one ends the oldest."""
-MOST_PAGES = 8
-MOST_ANSWERS = 16
+MAX_PAGES = 8
+MAX_ANSWERS = 16
 """Largest number of pages and worlds sent at the same time."""
 STRANGERS_PER_SECOND = 400
 """Connections without the token that are accepted per second."""
@@ -32,11 +32,11 @@ BACKLOG = 1024
 READ_WITHIN = 10.0
 """Time without progress of an answer, s, after which its connection is ended."""
 DEFAULT_PORT = 8765
-_MOST_PORTS = 100
+_MAX_PORTS = 100
 _PIECE_SIZE = 65536  # bytes of a body that are written at once
-_MOST_EXAMINED = 64  # connections examined before other tasks continue
+_MAX_EXAMINED = 64  # connections examined before other tasks continue
 _FIRST_BYTES = 2048
-_LONGEST_METHOD = 20
+_MAX_METHOD_LENGTH = 20
 _NOT_ALLOWED = b"HTTP/1.1 405 Method Not Allowed\r\nAllow: GET, HEAD\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
 _UNAVAILABLE = (errno.EADDRINUSE, errno.EACCES)
 
@@ -52,7 +52,7 @@ class _FloodGuard(socket.socket):
 
     def accept(self) -> tuple[socket.socket, Any]:
         """Accept the next connection; `BlockingIOError` if there is none, or after some closed ones."""
-        for _ in range(_MOST_EXAMINED):
+        for _ in range(_MAX_EXAMINED):
             connection, address = super().accept()
             now = time.monotonic()
             gain = STRANGERS_PER_SECOND * (now - self._last_time)
@@ -74,21 +74,19 @@ class _FloodGuard(socket.socket):
 
 
 def listening_socket(address: str, port: int | None) -> socket.socket:
-    """A listening socket. `port`: by default the first free one from `DEFAULT_PORT` on.
+    """A listening socket. `port`: by default the first free one, `DEFAULT_PORT` or above.
 
-    Raises `HostError`: the port is not available, with the next free one; or the address does not exist.
+    Raises `HostError` if the port is not available, with the next free one, or if the address does not exist.
     """
     if port is not None and not 0 <= port <= 65535:
         raise HostError(f"The port is {port}; it must be from 1 to 65535, or 0 for any that is free.")
     first = DEFAULT_PORT if port is None else port
-    for number in range(first, min(first + _MOST_PORTS, 65536)):
+    for number in range(first, min(first + _MAX_PORTS, 65536)):
         try:
             result = _bound_socket(address, number)
         except OSError as error:
             if error.errno == errno.EACCES and port is not None:
-                raise HostError(
-                    f"The system does not allow you to use the port {port}; give one from 1024 on."
-                ) from None
+                raise HostError(f"The system does not allow you to use the port {port}; give 1024 or above.") from None
             if error.errno not in _UNAVAILABLE:
                 raise HostError(f"The server cannot listen on {address}: {reason(error)}.") from None
             continue
@@ -98,7 +96,7 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
         raise HostError(
             f"The port {port} of {address} is taken by another program; the port {number} is free: --port {number}."
         )
-    raise HostError(f"The ports {first} to {first + _MOST_PORTS - 1} of {address} are all taken; give another --port.")
+    raise HostError(f"The ports {first} to {first + _MAX_PORTS - 1} of {address} are all taken; give another --port.")
 
 
 def _bound_socket(address: str, port: int) -> socket.socket:
@@ -138,15 +136,15 @@ class Web:
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"{refusal}\n")
         self._unidentified.pop(connection, None)
         if path == DRIVE:
-            if pages < MOST_PAGES:
+            if pages < MAX_PAGES:
                 return None
             message = f"{pages} pages are connected, which is as many as this server takes; close one.\n"
             return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, message)
         if path not in self._kinds:
             return connection.respond(http.HTTPStatus.NOT_FOUND, f"There is /, the page, /world and {DRIVE}.\n")
-        if len(self._being_answered) >= MOST_ANSWERS:
+        if len(self._being_answered) >= MAX_ANSWERS:
             message = (
-                f"{MOST_ANSWERS} answers are being sent, which is as many as this server sends at once; try again.\n"
+                f"{MAX_ANSWERS} answers are being sent, which is as many as this server sends at once; try again.\n"
             )
             return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, message)
         gzipped = "gzip" in ",".join(headers.get_all("Accept-Encoding"))
@@ -173,7 +171,7 @@ class Web:
             def connection_made(self, transport: asyncio.BaseTransport) -> None:
                 super().connection_made(transport)
                 web._unidentified[self] = None
-                if len(web._unidentified) > MOST_STRANGERS:
+                if len(web._unidentified) > MAX_STRANGERS:
                     oldest = next(iter(web._unidentified))
                     del web._unidentified[oldest]
                     oldest.transport.abort()
@@ -181,7 +179,7 @@ class Web:
             def data_received(self, data: bytes) -> None:
                 if self.request is None:  # the library treats any method as GET, or refuses all others
                     received = self._method
-                    self._method = (received + data)[:_LONGEST_METHOD]
+                    self._method = (received + data)[:_MAX_METHOD_LENGTH]
                     method, space, _ = self._method.partition(b" ")
                     if space and method not in (b"GET", b"HEAD"):
                         if b" " not in received:

@@ -111,7 +111,7 @@ def run_study(
 
 
 def _earlier_record(folder: Path) -> dict[str, Any] | None:
-    """The record of existing runs; None where there are none. Raises `HostError`: rows without a record."""
+    """The record of existing runs; None if there are none. Raises `HostError` if there are rows without a record."""
     record = read_record(folder)
     if record is None and part_files(folder):
         raise HostError(f"{folder} has rows of a study but not its study.json; give another --out.")
@@ -142,7 +142,7 @@ def fmu_of_study(study: StudyFile, file: Path) -> Path:
 
 
 def _car(name: str, file: Path) -> str:
-    """A car file beside the study file, else a car of the package."""
+    """A car file beside the study file, otherwise a car of the package."""
     file_beside = file.parent / name
     return str(file_beside) if is_file(file_beside) or is_folder(file_beside) else name
 

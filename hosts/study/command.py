@@ -42,7 +42,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
         "--between",
         metavar="LOW:HIGH",
         help="of the parameter of --target, in the unit of the FMU, such as --between=-5:5; default: that of the "
-        "study file, else of the FMU",
+        "study file, otherwise of the FMU",
     )
     options = parser.parse_args(arguments)
     return run_command(
@@ -136,4 +136,4 @@ def _folder_message(folder: Path, prog: str) -> str:
     if record is None:
         return f"{folder} is a folder; a study is a TOML file."
     line = shlex.join([record["file"], "--out", str(folder)])
-    return f"{folder} holds the results of {record['file']}; to go on: {prog} {line}; else give --run or --report."
+    return f"{folder} holds the results of {record['file']}; to go on: {prog} {line}; otherwise give --run or --report."

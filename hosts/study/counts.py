@@ -4,8 +4,8 @@ from collections import Counter
 
 from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome
 
-_MOST_COUNTED = 1000  # messages
-_MOST_REPORTED = 5
+_MAX_COUNTED = 1000  # messages
+_MAX_REPORTED = 5
 
 
 class Counts:
@@ -21,12 +21,12 @@ class Counts:
         self.failed += outcome.status == FAILED
         self.incomplete += outcome.status == INCOMPLETE
         for message in outcome.messages:
-            if message in self._messages or len(self._messages) < _MOST_COUNTED:
+            if message in self._messages or len(self._messages) < _MAX_COUNTED:
                 self._messages[message] += 1
 
     def frequent_messages(self) -> list[str]:
         """The most frequent messages of the runs, a line each."""
-        lines = [f"in {n} of {self.made} runs: {message}" for message, n in self._messages.most_common(_MOST_REPORTED)]
+        lines = [f"in {n} of {self.made} runs: {message}" for message, n in self._messages.most_common(_MAX_REPORTED)]
         remaining = len(self._messages) - len(lines)
         return [*lines, f"and {remaining} other messages, in the column messages"] if remaining > 0 else lines
 

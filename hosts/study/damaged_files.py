@@ -20,7 +20,7 @@ def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool
     """Runs with an intact row, and with signals if the study keeps some.
 
     Damaged files are taken out of the study, so that their runs are repeated: a damaged part of the table is renamed.
-    Raises `HostError`: a part has a run that is not of the study.
+    Raises `HostError` if a part has a run that is not of the study.
 
     Returns
     -------

@@ -36,7 +36,7 @@ _LABELS = {
     "points_sha256": "the points that are drawn",
     "measured": "the measures",
 }
-_MOST_DIFFERENCES = 3
+_MAX_DIFFERENCES = 3
 
 Hash: TypeAlias = Annotated[str, Field(pattern=_HASH)]
 
@@ -109,7 +109,7 @@ class StudyRecord(_Table):
 
 
 def read_record(folder: Path) -> dict[str, Any] | None:
-    """The record of the study in a folder; None where there is none. Raises `HostError`: the record is damaged."""
+    """The record of the study in a folder; None if there is none. Raises `HostError` if the record is damaged."""
     file = folder / RECORD
     if not file.exists():
         return None
@@ -134,7 +134,7 @@ def check_no_link(folder: Path) -> None:
 
 
 def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
-    """The FMU in a folder of results. Raises `HostError`: it is missing, or is not the FMU of the rows."""
+    """The FMU in a folder of results. Raises `HostError` if it is missing, or is not the FMU of the rows."""
     file = folder / str(record["fmu"])
     if not file.is_file():
         raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")
@@ -186,7 +186,7 @@ def check_same(folder: Path, earlier: Mapping[str, Any], now: Mapping[str, Any])
     if len(differences) > 1:
         differences = [key for key in differences if key not in ("points_sha256", "points", "runs")]
     message = some_of(
-        (_difference_text(key, earlier.get(key), new.get(key)) for key in differences), _MOST_DIFFERENCES, "; "
+        (_difference_text(key, earlier.get(key), new.get(key)) for key in differences), _MAX_DIFFERENCES, "; "
     )
     raise HostError(
         f"{folder} holds another study, whose rows stay as they are: {message}. Put it back as it was, or give another "
@@ -216,7 +216,7 @@ def _difference_text(key: str, earlier: Any, now: Any) -> str:
 def update_limits(folder: Path, earlier: dict[str, Any], limits: Mapping[str, Any], content: bytes) -> dict[str, Any]:
     """The record of earlier runs with new limits, on which runs do not depend; written if the limits differ.
 
-    `content`: of the study file.
+    `content`: content of the study file.
     """
     if earlier.get("limits", {}) == limits:
         return earlier

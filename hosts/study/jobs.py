@@ -41,7 +41,7 @@ class Job:
     """Measures of the test; empty: all."""
     start: dict[str, Value] = field(default_factory=dict)
     step: float = float("nan")
-    """Communication step, s; NaN for a test that takes that of the FMU."""
+    """Communication step, s; NaN for a test that takes the step of the FMU."""
     every: int = 0
     """Steps between stored values of signals; 0: none are stored."""
     samples: int = 0
@@ -49,7 +49,7 @@ class Job:
 
 
 def named_manoeuvre(name: str, file: Path) -> Manoeuvre:
-    """A manoeuvre of the package, else of a file beside the study file. Raises `HostError` where there is neither."""
+    """A manoeuvre of the package, otherwise of a file beside the study file. Raises `HostError` if there is neither."""
     names = manoeuvre_names()
     if name in names:
         return load_manoeuvre(name)
@@ -64,8 +64,8 @@ def checked_test(
 ) -> tuple[str, dict[str, float]]:
     """Name and settings of a test that can be done with an FMU.
 
-    `set_values`: settings other than the defaults; `where`: name of the entry in messages. Raises `HostError`: there is
-    no such test or setting, or the FMU lacks a variable that the test needs.
+    `set_values`: settings other than the defaults; `where`: name of the entry in messages. Raises `HostError` if there
+    is no such test or setting, or the FMU lacks a variable that the test needs.
     """
     try:
         test = standard_test(name)
@@ -85,7 +85,7 @@ def perform_test(
     fmu: FmuSource,
     values: Mapping[str, Value],
 ) -> TestRecord:
-    """Run the test of a job. `name`: of the FMU in messages; `values`: of the parameters."""
+    """Run the test of a job. `name`: name of the FMU in messages; `values`: values of the parameters."""
     step = None if math.isnan(job.step) else job.step
     car = TestedCar(name, fmu, {**job.start, **values}, step)
     return perform(standard_test(job.test), car, job.settings)
@@ -94,7 +94,7 @@ def perform_test(
 def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequence[str]) -> list[Job]:
     """The jobs at each point. `parameters`: those that the study varies.
 
-    Raises `HostError`: a manoeuvre cannot be driven with this FMU, or overwrites a parameter.
+    Raises `HostError` if a manoeuvre cannot be driven with this FMU, or overwrites a parameter.
     """
     jobs: list[Job] = []
     for number, entry in enumerate(study.manoeuvres, start=1):
@@ -170,7 +170,7 @@ def _check_parameters(manoeuvre: Manoeuvre, parameters: Sequence[str], where: st
 
 
 def _sampling_of_signals(study: StudyFile, stop: float, step: float, where: str) -> tuple[int, int]:
-    """Steps between stored values of signals, and the number of values. `stop`, `step`: in s."""
+    """Steps between stored values of signals, and the number of values. `stop`, `step`: s."""
     if study.signals is None:
         return 0, 0
     every = steps_of(study.signals.interval, step, f"{where}: signals.interval")

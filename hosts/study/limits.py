@@ -1,4 +1,4 @@
-"""Limits of measures, and the share of a study's runs that lies within them."""
+"""Limits of measures, and the fraction of a study's runs within them."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -30,35 +30,38 @@ _REASONS_WITHOUT_INTERVAL = {
 
 @dataclass(frozen=True)
 class Share:
-    """Number and share of the runs within a limit."""
+    """Number and fraction of the runs within a limit."""
 
     measure: str
     """Column of the measure; `ALL`: points of the study, called variants, that keep all limits in all their runs."""
     manoeuvre: str
     """Empty for `ALL`."""
     lowest: float
+    """Lower limit in `unit`; infinite: none."""
     highest: float
+    """Upper limit in `unit`; infinite: none."""
     unit: str
-    """`lowest`, `highest`: of the limit, in this unit; infinite: not limited."""
     within: int
+    """Number of runs within the limit; of points for `ALL`."""
     outside: int
-    """`within`, `outside`: numbers of runs; of `ALL` of points."""
+    """Number of runs outside the limit; of points for `ALL`."""
     without_result: int
-    """Number of those of `outside` that failed or lack the measure."""
+    """Number of runs in `outside` that failed or lack the measure."""
     absent: int
     """Number of runs in which the measure does not exist, such as the critical speed of a car that understeers; neither
     within nor outside."""
     share: float
-    """Share of `within` in `within` and `outside`, 0 to 1; NaN where both are 0."""
+    """`within` / (`within` + `outside`); NaN if both are 0."""
     share_low: float
+    """Lower end of its interval, see `interval_of_share`; NaN if the runs are not a random sample."""
     share_high: float
-    """`share_low`, `share_high`: its interval, see `interval_of_share`; NaN where the runs are no random sample."""
+    """Upper end of its interval, likewise."""
 
 
 def shares(frame: pd.DataFrame) -> list[Share]:
     """Shares of the finished runs within each limit of each manoeuvre, and then within all limits.
 
-    `frame`: of `hosts.study.store.read_study`, with its attrs.
+    `frame`: result of `hosts.study.store.read_study`, with its attrs.
 
     Notes
     -----
@@ -107,7 +110,7 @@ def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
 
 
 def _manoeuvres_of(column: str, about: Mapping[str, Any]) -> list[str]:
-    """Manoeuvres whose runs have a measure: the test of its name, else all that are no tests."""
+    """Manoeuvres whose runs have a measure: the test of its name, otherwise all that are not tests."""
     tests = [n for n in about["tests"] if column.startswith(f"{n}.")]
     return [max(tests, key=len)] if tests else [n for n in about["manoeuvres"] if n not in about["tests"]]
 
@@ -131,13 +134,13 @@ def _share(
 
 
 def interval_of_share(count: int, of: int) -> tuple[float, float]:
-    """Wilson's score interval of a share, 95 %."""
+    """Wilson's score interval of a fraction, 95 %."""
     interval = binomtest(count, of).proportion_ci(CONFIDENCE, method="wilson")
     return float(interval.low), float(interval.high)
 
 
 def reason_without_interval(about: Mapping[str, Any]) -> str:
-    """Why the runs of a study are not a random sample, as a clause; empty where they are."""
+    """Why the runs of a study are not a random sample, as a clause; empty if they are."""
     return _REASONS_WITHOUT_INTERVAL.get(str(about["sampling"]["method"]), "")
 
 

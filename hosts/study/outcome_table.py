@@ -16,8 +16,8 @@ from hosts.study.worker_data import MISSING, Outcome, Run, seed_of
 Row: TypeAlias = tuple[Run, Outcome]
 
 _FILE_NAME = "part-{:06d}.parquet"
-_MOST_ROWS = 50_000  # of a part
-_MOST_BYTES = 200e6  # of the signals of a part
+_MAX_ROWS = 50_000  # of a part
+_MAX_BYTES = 200e6  # of the signals of a part
 
 
 @dataclass
@@ -53,7 +53,7 @@ class OutcomeTable:
 
     @property
     def is_full(self) -> bool:
-        return len(self._part.rows["index"]) >= _MOST_ROWS or self._part.bytes > _MOST_BYTES
+        return len(self._part.rows["index"]) >= _MAX_ROWS or self._part.bytes > _MAX_BYTES
 
     def lacks(self, name: str) -> bool:
         return name.isdecimal() and int(name) < len(self.done) and not self.done[int(name)]

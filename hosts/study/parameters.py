@@ -25,8 +25,9 @@ class Parameter:
     unit: str
     """Unit of the FMU."""
     low: float = math.nan
+    """Lower end of the range; NaN if `values` are listed."""
     high: float = math.nan
-    """`low`, `high`: range; NaN if `values` are listed."""
+    """Upper end of the range; NaN if `values` are listed."""
     log: bool = False
     """Whether the range is divided by the logarithm."""
     values: tuple[Value, ...] = ()
@@ -64,7 +65,7 @@ class Parameter:
         numbers[0], numbers[-1] = self.low, self.high
         if self.kind != "Real" and (numbers != np.round(numbers)).any():
             raise HostError(
-                f"parameters.'{self.name}': {self.count} equal steps from {self.low:g} to {self.high:g} are no whole "
+                f"parameters.'{self.name}': {self.count} equal steps from {self.low:g} to {self.high:g} are not whole "
                 "numbers; list them as values."
             )
         values = numbers.tolist() if self.kind == "Real" else [int(x) for x in numbers]
@@ -85,7 +86,7 @@ class Parameter:
 def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str) -> Parameter:
     """A parameter, checked against its variable. `file`: name of the study file in messages.
 
-    Raises `HostError`: a value is of another kind or out of the range of the FMU, with a remedy.
+    Raises `HostError` with a remedy if a value is of another kind or out of the range of the FMU.
     """
     label = f"{file}: parameters.'{name}'"
     if entry.range is not None:
@@ -110,7 +111,7 @@ def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str
 def in_fmu_unit(value: Value, unit: str | None, variable: Variable, label: str) -> Value:
     """A value in the unit of the FMU, checked.
 
-    `unit`: of `value`; None: that of the FMU; `label`: key of the value in messages.
+    `unit`: unit of `value`; None: unit of the FMU; `label`: key of the value in messages.
     """
     if unit is None or unit == variable.unit or isinstance(value, (str, bool)):
         return variable.check(value, label)

@@ -120,7 +120,7 @@ def _is_contiguous(metadata: Any) -> bool:
 
 
 def mark_runs(done: NDArray[np.bool_], file: Path, table: Any) -> None:
-    """Mark the runs of a part in `done`, shape (runs,). Raises `HostError`: a run is unknown or repeated."""
+    """Mark the runs of a part in `done`, shape (runs,). Raises `HostError` if a run is unknown or repeated."""
     index = table["index"].to_numpy()
     if len(index) and not 0 <= index.min() <= index.max() < len(done):
         raise HostError(f"{file} has the run {index.max()}; the study has {len(done)} runs.")

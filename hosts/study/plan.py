@@ -34,9 +34,10 @@ OWN_COLUMNS = (
 
 
 def fmu_source_of(name: str | None, file: Path, fmu: Fmu) -> FmuSource:
-    """The FMU under the names of an alias file beside the study file, else of the package; `name` None: its own names.
+    """The FMU under the names of an alias file beside the study file, otherwise of the package; `name` None: its own
+    names.
 
-    Raises `HostError`: the alias file is wrong, or is not for this FMU.
+    Raises `HostError` if the alias file is wrong, or is not for this FMU.
     """
     file_beside = None if name is None else file.parent / name
     return FmuSource.named(
@@ -44,10 +45,10 @@ def fmu_source_of(name: str | None, file: Path, fmu: Fmu) -> FmuSource:
     )
 
 
-def variable_by_our_name(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
-    """A variable that can be set, by our name and in our unit; None where there is no such name.
+def variable_by_ali3_name(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
+    """A variable that can be set, by ALi3 name and in ALi3 units; None if there is no such name.
 
-    Raises `HostError`: it is not a parameter or input.
+    Raises `HostError` if it is not a parameter or input.
     """
     if not isinstance(fmu, NamedFmu) or name not in fmu.table:
         return None
@@ -62,7 +63,7 @@ class PlannedRuns:
     """The FMU, points and jobs of a study."""
 
     fmu: SimulatedFmu
-    """Under our names if there is an alias file."""
+    """Under ALi3 names if there is an alias file."""
     source: FmuSource
     points: Points
     parameters: dict[str, Any]
@@ -74,8 +75,8 @@ class PlannedRuns:
 def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     """The runs of a study file. `file`: its path, to which paths in it are relative.
 
-    Raises `HostError`: an unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that
-    overwrites a parameter.
+    Raises `HostError` if a parameter is unknown, a value is out of range (with its row), a grid is empty, or a
+    manoeuvre overwrites a parameter.
     """
     source = fmu_source_of(study.aliases, file, opened)
     fmu: SimulatedFmu = source.seen(opened)
@@ -84,7 +85,7 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
 
 
 def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, PlannedRuns]:
-    """The study of a folder of results, and its runs. Raises `HostError`: the FMU is not that of the results."""
+    """The study of a folder of results, and its runs. Raises `HostError` if the results are of another FMU."""
     study, _ = read_study_file(folder / "study.toml")
     with Fmu(fmu_of_folder(folder, record)) as opened:
         return study, planned_runs(study, Path(record["file"]), opened)
@@ -94,7 +95,7 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
     """Points, and a record of each parameter."""
 
     def variable_of(name: str, where: str) -> Variable:
-        return variable_by_our_name(fmu, name, where) or opened.table.settable(name, where)
+        return variable_by_ali3_name(fmu, name, where) or opened.table.settable(name, where)
 
     for name, value in study.start.items():
         variable_of(name, f"{file}: start").check(value, f"{file}: start")
@@ -157,8 +158,8 @@ class Plan:
 def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
     """Check a study against its FMU. `file`: its path, to which paths in it are relative.
 
-    Raises `HostError`: an unknown parameter, signal or measure, a value out of range with its row, an empty grid, a
-    manoeuvre that overwrites a parameter.
+    Raises `HostError` if a parameter, signal or measure is unknown, a value is out of range (with its row), a grid is
+    empty, or a manoeuvre overwrites a parameter.
     """
     content = read_bytes(fmu_path, LARGEST_ARCHIVE, HostError) if is_file(fmu_path) else b""
     with Fmu(fmu_path) as opened:
@@ -239,14 +240,14 @@ def _checked_signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[st
 
 
 def unknown_name_text(name: str, known: Iterable[str], kind: str) -> str:
-    """A sentence on an unknown name, with a similar one. `kind`: of the name."""
+    """A sentence on an unknown name, with a similar one. `kind`: kind of the name."""
     return f"the FMU has no {kind} '{name}'{did_you_mean(name, known, 'the command check lists them')}"
 
 
 def _checked_measures(
     study: StudyFile, file: Path, fmu: SimulatedFmu, units: Mapping[str, str], stop_times: Sequence[float]
 ) -> tuple[list[StudyMeasure], dict[str, str]]:
-    """Measures of manoeuvres, and their columns with units. `stop_times`: of the manoeuvres, s."""
+    """Measures of manoeuvres, and their columns with units. `stop_times`: stop times of the manoeuvres, s."""
     if study.measures and not stop_times:
         raise HostError(f"{file}: [measures] are of manoeuvres; this study has tests only, which have their own.")
     if not study.measures:

@@ -25,8 +25,8 @@ from hosts.study.study_file import ParameterEntry, SamplingEntry
 if TYPE_CHECKING:
     from hosts.study.random_points import UnitPoints
 
-_MOST_POINTS = 10**9
-_MOST_DIGESTED = 256  # first and last points in the hash of drawn points
+_MAX_POINTS = 10**9
+_MAX_DIGESTED_POINTS = 256  # first and last points in the hash of drawn points
 
 
 @dataclass(frozen=True)
@@ -53,15 +53,15 @@ def grid_points(lengths: Sequence[int]) -> UnitPoints:
 def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, file: str) -> Points:
     """Points of a grid, or random ones. `file`: name of the study file in messages.
 
-    Raises `HostError`: there are too many points.
+    Raises `HostError` if there are too many points.
     """
     if sampling.method == "grid":
         parameters = tuple(p.with_grid_values() for p in parameters)
         lengths = tuple(p.length for p in parameters)
         count, unit_points = math.prod(lengths), grid_points(lengths)
-        if count > _MOST_POINTS:
+        if count > _MAX_POINTS:
             product = " x ".join(map(str, lengths))
-            raise HostError(f"{file}: the grid has {product} = {count:.3g} points; at most {_MOST_POINTS:.0e} can be.")
+            raise HostError(f"{file}: the grid has {product} = {count:.3g} points; at most {_MAX_POINTS:.0e} can be.")
     else:
         count, unit_points = _random_points(len(parameters), sampling, file)
 
@@ -81,7 +81,7 @@ def _random_points(d: int, sampling: SamplingEntry, file: str) -> tuple[int, Uni
         return n, sobol_sequence(d, seed)
     if sampling.method == "saltelli":
         return n * (d + 2), saltelli(d, seed)
-    if n * d > _MOST_POINTS:
+    if n * d > _MAX_POINTS:
         raise HostError(
             f"{file}: a Latin hypercube of {n} points of {d} parameters needs {8e-9 * n * d:.3g} GB of memory; "
             "take the method sobol."
@@ -91,10 +91,10 @@ def _random_points(d: int, sampling: SamplingEntry, file: str) -> tuple[int, Uni
 
 def digest(points: Points) -> str:
     """A hash of all points of a table, or of the first and last ones of a grid or of random points."""
-    limit = _MOST_DIGESTED if points.parameters else points.count
+    limit = _MAX_DIGESTED_POINTS if points.parameters else points.count
     ends = [points.block(0, min(points.count, limit))]
     if points.count > limit:
-        ends.append(points.block(points.count - _MOST_DIGESTED, _MOST_DIGESTED))
+        ends.append(points.block(points.count - _MAX_DIGESTED_POINTS, _MAX_DIGESTED_POINTS))
     return hashlib.sha256(json.dumps([dict(end) for end in ends]).encode()).hexdigest()
 
 
@@ -103,7 +103,7 @@ def table_points(
 ) -> Points:
     """Points of a CSV file whose heading names parameters.
 
-    `variable_of`: function of a name and its position in messages; raises `HostError` where there is no such variable
+    `variable_of`: function of a name and its position in messages; raises `HostError` if there is no such variable
     that can be set; `entries`: units of columns whose heading has none. Raises `HostError` with the line, the name and
     the value.
     """

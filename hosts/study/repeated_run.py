@@ -37,8 +37,8 @@ class Repeat:
 def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
     """A function that returns the commands of a run by its number, and writes the file of its manoeuvre.
 
-    Raises `HostError`: the folder is not of a study, has a link, or an FMU that is not that of the rows; the function
-    raises it where there is no such run.
+    Raises `HostError` if the folder is not a study folder or has a link, or its FMU is not the FMU of the rows; the
+    function raises it if there is no such run.
     """
     path = Path(folder)
     record = study_record(path)

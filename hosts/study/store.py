@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def study_record(folder: str | os.PathLike[str]) -> dict[str, Any]:
-    """The record of a study, from its file ``study.json``. Raises `HostError`: it is not a study folder."""
+    """The record of a study, from its file ``study.json``. Raises `HostError` if it is not a study folder."""
     record = read_record(Path(folder))
     if record is None:
         raise HostError(f"{folder} is not a study folder: there is no {RECORD} in it.")
@@ -31,10 +31,10 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     """The table of a study.
 
     Returns a row for each run that has ended, by its index. Columns: ``point``, ``manoeuvre``, ``seed``, the parameters
-    by their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` where a measure is missing,
+    by their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` if a measure is missing,
     ``failed``), ``reason``, ``missing`` (names of measures that there should be; other NaN are of measures that the run
     has not, as a critical speed), ``messages`` of the FMU, ``simulated`` and ``wall_seconds``. ``attrs`` has units of
-    columns and the rest of what is known of the study. Raises `HostError`: it is not a study folder, or a part is
+    columns and the rest of what is known of the study. Raises `HostError` if it is not a study folder, or a part is
     damaged.
     """
     record = study_record(folder)
@@ -50,11 +50,11 @@ def _frame(record: dict[str, Any], tables: Sequence[Any]) -> pd.DataFrame:
 
 
 def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -> xr.Dataset:
-    """Signals of a manoeuvre. `manoeuvre`: may be left out where there is one.
+    """Signals of a manoeuvre. `manoeuvre`: may be left out if there is only one.
 
     Result: dimensions ``point`` and ``time``; NaN where a run has not been made, and after one that ended early. The
-    parameters are coordinates along ``point``, as far as runs have been made. Raises `HostError`: there are no signals
-    of it, or a file is damaged.
+    parameters are coordinates along ``point``, as far as runs have been made. Raises `HostError` if there are no
+    signals of it, or a file is damaged.
     """
     record = study_record(folder)
     if not record["signals"]:

@@ -31,9 +31,9 @@ from hosts.study.worker_data import DONE, FAILED, INCOMPLETE, Outcome, Run, Work
 if TYPE_CHECKING:
     from hosts.driving.pilots.course_follower import CourseFollower
 
-_MOST_MISSING = 3
-_MOST_MESSAGES = 5
-_LONGEST_MESSAGE = 300  # characters of a message
+_MAX_MISSING = 3
+_MAX_MESSAGES = 5
+_MAX_MESSAGE_LENGTH = 300  # characters of a message
 
 
 class Bench:
@@ -54,7 +54,7 @@ class Bench:
         return self.run(work.jobs[number], run.values, seed_of(work.seed, point))
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
-        """Make a run; an error becomes its outcome. `seed`: for functions of the user."""
+        """Make a run; an error becomes its outcome. `seed`: seed for functions of the user."""
         begin = clock.perf_counter()
         try:
             with warnings.catch_warnings():
@@ -102,7 +102,8 @@ def distinct_messages(messages: Sequence[str]) -> tuple[str, ...]:
     """The first distinct messages, shortened if too long."""
     result = dict.fromkeys(" ".join(message.split()) for message in messages)
     return tuple(
-        m if len(m) <= _LONGEST_MESSAGE else f"{m[: _LONGEST_MESSAGE - 3]}..." for m in list(result)[:_MOST_MESSAGES]
+        m if len(m) <= _MAX_MESSAGE_LENGTH else f"{m[: _MAX_MESSAGE_LENGTH - 3]}..."
+        for m in list(result)[:_MAX_MESSAGES]
     )
 
 
@@ -140,12 +141,12 @@ def _set_measures(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> 
     outcome.missing = tuple(name for name, m in measures if m.is_missing)
     missing = [f"{name}: {m.note or 'it is not a number'}" for name, m in measures if m.is_missing]
     if missing:
-        suffix = [f"and {len(missing) - _MOST_MISSING} more"] if len(missing) > _MOST_MISSING else []
-        outcome.status, outcome.reason = INCOMPLETE, "; ".join(missing[:_MOST_MISSING] + suffix)
+        suffix = [f"and {len(missing) - _MAX_MISSING} more"] if len(missing) > _MAX_MISSING else []
+        outcome.status, outcome.reason = INCOMPLETE, "; ".join(missing[:_MAX_MISSING] + suffix)
 
 
 def experiment_of(work: Work, path: Path) -> Experiment[Run, Outcome]:
-    """Runs of a study as an experiment with a `Bench` in each process. `path`: of the FMU."""
+    """Runs of a study as an experiment with a `Bench` in each process. `path`: path of the FMU."""
     reads = [path, *(file for start in _start_values(work) for file in files_of(start))]
     experiment = Experiment("study", Bench(work, path.absolute()), Outcome, partial(_label, work), reads)
     return experiment if work.time_limit is None else replace(experiment, limit=work.time_limit, in_all=True)

@@ -31,7 +31,7 @@ def target_of(text: str, by: str, range_text: str | None) -> Target:
     """Read the target of the options.
 
     `text`: ``MEASURE=VALUE``, the value with or without a unit; `by`: the parameter; `range_text`: ``LOW:HIGH``. Raises
-    `HostError`: a text is not of this form.
+    `HostError` if a text is not of this form.
     """
     name, _, value = (part.strip() for part in text.partition("="))
     match = _VALUE.fullmatch(value)
@@ -52,7 +52,7 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     """Seek the value of a parameter, print and write the result. Returns whether the measure has the target value.
 
     `file`: a study file; its other parameters keep the values of the FMU; `out`: folder of the files. Raises
-    `HostError`: there is no such parameter or measure, or the unit is one of another quantity.
+    `HostError` if there is no such parameter or measure, or the unit is one of another quantity.
     """
     study, _ = read_study_file(file)
     fmu = fmu_of_study(study, file)
@@ -82,7 +82,7 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
 
 
 def _plan_of_parameter(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
-    """The plan of the study with one parameter; its range is that of the option, else of the file, else of the FMU."""
+    """The plan of the study with one parameter; its range is that of the option, or of the file, or of the FMU."""
     entry = study.parameters.get(target.by, ParameterEntry())
     variables = Variables(described(fmu))
     is_named = target.by in variables.names or study.aliases is None  # else it may be a name of the alias file
@@ -120,7 +120,7 @@ def _plan_of_parameter(study: StudyFile, file: Path, fmu: Path, target: Target) 
 
 
 def _present_value(study: StudyFile, by: str, fmu: Path) -> float:
-    """The present value of the parameter; NaN where it is a name of the alias file."""
+    """The present value of the parameter; NaN if it is a name of the alias file."""
     variables = Variables(described(fmu))
     value = study.start.get(by, variables[by].start if by in variables.names else None)
     return float(value) if isinstance(value, (int, float)) else math.nan
@@ -132,7 +132,7 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
     Returns the values that are not parameters, as ``NAME=VALUE``.
     """
     values: dict[str, Any] = {**study.start, by: value}
-    values = plan.work.fmu.theirs(values)
+    values = plan.work.fmu.fmu_values(values)
     description = described(plan.fmu)
     parameter_set = parameter_set_of(Variables(description), description.modelName, values)
     entries = [entry for entry in parameter_set.entries if entry.name in values]

@@ -25,11 +25,11 @@ class Target:
     """Name as the user writes it."""
     value: float
     unit: str
-    """Unit of `value`; empty: that of the measure."""
+    """Unit of `value`; empty: unit of the measure."""
     by: str
     """Name of the parameter."""
     range: tuple[float, float] | None
-    """Range of the parameter in the unit of the FMU; None: that of the study file, else of the FMU."""
+    """Range of the parameter in the unit of the FMU; None: range of the study file, otherwise of the FMU."""
 
 
 class TargetRuns:
@@ -49,7 +49,7 @@ class TargetRuns:
         self._count = 0
 
     def _job_and_column(self) -> tuple[Job, str]:
-        """The job that yields the measure, and its column. Raises `HostError` where there is none, or several."""
+        """The job that yields the measure, and its column. Raises `HostError` if there is none, or several."""
         name, jobs = self.target.measure, self.plan.work.jobs
         named = [job for job in jobs if job.manoeuvre is None and name.startswith(f"{job.label}.")]
         units = {c: self.plan.record["measures"][c] for c in self.plan.work.columns}

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from scipy.optimize import brentq, minimize_scalar
 
 TOLERANCE = 1e-3
-"""Of the target value; where that is zero, of the change of the measure over the range."""
-MOST_RUNS = 24
+"""Relative to the target value; if that is zero, to the change of the measure over the range."""
+MAX_RUNS = 24
 _RESOLUTION = 1e-4  # of the range
 _INSETS = (0.0, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0)  # of the range, from an end at which the run fails
 _EXTREMUM_TOLERANCE = 0.02  # of the range
-_MOST_EXTREMUM_RUNS = 8
+_MAX_EXTREMUM_RUNS = 8
 _SLOPE_STEP = 0.01  # of the value or of the range, the smaller one
 
 
@@ -24,9 +24,9 @@ class Run:
 
     x: float
     y: float
-    """Value of the measure; NaN where the run does not yield it."""
+    """Value of the measure; NaN if the run does not yield it."""
     reason: str = ""
-    """Reason for a NaN, else empty."""
+    """Reason for a NaN, otherwise empty."""
 
 
 @dataclass(frozen=True)
@@ -42,14 +42,15 @@ class SearchResult:
     tolerance: float
     """In the unit of the measure."""
     slope: float
-    """Change of the measure over that of the parameter between `best` and a run beside it; NaN where the target is not
-    met, or that run fails."""
+    """Change of the measure divided by the change of the parameter, between `best` and a run beside it; NaN if the
+    target is not met, or that run fails."""
     between: tuple[float, float]
     """Values of the parameter of these two runs."""
     rises: bool
+    """Whether the measure rises between any neighbouring runs, by more than the tolerance or a thousandth of its
+    largest value."""
     falls: bool
-    """`rises`, `falls`: whether the measure rises or falls between any neighbouring runs, by more than the tolerance or
-    a thousandth of its largest value; both: it is not monotone."""
+    """Whether it falls likewise; if it also rises, it is not monotone."""
     crossed: bool
     """Whether the target value lies between the measures of two runs."""
 
@@ -69,7 +70,7 @@ def seek(
     high: float,
     log: bool = False,
     start: float = math.nan,
-    most_runs: int = MOST_RUNS,
+    most_runs: int = MAX_RUNS,
 ) -> SearchResult:
     """Seek a value of a parameter.
 
@@ -136,7 +137,7 @@ class _Search:
         return math.log(x / low) / math.log(high / low) if self._log else (x - low) / (high - low)
 
     def _residual(self, u: float) -> float:
-        """The measure less the target at a position; NaN where the run fails."""
+        """The measure minus the target at a position; NaN if the run fails."""
         if u not in self._runs:
             if len(self._runs) >= self._most_runs:
                 raise _SearchEnd
@@ -197,7 +198,7 @@ class _Search:
                 distance,
                 bounds=(first, last),
                 method="bounded",
-                options={"xatol": _EXTREMUM_TOLERANCE, "maxiter": _MOST_EXTREMUM_RUNS},
+                options={"xatol": _EXTREMUM_TOLERANCE, "maxiter": _MAX_EXTREMUM_RUNS},
             )
 
     def _brackets(self) -> list[tuple[float, float]]:
@@ -211,7 +212,7 @@ class _Search:
         return min(finite, key=lambda run: abs(run.y - self._target), default=None)
 
     def _result(self, slope_runs: Sequence[Run]) -> SearchResult:
-        """The result. `slope_runs`: the two runs of the slope, or fewer where there is none."""
+        """The result. `slope_runs`: the two runs of the slope, or fewer if there is none."""
         finite = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
         changes = [b.y - a.y for a, b in itertools.pairwise(finite)]
         largest = max((abs(run.y) for run in finite), default=0.0)

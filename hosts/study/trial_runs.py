@@ -12,7 +12,7 @@ from hosts.study.plan import Plan
 from hosts.study.study_runs import SingleProcess
 from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome, Work
 
-_LONGEST = 2.0  # s of computing for a run of the test of reuse
+_MAX_RUN_TIME = 2.0  # s of computing for a run of the test of reuse
 _ROW_BYTES = 60.0  # of a row in a part beside its numbers
 _COMPRESSION = 1.0  # largest ratio of stored and raw bytes of signals
 
@@ -31,9 +31,9 @@ class Trial:
 
 
 def make_trial_runs(plan: Plan) -> Trial:
-    """Make runs of the first point, and where they fail of the middle and the last one, in a separate process.
+    """Make runs of the first point, and if they fail of the middle and the last one, in a separate process.
 
-    Raises `HostError`: all runs of a job fail, with the reason of the last.
+    Raises `HostError` if all runs of a job fail, with the reason of the last.
     """
     work, notes = replace(plan.work, reuse=False), list[str]()
     columns: dict[str, str] = {}
@@ -67,7 +67,7 @@ def make_trial_runs(plan: Plan) -> Trial:
 
 
 def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
-    """Requested measures of a test with their units. `units`: of all its measures, which are known after a run."""
+    """Requested measures of a test with their units. `units`: units of all measures, known after a run."""
     if not job.measures:
         return dict(units)
     for name in job.measures:
@@ -79,20 +79,20 @@ def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
 
 
 def _outcomes_at(work: Work, plan: Plan, number: int, points: Sequence[int]) -> list[Outcome]:
-    """Outcomes of a job at points, in sequence in one process. `number`: of the job."""
+    """Outcomes of a job at points, in sequence in one process. `number`: index of the job."""
     with SingleProcess(work, plan.fmu) as processes:
         return [processes.run(plan.runs_at([point * len(work.jobs) + number])[0]) for point in points]
 
 
 def _check_reuse(plan: Plan, completed: list[tuple[int, Job, int, Outcome]]) -> tuple[bool, float | None]:
-    """Whether a reset instance reproduces a run to the last bit, and the time of that run, s; else None."""
+    """Whether a reset instance reproduces a run to the last bit, and the time of that run, s; otherwise None."""
     manoeuvre_runs = [run for run in completed if run[1].manoeuvre is not None]
     if not manoeuvre_runs:
         return False, None
     number, job, point, outcome = manoeuvre_runs[0]
     assert job.manoeuvre is not None
-    share = min(1.0, _LONGEST / max(outcome.wall, 1e-9))
-    samples = max(1, math.floor(share * job.manoeuvre.stop_time / job.step)) + 1
+    fraction = min(1.0, _MAX_RUN_TIME / max(outcome.wall, 1e-9))
+    samples = max(1, math.floor(fraction * job.manoeuvre.stop_time / job.step)) + 1
     stop = (samples - 1) * job.step
     # All outputs at all steps are compared.
     short = replace(job, manoeuvre=replace(job.manoeuvre, stop_time=stop), every=1, samples=samples)
@@ -103,7 +103,7 @@ def _check_reuse(plan: Plan, completed: list[tuple[int, Job, int, Outcome]]) -> 
     if first.status == FAILED or again.status == FAILED or first.signals is None or again.signals is None:
         return False, None
     is_equal = first.signals.tobytes() == again.signals.tobytes()
-    return is_equal, again.wall / share if is_equal else None
+    return is_equal, again.wall / fraction if is_equal else None
 
 
 def with_columns(plan: Plan, columns: Mapping[str, str]) -> Plan:

@@ -67,8 +67,9 @@ class Outcome:
     reason: str = ""
     measures: dict[str, float] = field(default_factory=dict)
     simulated: float = 0.0
+    """Simulated time, s."""
     wall: float = 0.0
-    """`simulated`, `wall`: simulated and elapsed time, s."""
+    """Elapsed time, s."""
     signals: NDArray[np.float64] | None = None
     """Shape (samples, signals)."""
     units: dict[str, str] = field(default_factory=dict)

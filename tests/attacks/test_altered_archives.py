@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from ali3.archives import Archive, faults_of
-from hosts.check.archive import archive_findings
+from hosts.check.archive import check_archive
 from tests.altered_files import altered
 from tests.attacks.bounds import seeds
 from tests.commands.test_archives import DESCRIPTION
@@ -57,7 +57,7 @@ def check(seed: int, folder: Path) -> bool:
         assert unpacked.is_dir() or (unpacked.is_file() and not unpacked.is_symlink()), f"seed {seed}: {unpacked}"
     if fault == "it is read":
         assert faults_of(file) == [], f"seed {seed}"
-        assert not [finding for finding in archive_findings(file) if finding.verdict == "bad"], f"seed {seed}"
+        assert not [finding for finding in check_archive(file) if finding.verdict == "bad"], f"seed {seed}"
     shutil.rmtree(inside)
     return fault == "it is read"
 

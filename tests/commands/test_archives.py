@@ -12,7 +12,7 @@ import pytest
 from ali3.archives import Archive, faults_of
 from ali3.errors import FileError, UserError
 from fmu_src.native.added_platforms import add_platforms
-from hosts.check.archive import archive_findings
+from hosts.check.archive import check_archive
 from hosts.common.errors import HostError
 from hosts.fmu import description_file
 from hosts.fmu.description_file import read_description
@@ -88,7 +88,7 @@ def test_an_archive_is_refused_by_all_that_open_it(kind: str, tmp_path: Path) ->
             use(file)
         assert "\n" not in str(refused.value)
     assert sorted(tmp_path.rglob("*")) == before
-    (finding,) = archive_findings(file)
+    (finding,) = check_archive(file)
     assert finding.verdict == verdict
     assert message in finding.words
 
@@ -133,7 +133,7 @@ THREE = (
     ],
 )
 def test_descriptions_have_bounds(content: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(description_file, "MOST_VARIABLES", 100)
+    monkeypatch.setattr(description_file, "MAX_VARIABLES", 100)
     file = tmp_path / "a.fmu"
     with zipfile.ZipFile(file, "w") as archive:
         archive.writestr("modelDescription.xml", content)

@@ -63,7 +63,7 @@ def test_other_ports_or_another_program_build_again(car: Path, monkeypatch: pyte
 
 
 def test_a_command_with_many_cars_keeps_all_of_them(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(built_fmu, "_MOST_FMUS", 1)
+    monkeypatch.setattr(built_fmu, "_MAX_FMUS", 1)
     result = [built_fmu.fmu_of_car(str(car), print, ports) for ports in ("1", "2", "3")]
     assert all(fmu.is_file() for fmu in result)
     for fmu in result:

@@ -54,9 +54,9 @@ def test_names_and_references_set_the_same(fmu: Path, host: list[str]) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("abc", 0.01, 0, 0), "STEPS is 'abc'; it must be a whole number from 0 on."),
+        (("abc", 0.01, 0, 0), "STEPS is 'abc'; it must be a whole number of at least 0."),
         ((10, "nan", 0, 0), "STEP is 'nan'"),
-        ((10, 0.01, 3, 2), "LAST is '2'; it must be a whole number from 3 on."),
+        ((10, 0.01, 3, 2), "LAST is '2'; it must be a whole number of at least 3."),
         ((10, 0.01, 0, 9999), "more than 4096 variables"),
         ((10, 0.01, 0, 0, "--set", "spring.stifness=1"), "the FMU has no variable 'spring.stifness'."),
         ((10, 0.01, 0, 0, "--set", "bob.y=1"), "'bob.y' is of the causality output"),

@@ -150,7 +150,7 @@ def test_a_jump_inside_a_step_is_reported(fmu: Path, tmp_path: Path) -> None:
         ({"bob.y": lambda y: np.r_[y[1:], y[-1]]}, ("where the table has it 0.01 s earlier, by one row",)),
         (
             {"bob.x": lambda x: 0.0 * x, "bob.y": lambda y: y + 0.2},
-            ("off from the first row on: bob.y; does the FMU start", "0 m, taken as 0.0001"),
+            ("off since the first row: bob.y; does the FMU start", "0 m, taken as 0.0001"),
         ),
     ],
 )

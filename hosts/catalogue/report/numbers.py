@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
 NONE = "–"
-"""Text in place of a missing number."""
+"""Text for a missing number."""
 
 
 def number_text(value: float) -> str:
@@ -32,7 +32,7 @@ def with_unit(value: float, unit: str) -> str:
 
 
 def limit_element(is_kept: bool, text: str = "") -> HtmlElement:
-    """Whether a limit is kept, in colour. `text`: in place of the default."""
+    """Whether a limit is kept, in colour. `text`: instead of the default."""
     return element("span", text or ("kept" if is_kept else "not kept"), class_="kept" if is_kept else "broken")
 
 

@@ -20,10 +20,10 @@ from hosts.experiment.line_simplification import thinned_indices
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (6, 2, 1, 2)), (0, (9, 3)), (0, (3, 1, 1, 1, 1, 1)))
 _WIDTHS = (1.5, 1.9, 2.2, 1.7, 1.3, 1.7)
 _MARKERS = ("", "o", "s", "^", "D", "v", "P")
-_SHARED = "#767676"
+_COMMON = "#767676"
 _MARKERS_OF_LINE = 9
 """Number of markers on a line that is one of several of its car."""
-# Inches; the height is that of the axes.
+# Inches; height of the axes.
 _WIDTH = 5.625
 _HEIGHT = 2.9
 _LEFT = 0.85
@@ -39,7 +39,7 @@ _SETTINGS: Mapping[Any, Any] = {**STYLE, "axes.titlesize": 10.5}
 def drawings_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> dict[str, Drawing]:
     """All plots of a test by their titles.
 
-    `plots_by_car`: by label of the car, in the order of the cars; plots of one title are one drawing.
+    `plots_by_car`: plots by label of the car, in the order of the cars; plots of one title are one drawing.
     """
     by_title: dict[str, dict[int, tuple[str, Plot]]] = {}
     for k, (label, plots) in enumerate(plots_by_car.items()):
@@ -50,7 +50,7 @@ def drawings_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> dict[str, Drawing
 
 
 def _draw_picture(title: str, plots: Mapping[int, tuple[str, Plot]], many: bool) -> Drawing:
-    plots = {k: (label, _displayed(plot)) for k, (label, plot) in plots.items()}
+    plots = {k: (label, _in_display_units(plot)) for k, (label, plot) in plots.items()}
     first = next(iter(plots.values()))[1]
     shared = _shared_lines([plot for _, plot in plots.values()])
     names = [
@@ -82,7 +82,7 @@ def _draw_plots(axes: Axes, plots: Mapping[int, tuple[str, Plot]], shared: Mappi
     first = next(iter(plots.values()))[1]
     descriptions = []
     for line in shared.values():
-        axes.plot(line.x, line.y, color=_SHARED, linewidth=1.2, label=line.label)
+        axes.plot(line.x, line.y, color=_COMMON, linewidth=1.2, label=line.label)
         descriptions.append(f"{line.label}: {_line_description(line)}")
     for k, (label, plot) in plots.items():
         for j, line in enumerate(line for line in plot.lines if line.label not in shared):
@@ -104,7 +104,7 @@ def _draw_plots(axes: Axes, plots: Mapping[int, tuple[str, Plot]], shared: Mappi
     return descriptions
 
 
-def _displayed(plot: Plot) -> Plot:
+def _in_display_units(plot: Plot) -> Plot:
     """The plot in the units in which reports show its axes."""
     (x, x_factor), (y, y_factor) = axis_shown(plot.x), axis_shown(plot.y)
     if x_factor == y_factor == 1.0:
@@ -144,7 +144,7 @@ def _legend_text(label: str, line: Line, plot: Plot, many: bool) -> str:
 
 
 def _draw_line(axes: Axes, line: Line, name: str, style: int, marker_number: int) -> None:
-    """Draw a line. `style`: of colour and dashes, which differ also in grey; `marker_number`: of markers."""
+    """Draw a line. `style`: index of colour and dashes, which differ also in grey."""
     x, y = (np.atleast_1d(np.asarray(v, np.float64)) for v in (line.x, line.y))
     indices = thinned_indices(x, y)
     x, y = x[indices], y[indices]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ali3.html_elements import Content, element, table
 from ali3.units import typeset
-from hosts.catalogue.record import Standard, StandardTest, TestRecord
+from hosts.catalogue.record import Setting, Standard, StandardTest, TestRecord
 from hosts.catalogue.report.numbers import NONE, limit_element, with_unit
 from hosts.experiment.report import FAINT, NOTE, Section, paragraph
 from hosts.measures.measure import Measure
@@ -21,23 +21,24 @@ CHECKED = "text checked"
 FROM_SUMMARIES = "from public summaries"
 _TESTS_OPTION = "--tests"
 _SETTING_OPTION = "--test-setting"
+_DIGITS = 7
 
 
-def section(
+def make_section(
     test: StandardTest,
     records: Mapping[str, TestRecord | str],
     settings: Mapping[str, float],
     command: Sequence[str],
     plots: Sequence[HtmlElement],
 ) -> Section:
-    """The section of a test.
+    """Make the section of a test.
 
-    `records`: by label of the car, in the order of the cars; `command`: of the whole report; empty: unknown.
+    `records`: one per car, by its label; `command`: command of the whole report, empty if unknown.
     """
-    finished = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
-    content: list[Content] = [_standard_element(s) for s in test.standards]
+    finished = {label: record for label, record in records.items() if isinstance(record, TestRecord)}
+    content: list[Content] = [_standard_element(standard) for standard in test.standards]
     if not test.standards:
-        content.append(paragraph("After no standard.", FAINT))
+        content.append(paragraph("Not from a standard.", FAINT))
     for label, record in records.items():
         if isinstance(record, str):
             content.append(element("p", element("strong", f"{label}: not done. "), record, class_=NOTE))
@@ -46,7 +47,7 @@ def section(
     if plots:
         content.append(element("div", *plots, class_="plots"))
     content += [
-        _measures_element(label, test.title, [m.displayed() for m in record.measures])
+        _measures_element(label, test.title, [measure.displayed() for measure in record.measures])
         for label, record in finished.items()
         if record.measures
     ]
@@ -54,7 +55,7 @@ def section(
         content.append(_settings_element(test, settings))
     if command:
         text = shlex.join(command_of_test(command, test.name))
-        content.append(element("p", "This test again:"))
+        content.append(element("p", "Command that repeats this test:"))
         content.append(element("pre", element("code", text)))
     return Section(test.title, content, test.name)
 
@@ -64,11 +65,11 @@ def command_of_test(command: Sequence[str], test: str) -> list[str]:
     retained: list[str] = []
     words = iter(command)
     for word in words:
-        name, equals, value = word.partition("=")
+        name, separator, value = word.partition("=")
         if name not in (_TESTS_OPTION, _SETTING_OPTION):
             retained.append(word)
             continue
-        value = value if equals else next(words, "")
+        value = value if separator else next(words, "")
         if name == _SETTING_OPTION and value.startswith(f"{test}."):
             retained += [_SETTING_OPTION, value]
     return [*retained, _TESTS_OPTION, test]
@@ -93,20 +94,7 @@ def _standard_element(standard: Standard) -> HtmlElement:
 
 
 def _settings_element(test: StandardTest, settings: Mapping[str, float]) -> HtmlElement:
-    rows: list[list[Content]] = [
-        [
-            element("code", s.name),
-            element(
-                "td",
-                with_unit(settings.get(s.name, s.value), s.unit),
-                element("small", f"by default {with_unit(s.value, s.unit)}")
-                if settings.get(s.name, s.value) != s.value
-                else "",
-            ),
-            s.text,
-        ]
-        for s in test.settings
-    ]
+    rows = [_setting_row(setting, settings.get(setting.name, setting.value)) for setting in test.settings]
     return element(
         "details",
         element("summary", "Settings"),
@@ -114,23 +102,28 @@ def _settings_element(test: StandardTest, settings: Mapping[str, float]) -> Html
     )
 
 
+def _setting_row(setting: Setting, value: float) -> list[Content]:
+    content: list[Content] = [with_unit(value, setting.unit)]
+    if value != setting.value:
+        content.append(element("small", f"by default {with_unit(setting.value, setting.unit)}"))
+    return [element("code", setting.name), element("td", *content), setting.text]
+
+
 def _measures_element(label: str, test: str, measures: Sequence[Measure]) -> HtmlElement:
-    rows: list[list[Content]] = []
-    for m in measures:
-        state: Content = NONE
-        if m.limit is not None and m.is_kept is not None:
-            state = element(
-                "td",
-                limit_element(m.is_kept),
-                element("small", f"{m.limit.range_text(typeset(m.unit))}; {m.limit.source}"),
-            )
-        value = NONE if math.isnan(m.value) else f"{m.value:.7g}"
-        rows.append(
-            [element("code", m.name), element("td", value, class_="value"), typeset(m.unit), state, m.text, m.note]
-        )
+    rows = [_measure_row(measure) for measure in measures]
     head: list[Content] = ["measure", "value", "unit", "limit", "what", "note"]
     return element(
         "details",
         element("summary", f"Measures of {label} ({len(measures)})"),
         table(f"{test}: measures of {label}", head, rows),
     )
+
+
+def _measure_row(measure: Measure) -> list[Content]:
+    limit_cell: Content = NONE
+    if measure.limit is not None and measure.is_kept is not None:
+        limit_text = f"{measure.limit.range_text(typeset(measure.unit))}; {measure.limit.source}"
+        limit_cell = element("td", limit_element(measure.is_kept), element("small", limit_text))
+    value = NONE if math.isnan(measure.value) else f"{measure.value:.{_DIGITS}g}"
+    value_cell = element("td", value, class_="value")
+    return [element("code", measure.name), value_cell, typeset(measure.unit), limit_cell, measure.text, measure.note]

@@ -8,7 +8,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.report.overview import car_tables, overview_tables
 from hosts.catalogue.report.pictures import drawings_of
-from hosts.catalogue.report.section import section
+from hosts.catalogue.report.section import make_section
 from hosts.experiment.report import Plots, Section, page
 
 _NOTHING: Mapping[str, Mapping[str, float]] = {}
@@ -51,5 +51,5 @@ def write_report(
         results = {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None}
         pictures = drawings_of({n: r.plots for n, r in results.items() if isinstance(r, TestRecord)})
         plot_elements = [plots.add(drawing, f"{test.name} {name}") for name, drawing in pictures.items()]
-        sections.append(section(test, results, settings.get(test.name, {}), command, plot_elements))
+        sections.append(make_section(test, results, settings.get(test.name, {}), command, plot_elements))
     write_text(file, page(f"Standard tests of {', '.join(labels)}", car_tables(cars), sections))

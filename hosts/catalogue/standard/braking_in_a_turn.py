@@ -16,7 +16,7 @@ from hosts.driving.pilots.fixed_steering import FixedSteering
 STEP = 0.005  # s; the yaw acceleration is a finite difference
 ON_CIRCLE = 12.0  # s, after which the steering is fixed
 HORIZON = 1.5  # s; with a shorter one, light cars oscillate about the circle
-LONGEST_RUN_UP = 60.0  # s, for a car that cannot be started at speed
+MAX_RUN_UP = 60.0  # s, for a car that cannot be started at speed
 
 
 def drive(sheet: Sheet) -> None:
@@ -52,7 +52,7 @@ def drive_stop(car: TestedCar, settings: Mapping[str, float], pedal: float, long
     constants, radius = car.facts.constants, settings["radius"]
     speed = math.sqrt(settings["lateral_acceleration"] * abs(radius))
     start = start_at_speed(car, speed)
-    begin = ON_CIRCLE if start else LONGEST_RUN_UP
+    begin = ON_CIRCLE if start else MAX_RUN_UP
     circle = CircleFollower(
         radius, speed, constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"], horizon=HORIZON
     )

@@ -13,7 +13,7 @@ from hosts.catalogue.steady_map import drive_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.measures.bandwidth import bandwidth
 from hosts.measures.frequency_response import FrequencyResponse, frequency_response
-from hosts.measures.second_order import NOTHING, fit_second_order
+from hosts.measures.second_order import SecondOrder, fit_second_order
 
 _AFTER = 2.0  # s, straight ahead
 _LINES = 60  # frequencies of the responses
@@ -48,7 +48,7 @@ def drive(sheet: Sheet) -> None:
         responses += [] if missing else [{**names, "zeros": zeros}]
     fitted_responses = [q for q in responses if q["zeros"] is not None]
     fits = fit_second_order([q["response"] for q in fitted_responses], [q["zeros"] for q in fitted_responses]) or [
-        NOTHING
+        SecondOrder()
     ]
     fitted_names = " and ".join(q["word"] for q in fitted_responses)
     reason = "The fit does not converge." if fitted_responses else "There is no response."

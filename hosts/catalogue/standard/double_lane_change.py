@@ -77,7 +77,7 @@ def add_limit(sheet: Sheet, name: str, passed: Passage | None, failed: Passage |
 def find_limit(
     car: TestedCar, layout: _CourseSettings, settings: Mapping[str, float], progress: Callable[[float], None]
 ) -> tuple[Passage | None, Passage | None, tuple[str, ...]]:
-    """Find the fastest clean passage and the slowest other one, None where there is none, and notes."""
+    """Find the fastest clean passage and the slowest other one, None if there is none, and notes."""
     passed: Passage | None = None
     failed: Passage | None = None
     speed, attempts = settings["lowest"], 0
@@ -110,9 +110,10 @@ def find_limit(
 
 
 def try_drivers(car: TestedCar, layout: _CourseSettings, speed: float, passed: Passage | None) -> Passage:
-    """Drive a course by several drivers, the last successful one first, until a passage is clean; else the best one.
+    """Drive a course by several drivers, the last successful one first, until a passage is clean; otherwise the best
+    one.
 
-    `speed`: in km/h; `passed`: the last clean passage.
+    `speed`: km/h; `passed`: the last clean passage.
     """
     order = sorted(DRIVERS, key=lambda name: passed is None or name != passed.driver)
     results = []
@@ -126,7 +127,7 @@ def try_drivers(car: TestedCar, layout: _CourseSettings, speed: float, passed: P
 
 
 def pilot_of(driver: str, course: Course, constants: Mapping[str, float], speed: float) -> Pilot:
-    """The pilot of a driver. `driver`: one of `DRIVERS`; `speed`: in m/s."""
+    """The pilot of a driver. `driver`: one of `DRIVERS`; `speed`: m/s."""
     wheelbase, largest_angle = constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"]
     length, width = constants["vehicle.length"], constants["vehicle.width"]
     if driver == "centre line":
@@ -136,7 +137,7 @@ def pilot_of(driver: str, course: Course, constants: Mapping[str, float], speed:
 
 
 def drive_through(car: TestedCar, layout: _CourseSettings, speed: float, driver: str) -> Passage:
-    """Drive a course once. `speed`: in km/h; `driver`: one of `DRIVERS`."""
+    """Drive a course once. `speed`: km/h; `driver`: one of `DRIVERS`."""
     constants, entry_speed = car.facts.constants, speed / 3.6
     length, width = constants["vehicle.length"], constants["vehicle.width"]
     course = course_of(layout.name, width, RUN_UP + 0.5 * length)

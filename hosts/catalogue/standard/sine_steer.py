@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steady_map import drive_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
-from hosts.measures.one_period import NOTHING, OnePeriod, one_period
+from hosts.measures.one_period import SinusoidalResponse, measure_response
 
 _AFTER = 2.0  # s, straight ahead
 _POINTS = 400  # of a period
@@ -34,14 +34,14 @@ def drive(sheet: Sheet) -> None:
         ("yaw_rate", "yaw_rate", ("1/s", "rad/s")),
         ("lateral_acceleration", "acceleration", ("m/(s2.rad)", "m/s2")),
     ):
-        results = {side: {"period": _one_period(run, getattr(run, signal), period)} for side, run in sides.items()}
+        results = {side: {"period": _measure_period(run, getattr(run, signal), period)} for side, run in sides.items()}
         sheet.add("quantity", name=name, word=name.replace("_", " "), units=units, **results)
 
 
-def _one_period(run: SteeredRun, values: NDArray[np.float64], period: float) -> OnePeriod:
-    """Measures of the period and the time after it, of signals less their means before the steering."""
+def _measure_period(run: SteeredRun, values: NDArray[np.float64], period: float) -> SinusoidalResponse:
+    """Measure the period and the time after it, of signals minus their means before the steering."""
     if not run.whole:
-        return NOTHING
+        return SinusoidalResponse()
     before, during = run.time < 0.0, (run.time >= 0.0) & (run.time <= period + _AFTER)
     steering, response = (x[during] - (x[before].mean() if before.any() else x[0]) for x in (run.steering, values))
-    return one_period(run.time[during], steering, response, longest=0.45 * period)
+    return measure_response(run.time[during], steering, response, max_lag=0.45 * period)

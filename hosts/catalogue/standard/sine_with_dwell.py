@@ -15,7 +15,7 @@ from hosts.measures.slowly_increasing_steer import G, angle_by_regression
 
 _RATE = math.radians(13.5)  # rad/s, of the ramp
 _RAMP_END = 0.5 * G  # m/s2
-_MOST_RUNS = 80
+_MAX_RUNS = 80
 
 
 def drive(sheet: Sheet) -> None:
@@ -32,12 +32,12 @@ def drive(sheet: Sheet) -> None:
     if not math.isfinite(sum(angles)):
         raise HostError(_message_without_angle(list(ramps.values()), settings["speed"]))
     # The regulation rounds the angles of the ramps and their mean to 0.1°.
-    a = _rounded(0.5 * sum(map(_rounded, angles)))
+    a = _round_angle(0.5 * sum(map(_round_angle, angles)))
     amplitudes = series_amplitudes(a, settings["first"], settings["increment"], steering.largest)
-    if len(amplitudes) > _MOST_RUNS:
+    if len(amplitudes) > _MAX_RUNS:
         raise HostError(
             f"A is {math.degrees(a):.1f}°, so the series to {math.degrees(amplitudes[-1]):.0f}° has "
-            f"{len(amplitudes)} runs to each side, where {_MOST_RUNS} are the most: raise the setting increment, "
+            f"{len(amplitudes)} runs to each side, where {_MAX_RUNS} are the most: raise the setting increment, "
             "or look at the unit of the steering wheel's angle."
         )
     sides: dict[str, list[DwellRun]] = {}
@@ -54,7 +54,7 @@ def drive(sheet: Sheet) -> None:
     sheet.add("series", a=a, angles=angles, amplitudes=amplitudes, sides=sides, steering=steering, ramps=ramps)
 
 
-def _rounded(angle: float) -> float:
+def _round_angle(angle: float) -> float:
     return math.radians(round(math.degrees(angle), 1))
 
 

@@ -14,7 +14,7 @@ from hosts.measures.step_response import step_of_steering
 
 _BEFORE_STEP = (-0.8, 0.0)  # s
 _TOLERANCE = 0.02  # of the steady lateral acceleration
-_MOST_RUNS = 4  # to find the angle of a step
+_MAX_RUNS = 4  # to find the angle of a step
 
 
 def drive(sheet: Sheet) -> None:
@@ -44,7 +44,7 @@ def _find_left_step(sheet: Sheet, speed: float, acceleration: float, angle: floa
     `angle`: first guess, rad; `done`: progress of the test before it.
     """
     largest_angle, last_point = SteeringInput.of(sheet.car.facts).largest, (0.0, 0.0)
-    for attempt in range(_MOST_RUNS):
+    for attempt in range(_MAX_RUNS):
         step = _drive_step(sheet, speed, acceleration, angle)
         sheet.progress(done + 0.05 * (attempt + 1))
         reached = step["acceleration"].steady

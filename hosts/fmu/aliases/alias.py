@@ -1,6 +1,6 @@
-"""Aliases: our names for variables of an FMU of another program, with factor and offset."""
+"""Aliases: ALi3 names for variables of an FMU of another program, with factor and offset."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,10 +13,12 @@ from hosts.fmu.aliases.derived_variable import Derived
 
 @dataclass(frozen=True)
 class Alias:
-    """The alias of one variable: value in the FMU = factor * ours + offset."""
+    """The alias of one variable: value in the FMU = factor * ALi3 value + offset."""
 
-    ours: str
-    theirs: str
+    name: str
+    """ALi3 name."""
+    fmu_name: str
+    """Name in the FMU."""
     factor: float = 1.0
     offset: float = 0.0
 
@@ -27,64 +29,62 @@ class Aliases:
 
     aliases: tuple[Alias, ...] = ()
     constants: Mapping[str, float] = field(default_factory=dict)
-    """Constants of the car, by our names."""
+    """Constants of the car, by ALi3 names."""
     derived: tuple[Derived, ...] = ()
     """Derived variables, each after those that it needs."""
     missing: Mapping[str, str] = field(default_factory=dict)
-    """Our names in the file that this FMU cannot provide, with a sentence on the reason."""
+    """ALi3 names in the file that this FMU cannot provide, each with a sentence on the reason."""
 
-    def names(self, theirs: Sequence[str]) -> tuple[str, ...]:
-        """Our names of variables; a variable without an alias keeps its name."""
-        by_name = {alias.theirs: alias.ours for alias in self.aliases}
-        return tuple(by_name.get(name, name) for name in theirs)
-
-    def ours(self, theirs: Iterable[str]) -> set[str]:
-        """All our names that an FMU with these variables provides, including derived ones."""
-        return {*self.names(tuple(theirs)), *(d.ours for d in self.derived)}
+    def names(self, fmu_names: Sequence[str]) -> tuple[str, ...]:
+        """ALi3 names of variables; a variable without an alias keeps its name."""
+        by_name = {alias.fmu_name: alias.name for alias in self.aliases}
+        return tuple(by_name.get(name, name) for name in fmu_names)
 
     @property
     def of_record(self) -> dict[str, tuple[str, float, float]]:
-        """Our name, factor and offset by the name in the FMU, as in records of runs."""
-        return {a.theirs: (a.ours, a.factor, a.offset) for a in self.aliases}
+        """ALi3 name, factor and offset by the name in the FMU, as in records of runs."""
+        return {alias.fmu_name: (alias.name, alias.factor, alias.offset) for alias in self.aliases}
 
     def why_missing(self, name: str) -> str:
-        """A sentence on why this FMU lacks one of our names; empty if it is not in the file."""
+        """A sentence on why this FMU lacks an ALi3 name; empty if it is not in the file."""
         return self.missing.get(name, "")
 
-    def scales(self, theirs: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Factors and offsets of variables. `theirs`: their n names in the FMU.
+    def scales(self, fmu_names: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Factors and offsets of variables. `fmu_names`: n names in the FMU.
 
-        Returns `factors` and `offsets`, shape (n,): ours = (theirs - offset) / factor.
+        Returns `factors` and `offsets`, shape (n,): ALi3 value = (value in the FMU - offset) / factor.
         """
-        by_name = {alias.theirs: alias for alias in self.aliases}
-        results = [by_name.get(name, Alias(name, name)) for name in theirs]
+        by_name = {alias.fmu_name: alias for alias in self.aliases}
+        results = [by_name.get(name, Alias(name, name)) for name in fmu_names]
         return np.array([a.factor for a in results]), np.array([a.offset for a in results])
 
     def inputs(self, values: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-        """Values and rates of inputs, converted from our names and units to those of the FMU."""
-        by_name = {alias.ours: alias for alias in self.aliases}
+        """Values and rates of inputs, converted from ALi3 names and units to those of the FMU."""
+        by_name = {alias.name: alias for alias in self.aliases}
         results = {}
         for name, (value, rate) in values.items():
             alias = by_name.get(name, Alias(name, name))
-            results[alias.theirs] = (alias.factor * value + alias.offset, abs(alias.factor) * rate)
+            results[alias.fmu_name] = (alias.factor * value + alias.offset, abs(alias.factor) * rate)
         return results
 
-    def values(self, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Start values, converted from our names and units to those of the FMU; texts are unchanged."""
-        by_name = {alias.ours: alias for alias in self.aliases}
+    def fmu_values(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Start values, converted from ALi3 names and units to those of the FMU; texts are unchanged."""
+        by_name = {alias.name: alias for alias in self.aliases}
         results = {}
         for name, value in values.items():
             alias = by_name.get(name, Alias(name, name))
-            plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
-            results[alias.theirs] = value if plain else alias.factor * value + alias.offset
+            results[alias.fmu_name] = value if _is_unchanged(value, alias) else alias.factor * value + alias.offset
         return results
 
-    def own_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
-        """Start values, converted from the names and units of the FMU to ours; texts are unchanged."""
-        by_name = {alias.theirs: alias for alias in self.aliases}
+    def ali3_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
+        """Start values, converted from names and units of the FMU to those of ALi3; texts are unchanged."""
+        by_name = {alias.fmu_name: alias for alias in self.aliases}
         results: dict[str, Value] = {}
         for name, value in values.items():
             alias = by_name.get(name, Alias(name, name))
-            plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
-            results[alias.ours] = value if plain else (float(value) - alias.offset) / alias.factor
+            results[alias.name] = value if _is_unchanged(value, alias) else (float(value) - alias.offset) / alias.factor
         return results
+
+
+def _is_unchanged(value: Any, alias: Alias) -> bool:
+    return isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)

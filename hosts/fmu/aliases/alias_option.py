@@ -10,7 +10,7 @@ from hosts.fmu.variables import Variables
 def aliases_of(file: str | Path | None, variables: Variables) -> Aliases:
     """The aliases of a file, or none without a file. `file`: see `hosts.fmu.aliases.file.find_aliases`.
 
-    Raises `HostError`: the file has a fault, or does not fit this FMU.
+    Raises `HostError` if the file has a fault, or does not fit this FMU.
     """
     if file is None:
         return Aliases()

@@ -21,7 +21,7 @@ def declared(variable: Variable) -> str:
 
 
 def unit_definition(variable: Variable) -> UnitDefinition | None:
-    """The definition of the unit of a real variable; None where the unit has no meaning or is unknown."""
+    """The definition of the unit of a real variable; None if the unit has no meaning or is unknown."""
     unit = variable.definition or known_unit(variable.unit or "")
     return None if unit is None or variable.kind != "Real" or is_plain_one(unit) else unit
 
@@ -35,8 +35,8 @@ def is_si(variable: Variable) -> bool:
 def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
     """The factor from SI units to a unit of an alias file.
 
-    `variable`: of the FMU; its definition of a unit of this name takes precedence. Raises `HostError`: the unit is
-    unknown, or the FMU declares another.
+    `variable`: variable of the FMU; its definition of a unit of this name takes precedence. Raises `HostError` if the
+    unit is unknown, or the FMU declares another.
     """
     declared_unit = variable.definition if variable is not None and variable.unit == unit else None
     file_unit = declared_unit or (known_unit(unit) if isinstance(unit, str) else None)
@@ -59,22 +59,23 @@ def check_unit(alias: Alias, variable: Variable, unit: str | None, by_constant: 
 
     Raises `HostError` with the unit, the factor and the expected factor.
     """
-    ours, fmu_unit = unit_of(alias.ours), unit_definition(variable)
-    if ours is None or fmu_unit is None or by_constant:
+    unit_text, fmu_unit = unit_of(alias.name), unit_definition(variable)
+    if unit_text is None or fmu_unit is None or by_constant:
         return
-    our_unit = known_unit(ours)
-    if our_unit is not None and not same_quantity(our_unit, fmu_unit):
+    ali3_unit = known_unit(unit_text)
+    if ali3_unit is not None and not same_quantity(ali3_unit, fmu_unit):
         raise HostError(
-            f"{where} is in {ours}, but the FMU declares '{variable.name}' in {declared(variable)}, another quantity."
+            f"{where} is in {unit_text}, but the FMU declares '{variable.name}' in {declared(variable)}, another "
+            "quantity."
         )
-    if unit is not None or our_unit is None:
+    if unit is not None or ali3_unit is None:
         return
     expected = [1.0 / fmu_unit.factor]
-    if our_unit.exponents.get("rad") and not fmu_unit.exponents.get("rad") and "s" in fmu_unit.exponents:
+    if ali3_unit.exponents.get("rad") and not fmu_unit.exponents.get("rad") and "s" in fmu_unit.exponents:
         expected.append(1.0 / (2.0 * math.pi * fmu_unit.factor))  # revolutions
     if not any(math.isclose(abs(alias.factor), e, rel_tol=_TOLERANCE) for e in expected):
         raise HostError(
-            f"{where} is in {ours} and '{variable.name}' in the FMU in {declared(variable)}: its factor must be "
+            f"{where} is in {unit_text} and '{variable.name}' in the FMU in {declared(variable)}: its factor must be "
             f"{expected[0]:.6g} (or negative), it is {alias.factor:.6g}."
         )
 

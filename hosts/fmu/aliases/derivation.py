@@ -15,13 +15,13 @@ _ROWS = 3
 class Derivation:
     """Computes derived variables.
 
-    `names`: of the available variables, ours where they have an alias. The attribute `names` has the m variables that
-    can be derived from them.
+    `names`: names of the available variables, ALi3 names if they have an alias. The attribute `names` has the m
+    variables that can be derived from them.
     """
 
     def __init__(self, derived: Sequence[Derived], names: Sequence[str]) -> None:
-        self._derived = sort_derived([d for d in derived if d.ours not in names], names)[0]
-        self.names = tuple(d.ours for d in self._derived)
+        self._derived = sort_derived([d for d in derived if d.name not in names], names)[0]
+        self.names = tuple(d.name for d in self._derived)
         self._width = len(names)
         column = {name: k for k, name in enumerate((*names, *self.names))}
         self._arguments = [[column[a] if isinstance(a, str) else a for a in d.arguments] for d in self._derived]

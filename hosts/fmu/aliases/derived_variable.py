@@ -1,4 +1,4 @@
-"""Derived variables: ours that the FMU lacks, computed from those that it has."""
+"""Derived variables: variables that the FMU lacks, computed from those that it has."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ if TYPE_CHECKING:
 class Derived:
     """A derived variable: its name and formula."""
 
-    ours: str
+    name: str
+    """ALi3 name."""
     formula: str
     """Name in `FORMULAS`."""
     arguments: tuple[str | float, ...]
-    """Our names of variables, names in the FMU of those without one, or numbers."""
+    """ALi3 names of variables, names in the FMU of those without one, or numbers."""
 
     @property
     def function(self) -> Formula:
@@ -46,7 +47,7 @@ def sort_derived(derived: Sequence[Derived], known: Collection[str]) -> tuple[li
     while True:
         ready = [d for d in remaining if available.issuperset(d.names)]
         if not ready:
-            return ordered, {d.ours: next(n for n in d.names if n not in available) for d in remaining}
+            return ordered, {d.name: next(n for n in d.names if n not in available) for d in remaining}
         ordered += ready
-        available.update(d.ours for d in ready)
+        available.update(d.name for d in ready)
         remaining = [d for d in remaining if d not in ready]

@@ -20,7 +20,7 @@ _RECORDED = ("input", "output")
 def find_aliases(name: str | Path, variables: Variables) -> Aliases:
     """The aliases of a file of the package, by its name, or of another file.
 
-    `name`: such as ``chrono``, or a path; a file of this name takes precedence. Raises `HostError`: see `read_aliases`.
+    `name`: such as ``chrono``, or a path; a file of this name takes precedence. Raises `HostError` as `read_aliases`.
     """
     try:
         path = alias_file(name)
@@ -35,9 +35,9 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
     Parameters
     ----------
     file : Path
-        TOML: ``"our name" = "name in the FMU"`` or ``"our name" = { name = "...", factor = 1.0, offset = 0.0 }``, where
-        the value in the FMU is factor times ours plus offset; with ``unit``, that of the FMU, this value is in SI
-        units. ``"our name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/fmu.md``.
+        TOML: ``"ALi3 name" = "name in the FMU"`` or ``"ALi3 name" = { name = "...", factor = 1.0, offset = 0.0 }``:
+        value in the FMU = factor * ALi3 value + offset; with ``unit``, the unit of the FMU, this value is in SI units.
+        ``"ALi3 name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/fmu.md``.
     variables : Variables or collection of str
         Variables of the FMU; with names alone, units are not checked.
 
@@ -69,14 +69,14 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
             if fmu_variables is not None and _is_hidden(fmu_variables[entry.value["name"]]):
                 missing[entry.ours] = (
                     f"{entry.file} takes '{entry.ours}' from '{entry.value['name']}', which is a local variable of the "
-                    "FMU and no output"
+                    "FMU and not an output"
                 )
-    aliases = [a for a in aliases if not _is_superfluous(a, content.entries[a.ours], aliases, names)]
-    ours_by_theirs: dict[str, str] = {}
+    aliases = [a for a in aliases if not _is_superfluous(a, content.entries[a.name], aliases, names)]
+    names_by_fmu_name: dict[str, str] = {}
     for alias in aliases:
-        first_name = ours_by_theirs.setdefault(alias.theirs, alias.ours)
-        if first_name != alias.ours:
-            raise HostError(f"{file}: '{alias.theirs}' is named {first_name} and {alias.ours}; give it one name.")
+        first_name = names_by_fmu_name.setdefault(alias.fmu_name, alias.name)
+        if first_name != alias.name:
+            raise HostError(f"{file}: '{alias.fmu_name}' is named {first_name} and {alias.name}; give it one name.")
     derived = _derived_variables(content, constants, aliases, names, fmu_variables, missing)
     _check_needed(needed | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
     if content.entries and not aliases and not derived:
@@ -119,12 +119,12 @@ def _check_needed(needed: Collection[str], content: Content) -> None:
 
 def _reason_missing(entry: Entry, names: Collection[str]) -> str:
     """Why an optional variable is left out; empty if the FMU has it; `HostError` if a required one is missing."""
-    theirs = entry.value["name"]
-    if theirs in names:
+    fmu_name = entry.value["name"]
+    if fmu_name in names:
         return ""
     if entry.partial:
-        return f"{entry.file} takes '{entry.ours}' from '{theirs}', which the FMU does not have"
-    raise HostError(f"{entry.where}: the FMU has no variable '{theirs}'{did_you_mean(theirs, names)}")
+        return f"{entry.file} takes '{entry.ours}' from '{fmu_name}', which the FMU does not have"
+    raise HostError(f"{entry.where}: the FMU has no variable '{fmu_name}'{did_you_mean(fmu_name, names)}")
 
 
 def _alias(entry: Entry, constants: dict[str, float], variables: Variables | None) -> Alias:
@@ -153,12 +153,12 @@ def _alias(entry: Entry, constants: dict[str, float], variables: Variables | Non
 
 
 def _is_superfluous(alias: Alias, entry: Entry, aliases: list[Alias], names: Collection[str]) -> bool:
-    """Whether the FMU has a variable of our name, so that a file for many FMUs needs no alias."""
-    if alias.ours == alias.theirs or alias.ours not in names or alias.ours in {a.theirs for a in aliases}:
+    """Whether the FMU has a variable of this ALi3 name, so that a file for many FMUs needs no alias."""
+    if alias.name == alias.fmu_name or alias.name not in names or alias.name in {a.fmu_name for a in aliases}:
         return False
     if entry.partial:
         return True
-    raise HostError(f"{entry.file}: the FMU has a variable '{alias.ours}' itself; it needs no alias.")
+    raise HostError(f"{entry.file}: the FMU has a variable '{alias.name}' itself; it needs no alias.")
 
 
 def _derived_variables(
@@ -170,32 +170,32 @@ def _derived_variables(
     missing: dict[str, str],
 ) -> tuple[Derived, ...]:
     """The derived variables that can be computed, each after those that it needs."""
-    ours_of = {a.theirs: a.ours for a in aliases}
-    available = {ours_of.get(n, n) for n in names if variables is None or variables[n].causality in _RECORDED}
+    alias_names = {a.fmu_name: a.name for a in aliases}
+    available = {alias_names.get(n, n) for n in names if variables is None or variables[n].causality in _RECORDED}
     requested = []
     for entry in content.entries.values():
         if "from" not in entry.value or entry.ours in available:
             continue
         parsed = parse_derived(entry.ours, entry.value["from"], constants, entry.where)
-        arguments = tuple(ours_of.get(a, a) if isinstance(a, str) else a for a in parsed.arguments)
+        arguments = tuple(alias_names.get(a, a) if isinstance(a, str) else a for a in parsed.arguments)
         requested.append(replace(parsed, arguments=arguments))
     computable, lacking = sort_derived(requested, available | set(content.needs))
-    for ours, name in lacking.items():
-        entry = content.entries[ours]
+    for derived_name, name in lacking.items():
+        entry = content.entries[derived_name]
         if not entry.partial:
             raise HostError(
                 f"{entry.where}: '{name}' is neither an input or output of the FMU nor another name or constant of the "
                 f"file{did_you_mean(name, available)}"
             )
         why = missing.get(name, "which the FMU does not have")
-        missing[ours] = f"{entry.file} computes '{ours}' from '{name}', {why}"
+        missing[derived_name] = f"{entry.file} computes '{derived_name}' from '{name}', {why}"
     for d in computable:
-        where = content.entries[d.ours].where
+        where = content.entries[d.name].where
         for name in d.names:
             if (
                 variables is not None
                 and name in variables.names
-                and name not in ours_of.values()
+                and name not in alias_names.values()
                 and not is_si(variables[name])
             ):
                 raise HostError(

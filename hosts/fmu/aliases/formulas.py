@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array: TypeAlias = NDArray[np.float64]
-_LEAST_SPEED = 0.1
+_MIN_SPEED = 0.1
 """Speed below which the sideslip is zero, m/s, as in our FMUs."""
 
 
@@ -122,7 +122,7 @@ def _rate(time: Array, x: Array) -> Array:
 
 
 def _sideslip(time: Array, vx: Array, vy: Array) -> Array:
-    return np.where(np.hypot(vx, vy) < _LEAST_SPEED, 0.0, np.arctan2(vy, vx))
+    return np.where(np.hypot(vx, vy) < _MIN_SPEED, 0.0, np.arctan2(vy, vx))
 
 
 def _length(time: Array, *components: Array) -> Array:

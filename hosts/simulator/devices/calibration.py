@@ -10,12 +10,12 @@ REST_TIME = 1.0
 """Time without movement, s, after which the device counts as released."""
 STILL = 0.05
 """Largest movement of an axis at rest."""
-LEAST_MOVEMENT = 0.3
+MIN_MOVEMENT = 0.3
 """Least movement of an axis that is calibrated."""
 FIRST_MOVEMENT = 0.2
 """Movement that determines the first direction of the steering."""
 MARGIN = 0.02
-"""Share of the range by which the ends of the mapping lie before those of the axis, so that they are reached."""
+"""Fraction of the range by which the ends of the mapping lie before the ends of the axis, so that they are reached."""
 _NEAR_END = 0.25
 LET_GO = "Let go of everything, the steering wheel straight ahead."
 MOVE = (
@@ -25,7 +25,7 @@ MOVE = (
 
 
 class Calibration:
-    """A calibration in two stages: the device at rest, then moved. `mapping`: of axes to inputs."""
+    """A calibration in two stages: the device at rest, then moved. `mapping`: mapping of axes to inputs."""
 
     def __init__(self, mapping: DeviceMapping) -> None:
         self._mapping = mapping
@@ -50,7 +50,7 @@ class Calibration:
         return [[round(low, 4), round(high, 4)] for low, high in self._span] if self._first_movement else []
 
     def feed(self, time: float, reading: Reading) -> None:
-        """Take the next values. `time`: of a monotonic clock, s."""
+        """Take the next values. `time`: time of a monotonic clock, s."""
         axes = reading.axes
         if not self._first_movement:
             is_still = self._still_since is not None and all(
@@ -95,7 +95,7 @@ class Calibration:
             if source.kind != "axis" or name not in (*CENTRED, *PEDALS):
                 continue
             k = source.number
-            if not self._first_movement or k >= len(self._span) or self._span[k][1] - self._span[k][0] < LEAST_MOVEMENT:
+            if not self._first_movement or k >= len(self._span) or self._span[k][1] - self._span[k][0] < MIN_MOVEMENT:
                 unmoved.append(name)
                 continue
             inputs[name] = self._steering(old, k) if name in CENTRED else self._pedal(old, k)
@@ -134,15 +134,15 @@ class Assignment:
 
     name: str
     base: Reading
-    """Reading at the begin."""
+    """Reading at the start."""
     until: float
     """Time at which the assignment ends without a result, s."""
 
-    LEAST_MOVEMENT = 0.5
+    MIN_MOVEMENT = 0.5
     """Least movement of an axis that is assigned."""
 
     def feed(self, reading: Reading) -> InputMapping | None:
-        """Take the next values; the mapping once an axis or button was moved far enough, else None.
+        """Take the next values; the mapping once an axis or button was moved far enough, otherwise None.
 
         An axis for the steering must be moved to the left.
         """
@@ -158,9 +158,9 @@ class Assignment:
             return None
         k = max(range(len(base)), key=lambda i: abs(reading.axes[i] - base[i]))
         movement = reading.axes[k] - base[k]
-        if abs(movement) < self.LEAST_MOVEMENT:
+        if abs(movement) < self.MIN_MOVEMENT:
             return None
         if self.name in CENTRED:
             return InputMapping(f"axis {k}", inverted=movement < 0.0)
-        low, high = (-1.0, 1.0) if abs(base[k]) > self.LEAST_MOVEMENT else (0.0, 1.0) if movement > 0.0 else (-1.0, 0.0)
+        low, high = (-1.0, 1.0) if abs(base[k]) > self.MIN_MOVEMENT else (0.0, 1.0) if movement > 0.0 else (-1.0, 0.0)
         return InputMapping(f"axis {k}", movement < 0.0, low, high, PEDAL_DEAD_ZONE)

@@ -28,8 +28,8 @@ _HAT_BITS = {1: "up", 2: "right", 4: "down", 8: "left"}
 def default_mapping(kind: str, reading: Reading, bindings: str, inputs: Collection[str]) -> DeviceMapping:
     """The default mapping; empty for an unknown kind of device.
 
-    `kind`: see `Joystick`; `reading`: at rest: a pedal that rests at the high end of its axis is inverted; `bindings`:
-    the mapping string of SDL for a gamepad; `inputs`: those that devices can drive.
+    `kind`: see `Joystick`; `reading`: values at rest: a pedal that rests at the high end of its axis is inverted;
+    `bindings`: the mapping string of SDL for a gamepad; `inputs`: those that devices can drive.
     """
     if kind == "gamepad":
         mappings, settings = _gamepad_mapping(bindings), DeviceSettings()

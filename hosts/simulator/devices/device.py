@@ -22,7 +22,8 @@ BUTTON_RATES = {"throttle": 2.5, "brake": 4.0, "hand_brake": 8.0}
 class Device:
     """A connected device.
 
-    `id`, `label`: its unique names for programs and for messages; `inputs`: of the car, by their names in mappings.
+    `id`, `label`: its unique names for programs and for messages; `inputs`: inputs of the car, by their names in
+    mappings.
     """
 
     def __init__(
@@ -52,7 +53,7 @@ class Device:
     def remap(self, mapping: DeviceMapping) -> list[str]:
         """Replace the mapping. Inputs with a changed mapping are not requested until they are moved.
 
-        Returns those of them that the device requested before.
+        Returns the inputs among them that the device requested before.
         """
         changed = {
             n for n in {*mapping.inputs, *self.mapping.inputs} if mapping.inputs.get(n) != self.mapping.inputs.get(n)
@@ -105,7 +106,7 @@ class Device:
         value = mapping.value(name, self.reading)
         if value is None or name != "steering":
             return value
-        return self._steering.share(value, self.mapping.settings.rotation)
+        return self._steering.fraction(value, self.mapping.settings.rotation)
 
     def _car_request(
         self, name: str, mapping: InputMapping, request: tuple[float, float]
@@ -133,7 +134,7 @@ class Device:
         return {}
 
     def start_force(self, torque: Callable[[], float | None], fail: Callable[[str], None]) -> None:
-        """Start force feedback. `torque`: of the steering wheel, N m; `fail`: called with a message if it fails."""
+        """Start force feedback. `torque`: steering-wheel torque, N m; `fail`: called with a message if it fails."""
         handle, sdl = self.joystick.handle, self.joystick.sdl
         self.force = ForceFeedback(sdl, handle, torque, lambda: self.mapping.settings, fail)
 

@@ -71,7 +71,7 @@ class Devices:
         """Replace the mapping of an input, and store it in the file of the device.
 
         `device`: its `id`; `mapping`: fields of `InputMapping`; None: the device does not drive this input. Raises
-        `HostError`: the device is not connected, or the mapping is wrong; nothing changes.
+        `HostError` if the device is not connected, or the mapping is wrong; nothing changes.
         """
         with self._reader.lock:
             connected = self._device(device)
@@ -94,7 +94,7 @@ class Devices:
         """Begin a calibration, or end it.
 
         `device`: its `id`; `on`: whether to begin; the device drives nothing until the end; `keep`: whether the result
-        is used at the end. Raises `HostError`: the device is not connected.
+        is used at the end. Raises `HostError` if the device is not connected.
         """
         with self._reader.lock:
             connected = self._device(device)
@@ -127,7 +127,7 @@ class Devices:
             self._reader.remap(connected, DeviceMapping(connected.mapping.inputs, device_settings))
 
     def test_force(self, device: str) -> None:
-        """Push the wheel to the left for a moment. Raises `HostError`: the device is not connected or has no motor."""
+        """Push the wheel to the left briefly. Raises `HostError` if the device is not connected or has no motor."""
         with self._reader.lock:
             connected = self._device(device)
             if connected.force is None or not connected.force.works:
@@ -138,7 +138,7 @@ class Devices:
         """Execute a message of a page.
 
         `message`: `type` is ``assign``, ``assign by moving``, ``calibrate``, ``reset mapping``, ``device settings`` or
-        ``test force``; `device` an `id`; see the method of that name for other fields. Raises `HostError`: it
+        ``test force``; `device` an `id`; see the method of that name for other fields. Raises `HostError` if it
         cannot be executed; nothing changes.
         """
         kind, device = message.get("type"), message.get("device")

@@ -1,4 +1,4 @@
-"""The thread that moves the motor of one device."""
+"""Force feedback: the thread that moves the motor of one device."""
 
 import threading
 import time
@@ -12,8 +12,9 @@ from hosts.simulator.devices.motor import Motor
 
 PERIOD = 0.008
 """Period of updates, s; motors on USB take about 125 values per second."""
-PULSE = 0.3  # share of the largest force, for a test
-PULSE_TIME = 0.4  # s
+PULSE = 0.3
+"""Force of a test, relative to the largest force."""
+_PULSE_TIME = 0.4  # s
 
 
 class ForceFeedback:
@@ -21,8 +22,10 @@ class ForceFeedback:
 
     Parameters
     ----------
+    sdl : module
+        The initialised library.
     joystick : pointer
-        Open until `stop` has returned True.
+        Pointer to SDL_Joystick, open until `stop` has returned True.
     torque : callable
         Torque of the driver's hands on the car's steering wheel, N m, positive to the left; None while the car does not
         run.
@@ -52,16 +55,17 @@ class ForceFeedback:
         self._thread.start()
 
     def pulse(self) -> None:
-        """Push to the left for a moment, independently of the car."""
-        self._pulse_until = time.monotonic() + PULSE_TIME
+        """Push to the left briefly, independently of the car."""
+        self._pulse_until = time.monotonic() + _PULSE_TIME
 
     def stop(self, timeout: float) -> bool:
-        """Stop the motor; whether the thread has ended within `timeout` s."""
+        """Stop the motor. Returns whether the thread has ended within `timeout` s."""
         self._end.set()
         self._thread.join(timeout)
         return not self._thread.is_alive()
 
     def _run(self) -> None:
+        """Run in the thread, which opens the motor and closes it."""
         try:
             motor = Motor(self._sdl, self._joystick)
         except HostError as error:
@@ -82,7 +86,9 @@ class ForceFeedback:
             self._fail(reason)
 
     def _move(self, motor: Motor) -> None:
-        law, last = ForceLaw(), time.monotonic()
+        """Set the forces every `PERIOD` until the end."""
+        law = ForceLaw()
+        last = time.monotonic()
         while not self._end.is_set():
             now = time.monotonic()
             settings, torque = self._settings(), self._torque()

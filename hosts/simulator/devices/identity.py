@@ -2,15 +2,15 @@
 
 from collections.abc import Callable
 
-MOST_OF_A_MODEL = 8
+MAX_DEVICES_OF_MODEL = 8
 """Largest number of devices of one model."""
 
 
 class Identities:
     """The `id` of each connected device: its GUID, followed by ``-2`` for a second device of the same model.
 
-    A device that is reconnected gets its former `id`. Devices of one model are distinguished by serial number, else by
-    port, else by their order.
+    A device that is reconnected gets its former `id`. Devices of one model are distinguished by serial number, by
+    port, or by their order, the first that is known.
 
     `stored_serial`: serial number in the file of an `id`, or empty.
     """
@@ -22,7 +22,7 @@ class Identities:
 
     def take(self, guid: str, serial: str, path: str) -> str:
         """The `id` of a newly connected device."""
-        names = (_numbered_id(guid, k) for k in range(1, len(self._connected) + MOST_OF_A_MODEL + 1))
+        names = (_numbered_id(guid, k) for k in range(1, len(self._connected) + MAX_DEVICES_OF_MODEL + 1))
         free = [name for name in names if name not in self._connected]
         result = self._former_id(free, serial, path) or self._unclaimed_id(free, serial)
         self._connected.add(result)

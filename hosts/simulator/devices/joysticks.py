@@ -1,4 +1,4 @@
-"""Connected devices, read by the joystick interface of SDL."""
+"""Connected joysticks, wheels and gamepads, read through the joystick interface of SDL."""
 
 import ctypes
 from dataclasses import dataclass
@@ -7,9 +7,10 @@ from typing import Any
 from hosts.simulator.devices.reading import Reading
 from hosts.simulator.devices.sdl import text
 
-_LOWEST = -32768
-_HIGHEST = 32767
-_ALL_EVENTS = 0x0, 0xFFFF
+_MIN_AXIS = -32768
+_MAX_AXIS = 32767
+_ALL_EVENTS = 0x0, 0xFFFF  # SDL_FIRSTEVENT, SDL_LASTEVENT
+_NAMELESS = "device without a name"
 
 
 @dataclass
@@ -17,49 +18,52 @@ class Joystick:
     """An opened device."""
 
     sdl: Any
+    """Library of SDL."""
     handle: Any
-    """Pointer of SDL."""
+    """Pointer to SDL_Joystick."""
     instance: int
     """Number that SDL assigns at each connection."""
     guid: str
     """The same for all devices of a model."""
     serial: str
+    """Serial number; empty if not known."""
     path: str
-    """`serial`, `path`: empty if not known."""
+    """Path of the port; empty if not known."""
     name: str
     kind: str
     """``wheel``, ``gamepad`` or ``other``."""
     bindings: str
     """Mapping string of SDL for a gamepad."""
     usb: str
-    """Numbers of vendor and product, such as ``046d:c24f``."""
+    """USB vendor and product id, hexadecimal, such as ``046d:c24f``."""
 
     def __post_init__(self) -> None:
-        count = (self.sdl.SDL_JoystickNumAxes, self.sdl.SDL_JoystickNumButtons, self.sdl.SDL_JoystickNumHats)
-        self._axes, self._buttons, self._hats = (range(max(0, number(self.handle))) for number in count)
-        self._known = [False] * len(self._axes)
-        self._initial_value = ctypes.c_int16()
+        counters = (self.sdl.SDL_JoystickNumAxes, self.sdl.SDL_JoystickNumButtons, self.sdl.SDL_JoystickNumHats)
+        self._axes, self._buttons, self._hats = (range(max(0, count(self.handle))) for count in counters)
+        self._has_axis_value = [False] * len(self._axes)
+        self._initial_value = ctypes.c_int16()  # required by SDL, not used
 
     def read(self) -> Reading:
-        """The values at the last `Joysticks.update`."""
+        """Read the values at the last `Joysticks.update`."""
         sdl, handle = self.sdl, self.handle
-        for k in self._axes:
-            if not self._known[k]:
+        for k in self._axes:  # an axis that has not moved since its connection may not have a value yet
+            if not self._has_axis_value[k]:
                 has_initial_state = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._initial_value))
-                self._known[k] = bool(has_initial_state)
+                self._has_axis_value[k] = bool(has_initial_state)
         return Reading(
-            tuple([_share(sdl.SDL_JoystickGetAxis(handle, k)) for k in self._axes]),
-            tuple(self._known),
+            tuple([_normalised(sdl.SDL_JoystickGetAxis(handle, k)) for k in self._axes]),
+            tuple(self._has_axis_value),
             tuple([bool(sdl.SDL_JoystickGetButton(handle, k)) for k in self._buttons]),
             tuple([int(sdl.SDL_JoystickGetHat(handle, k)) for k in self._hats]),
         )
 
     def close(self) -> None:
+        """Close the device."""
         self.sdl.SDL_JoystickClose(self.handle)
 
 
 class Joysticks:
-    """All devices, for use by one thread. `sdl`: initialised."""
+    """All connected devices, for use by one thread. `sdl`: the initialised library."""
 
     def __init__(self, sdl: Any) -> None:
         self._sdl = sdl
@@ -89,7 +93,7 @@ class Joysticks:
             joystick = self._open_device(index)
             if joystick is None:
                 self._refused.add(instance)
-                refused.append(text(sdl.SDL_JoystickNameForIndex(index)) or "A device without a name")
+                refused.append(text(sdl.SDL_JoystickNameForIndex(index)) or f"A {_NAMELESS}")
             else:
                 self._devices_by_instance[instance] = joystick
                 added.append(joystick)
@@ -111,19 +115,19 @@ class Joysticks:
         gamepad = bool(sdl.SDL_IsGameController(index))
         wheel = sdl.SDL_JoystickGetType(handle) == sdl.SDL_JOYSTICK_TYPE_WHEEL
         return Joystick(
-            sdl,
-            handle,
-            sdl.SDL_JoystickInstanceID(handle),
-            text(guid.value),
-            text(sdl.SDL_JoystickGetSerial(handle)),
-            text(sdl.SDL_JoystickPath(handle)),
-            text(sdl.SDL_JoystickName(handle)) or "device without a name",
-            "wheel" if wheel else "gamepad" if gamepad else "other",
-            text(sdl.SDL_GameControllerMappingForDeviceIndex(index)) if gamepad else "",
-            f"{sdl.SDL_JoystickGetVendor(handle):04x}:{sdl.SDL_JoystickGetProduct(handle):04x}",
+            sdl=sdl,
+            handle=handle,
+            instance=sdl.SDL_JoystickInstanceID(handle),
+            guid=text(guid.value),
+            serial=text(sdl.SDL_JoystickGetSerial(handle)),
+            path=text(sdl.SDL_JoystickPath(handle)),
+            name=text(sdl.SDL_JoystickName(handle)) or _NAMELESS,
+            kind="wheel" if wheel else "gamepad" if gamepad else "other",
+            bindings=text(sdl.SDL_GameControllerMappingForDeviceIndex(index)) if gamepad else "",
+            usb=f"{sdl.SDL_JoystickGetVendor(handle):04x}:{sdl.SDL_JoystickGetProduct(handle):04x}",
         )
 
 
-def _share(value: int) -> float:
-    """The share from -1 to 1 of an integer of SDL; both ends are exact."""
-    return value / _HIGHEST if value >= 0 else -value / _LOWEST
+def _normalised(value: int) -> float:
+    """Axis value of SDL, scaled to -1 to 1, exactly at both ends."""
+    return value / _MAX_AXIS if value >= 0 else -value / _MIN_AXIS

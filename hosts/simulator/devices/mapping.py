@@ -17,9 +17,9 @@ ANGLE = "steering_wheel_angle_demand"
 PEDALS = ("throttle", "brake", "hand_brake")
 SELECTOR = {"selector drive": 1.0, "selector neutral": 0.0, "selector reverse": -1.0}
 """Values of the input `selector` by name of the mapping of a button."""
-NARROWEST = 0.05
-"""Least distance between the ends of an axis."""
-LARGEST_DEAD_ZONE = 0.9
+MIN_AXIS_RANGE = 0.05
+"""Smallest distance between the ends of an axis."""
+MAX_DEAD_ZONE = 0.9
 
 
 def drivable(inputs: Collection[str]) -> list[str]:
@@ -37,18 +37,19 @@ class InputMapping:
     inverted: bool = False
     """Whether the input increases as the axis decreases."""
     low: float = -1.0
+    """Lower end of the axis, from -1 to 1; half an axis has 0 and 1, or -1 and 0."""
     high: float = 1.0
-    """`low`, `high`: ends of the axis, from -1 to 1; half an axis has 0 and 1, or -1 and 0."""
+    """Upper end of the axis, likewise."""
     dead_zone: float = 0.0
-    """Share of the range without effect, on both sides of the centre or at the rest of a pedal."""
+    """Fraction of the range without effect, on both sides of the centre or at the rest of a pedal."""
     centre: float | None = None
     """Rest of an axis of the steering; None: halfway between the ends."""
 
     def value(self, name: str, reading: Reading) -> float | None:
-        """The value of an input for a reading. `name`: of the input.
+        """The value of an input for a reading. `name`: name of the input.
 
-        Result: from -1 to 1 for `CENTRED` inputs, else from 0 to 1, exactly at the ends of the axis; None if the device
-        reports no value.
+        Result: from -1 to 1 for `CENTRED` inputs, otherwise from 0 to 1, exactly at the ends of the axis; None if the
+        device reports no value.
         """
         source = Source.read(self.source)
         position = source.position(reading)
@@ -61,14 +62,14 @@ class InputMapping:
     def _centred(self, position: float) -> float:
         centre = 0.5 * (self.low + self.high) if self.centre is None else self.centre
         travel = self.high - centre if position >= centre else centre - self.low
-        share = max(-1.0, min(1.0, (position - centre) / travel))
-        magnitude = max(0.0, abs(share) - self.dead_zone) / (1.0 - self.dead_zone)
-        return math.copysign(magnitude, -share if self.inverted else share) if magnitude else 0.0
+        position = max(-1.0, min(1.0, (position - centre) / travel))
+        magnitude = max(0.0, abs(position) - self.dead_zone) / (1.0 - self.dead_zone)
+        return math.copysign(magnitude, -position if self.inverted else position) if magnitude else 0.0
 
     def _pedal(self, position: float) -> float:
         travel = self.high - position if self.inverted else position - self.low
-        share = max(0.0, min(1.0, travel / (self.high - self.low)))
-        return max(0.0, share - self.dead_zone) / (1.0 - self.dead_zone)
+        position = max(0.0, min(1.0, travel / (self.high - self.low)))
+        return max(0.0, position - self.dead_zone) / (1.0 - self.dead_zone)
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,7 @@ class DeviceMapping:
 def read_input(name: str, table: object) -> InputMapping:
     """The mapping of an input from a table of its fields; missing ones have their defaults.
 
-    Raises `HostError`: a field is unknown or has an invalid value.
+    Raises `HostError` if a field is unknown or has an invalid value.
     """
     label = f"The mapping of '{name}'"
     if name not in (*CENTRED, *PEDALS, *SELECTOR):
@@ -135,14 +136,14 @@ def read_input(name: str, table: object) -> InputMapping:
         if fields.get(number) is not None:
             fields[number] = _checked_number(label, number, fields[number], -1.0, 1.0)
     if "dead_zone" in fields:
-        fields["dead_zone"] = _checked_number(label, "dead_zone", fields["dead_zone"], 0.0, LARGEST_DEAD_ZONE)
+        fields["dead_zone"] = _checked_number(label, "dead_zone", fields["dead_zone"], 0.0, MAX_DEAD_ZONE)
     _check_bool(label, fields, "inverted")
     mapping = InputMapping(**fields)
-    if mapping.high - mapping.low < NARROWEST:
+    if mapping.high - mapping.low < MIN_AXIS_RANGE:
         raise HostError(
-            f"{label} has low = {mapping.low:g} and high = {mapping.high:g}; high must be larger by {NARROWEST}."
+            f"{label} has low = {mapping.low:g} and high = {mapping.high:g}; high must be larger by {MIN_AXIS_RANGE}."
         )
-    margin = 0.2 * NARROWEST
+    margin = 0.2 * MIN_AXIS_RANGE
     if mapping.centre is not None and not mapping.low + margin <= mapping.centre <= mapping.high - margin:
         raise HostError(
             f"{label} has centre = {mapping.centre:g}, which is not between {mapping.low:g} and {mapping.high:g}."
@@ -153,7 +154,7 @@ def read_input(name: str, table: object) -> InputMapping:
 def read_settings(table: object, base: DeviceSettings | None = None) -> DeviceSettings:
     """Settings from a table; missing ones are those of `base`.
 
-    Raises `HostError`: a field is unknown or has an invalid value.
+    Raises `HostError` if a field is unknown or has an invalid value.
     """
     subject, base = "The settings of the device", base or DeviceSettings()
     fields = _checked_fields(subject, table, asdict(base))

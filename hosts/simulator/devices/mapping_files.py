@@ -17,15 +17,16 @@ from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_sett
 
 FORMAT = "ALi3 device"
 VERSION = 1
-_HEAD = """\
+_HEADER = """\
 # How this device drives the car; written by the simulator's page of devices, and may be edited.
 # source: "axis 0", "button 3" or "hat 0 up". low, high: ends of the axis, from -1 to 1. inverted: the input grows as
-# the axis falls. dead_zone: share of the way that does nothing. centre: where the steering rests.
+# the axis falls. dead_zone: fraction of the travel without effect. centre: rest position of the steering.
 """
+_KEYS = ("format", "version", "name", "serial", "settings", "inputs")
 
 
 def configuration_folder() -> Path:
-    """Folder of the mappings: in ``ALI3_CONFIG``, else in the configuration folder of the user."""
+    """Folder of the mapping files: ``devices`` in ``ALI3_CONFIG``, otherwise in the user's configuration folder."""
     folder = os.environ.get("ALI3_CONFIG")
     if folder:
         return Path(folder, "devices")
@@ -33,67 +34,74 @@ def configuration_folder() -> Path:
 
 
 class MappingFiles:
-    """The files in a folder, one for each device. `folder`: created when a file is written."""
+    """Mapping files in a folder, one per device; the folder is made when a file is written."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    def file(self, device: str) -> Path:
-        """The file of a device by its `id`."""
+    def path(self, device: str) -> Path:
+        """Path of the file of a device; `device`: its `id`."""
         return self.folder / f"{device}.toml"
 
     def serial(self, device: str) -> str:
         """Serial number in the file of a device, or empty."""
         try:
-            return str(read_toml(self.file(device)).get("serial", ""))
+            return str(read_toml(self.path(device)).get("serial", ""))
         except FileError:
             return ""
 
     def read(self, device: str) -> DeviceMapping | None:
         """The mapping of a device; None if it has no file.
 
-        Raises `HostError`: the file cannot be read or is damaged.
+        Raises `HostError` if the file cannot be read or is damaged.
         """
-        file = self.file(device)
-        if not file.exists():
+        path = self.path(device)
+        if not path.exists():
             return None
-        table = read_toml(file, HostError)
+        table = read_toml(path, HostError)
         try:
             return _read_mapping(table)
         except HostError as error:
-            raise HostError(f"{file} is damaged: {error}") from None
+            raise HostError(f"{path} is damaged: {error}") from None
 
     def write(self, device: str, mapping: DeviceMapping, name: str, serial: str = "") -> None:
-        """Write the file of a device. A damaged one is kept, with `.damaged` added to its name.
+        """Write the file of a device. A damaged file is first copied, with `.damaged` added to its name.
 
-        Raises `FileError`: it cannot be written.
+        Raises `FileError` if it cannot be written.
         """
-        file = self.file(device)
-        inputs = {k: {f: v for f, v in asdict(m).items() if v is not None} for k, m in mapping.inputs.items()}
+        path = self.path(device)
+        inputs = {
+            input: {key: value for key, value in asdict(input_mapping).items() if value is not None}
+            for input, input_mapping in mapping.inputs.items()
+        }
         table: dict[str, Any] = {"format": FORMAT, "version": VERSION, "name": name, "serial": serial}
         table |= {"settings": asdict(mapping.settings), "inputs": inputs}
+        self._keep_damaged(device)
+        with atomic_file(path) as temporary:
+            temporary.write_text(_HEADER + tomli_w.dumps(table), encoding="utf-8")
+
+    def _keep_damaged(self, device: str) -> None:
+        path = self.path(device)
         try:
             self.read(device)
         except HostError:
-            if file.is_file():
-                with atomic_file(file.with_name(file.name + ".damaged")) as damaged:
-                    damaged.write_bytes(read_bytes(file, LARGEST_TEXT))
-        with atomic_file(file) as temporary:
-            temporary.write_text(_HEAD + tomli_w.dumps(table), encoding="utf-8")
+            if path.is_file():
+                with atomic_file(path.with_name(path.name + ".damaged")) as copy:
+                    copy.write_bytes(read_bytes(path, LARGEST_TEXT))
 
     def remove(self, device: str) -> None:
-        """Remove the file of a device, if there is one."""
+        """Remove the file of a device, if there is one. Raises `HostError` if it cannot be removed."""
         try:
-            self.file(device).unlink(missing_ok=True)
+            self.path(device).unlink(missing_ok=True)
         except OSError as error:
-            raise HostError(f"{self.file(device)} cannot be removed: {reason(error)}.") from None
+            raise HostError(f"{self.path(device)} cannot be removed: {reason(error)}.") from None
 
 
 def _read_mapping(table: dict[str, Any]) -> DeviceMapping:
     if table.get("format") != FORMAT or table.get("version") != VERSION:
-        raise HostError(f'format = "{FORMAT}" and version = {VERSION} are missing.')
+        raise HostError(f'it must have format = "{FORMAT}" and version = {VERSION}.')
     for name in table:
-        if name not in ("format", "version", "name", "serial", "settings", "inputs"):
+        if name not in _KEYS:
             raise HostError(f"'{name}' is unknown.")
     inputs = table.get("inputs", {})
     if not isinstance(inputs, dict):

@@ -6,7 +6,7 @@ from typing import Any
 from hosts.common.errors import HostError
 from hosts.simulator.devices.sdl import last_error
 
-_MOST_COEFFICIENT = 32767
+_MAX_COEFFICIENT = 32767
 _FULL_SATURATION = 0xFFFF
 _STEERING_AXIS_SINCE = (2, 0, 14)
 _CONDITIONS = {"damper": "SDL_HAPTIC_DAMPER", "spring": "SDL_HAPTIC_SPRING"}
@@ -15,8 +15,8 @@ _CONDITIONS = {"damper": "SDL_HAPTIC_DAMPER", "spring": "SDL_HAPTIC_SPRING"}
 class Motor:
     """The motor of a device, for use by one thread.
 
-    `joystick`: of SDL; it must stay open until the motor is closed. Raises `HostError`: the motor has no constant force
-    or cannot be opened.
+    `joystick`: joystick of SDL; it must stay open until the motor is closed. Raises `HostError` if the motor has no
+    constant force or cannot be opened.
     """
 
     def __init__(self, sdl: Any, joystick: Any) -> None:
@@ -40,25 +40,25 @@ class Motor:
             raise
 
     def push(self, level: int) -> None:
-        """Set the constant force. `level`: from -32767 to 32767, positive to the left.
+        """Set the constant force. `level`: number from -32767 to 32767, positive to the left.
 
-        Raises `HostError`: the device refuses it.
+        Raises `HostError` if the device refuses it.
         """
         if self._levels.get("constant") == level:
             return
         self._update_effect("constant", self._constant_effect(level))
         self._levels["constant"] = level
 
-    def condition(self, kind: str, share: float) -> bool:
+    def condition(self, kind: str, level: float) -> bool:
         """Set a damper or a centring spring; False if the device has none.
 
-        `kind`: ``damper`` or ``spring``; `share`: of the largest coefficient, 0 to 1. Raises `HostError`: the device
-        refuses it.
+        `kind`: ``damper`` or ``spring``; `level`: fraction of the largest coefficient, 0 to 1. Raises `HostError` if
+        the device refuses it.
         """
         number = getattr(self._sdl, _CONDITIONS[kind])
         if not self._capabilities & number:
             return False
-        coefficient = round(_MOST_COEFFICIENT * max(0.0, min(1.0, share)))
+        coefficient = round(_MAX_COEFFICIENT * max(0.0, min(1.0, level)))
         if self._levels.get(kind, 0) == coefficient:
             return True
         effect = self._condition_effect(number, coefficient)

@@ -42,8 +42,8 @@ class ArbiterLike(Protocol):
 class Reader:
     """Reads devices in a thread.
 
-    `inputs`: that devices can drive, by their names in mappings; `torque`: see `Devices`. `devices`: the connected
-    ones, by `id`; `lock`: to be held while they are read or changed.
+    `inputs`: inputs that devices can drive, by their names in mappings; `torque`: see `Devices`. `devices`: the
+    connected ones, by `id`; `lock`: lock to be held while they are read or changed.
     """
 
     def __init__(

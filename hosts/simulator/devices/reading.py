@@ -47,7 +47,7 @@ class Source:
 
     @classmethod
     def read(cls, text: object) -> Source:
-        """The source of a text: ``axis 2``, ``button 7``, ``hat 0 up``. Raises `HostError`: the text is not valid."""
+        """The source of a text: ``axis 2``, ``button 7``, ``hat 0 up``. Raises `HostError` if the text is not valid."""
         match = _SOURCE.fullmatch(text) if isinstance(text, str) else None
         if match is None:
             raise HostError(f"{text!r} is not a source; “axis 2”, “button 7” or “hat 0 up” would be.")

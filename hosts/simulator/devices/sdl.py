@@ -14,7 +14,7 @@ _ALTERNATIVE = "the keyboard, and gamepads in the page, still drive"
 
 
 def load() -> Any:
-    """The module `sdl2`, not yet initialised. Raises `HostError`: SDL is not installed or cannot be loaded."""
+    """The module `sdl2`, not initialised. Raises `HostError` if SDL is not installed or cannot be loaded."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # PySDL2 warns of the library that it loads
@@ -37,7 +37,7 @@ def load() -> Any:
 def start(sdl: Any) -> None:
     """Start the search for devices, without video, in the thread that reads them.
 
-    Raises `HostError`: SDL cannot start.
+    Raises `HostError` if SDL cannot start.
     """
     # Game controllers only give the mapping strings of gamepads; values are read from joysticks.
     if sdl.SDL_InitSubSystem(sdl.SDL_INIT_JOYSTICK | sdl.SDL_INIT_GAMECONTROLLER) != 0:

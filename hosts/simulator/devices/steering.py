@@ -12,7 +12,7 @@ _DEFAULT_ROTATION = 900.0
 
 @dataclass(frozen=True)
 class Steering:
-    """The steering of a car by a device: to an angle, or to a share of full steering."""
+    """The steering of a car by a device: to an angle, or to a fraction of full steering."""
 
     angle_max: float | None
     """Steering wheel angle of the car at full steering, rad, if known."""
@@ -24,19 +24,19 @@ class Steering:
         """Whether the ends of the device are full steering because the angle of the car is not known."""
         return self.angle_max is None and not self.by_angle
 
-    def share(self, turn: float, rotation: float) -> float:
+    def fraction(self, turn: float, rotation: float) -> float:
         """Steering from -1 to 1.
 
-        `turn`: position of the device, from -1 to 1, positive to the left; `rotation`: of the device from end to end,
-        degrees; 0: its ends are full steering.
+        `turn`: position of the device, from -1 to 1, positive to the left; `rotation`: rotation of the device from end
+        to end, degrees; 0: its ends are full steering.
         """
         if not rotation or not self.angle_max:
             return turn
         return max(-1.0, min(1.0, turn * 0.5 * math.radians(rotation) / self.angle_max))
 
     def want(self, turn: float, rotation: float) -> tuple[str, float]:
-        """Name and value of the input of the car; see `share`."""
-        share = self.share(turn, rotation)
+        """Name and value of the input of the car; see `fraction`."""
+        fraction = self.fraction(turn, rotation)
         if not self.by_angle:
-            return "steering", share
-        return ANGLE, share * (self.angle_max or 0.5 * math.radians(rotation or _DEFAULT_ROTATION))
+            return "steering", fraction
+        return ANGLE, fraction * (self.angle_max or 0.5 * math.radians(rotation or _DEFAULT_ROTATION))

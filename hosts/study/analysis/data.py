@@ -31,7 +31,7 @@ class Parameter:
     log: bool = False
     """Whether its range is divided by the logarithm."""
     categories: tuple[str, ...] = ()
-    """Texts of the codes 0, 1, ... of a parameter that is not a number; else empty."""
+    """Texts of the codes 0, 1, ... of a parameter that is not a number; otherwise empty."""
 
     @property
     def title(self) -> str:
@@ -147,8 +147,8 @@ def study_data(frame: pd.DataFrame) -> StudyData:
 def without_round_off(values: NDArray[np.float64], unit: str) -> NDArray[np.float64]:
     """Values, of which those that differ by round-off of the largest value, or of the unit, are made equal.
 
-    `values`: finite, shape (n,), n at least 1; `unit`: of the values. Returns an array of shape (n,): values within the
-    round-off above a value are set to it, in ascending order.
+    `values`: finite, shape (n,), n at least 1; `unit`: unit of the values. Returns an array of shape (n,): values
+    within the round-off above a value are set to it, in ascending order.
     """
     size = float(np.abs(values).max())
     width = max(_RELATIVE_ROUND_OFF * size, _round_off_of(unit))

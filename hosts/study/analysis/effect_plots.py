@@ -1,4 +1,4 @@
-"""Plots over each parameter: main effects, runs, and the share of failed runs."""
+"""Plots over each parameter: main effects, runs, and the fraction of failed runs."""
 
 from collections.abc import Sequence
 
@@ -39,11 +39,11 @@ def parameter_panels(parameters: Sequence[Parameter], label: str) -> tuple[Figur
         if parameter.categories:
             panel.set_xticks(range(len(parameter.categories)), parameter.categories)
         if k % columns == 0:
-            panel.set_ylabel(_wrapped(label))
+            panel.set_ylabel(_wrap(label))
     return figure, axes[: len(parameters)]
 
 
-def _wrapped(label: str) -> str:
+def _wrap(label: str) -> str:
     """A long label in several lines."""
     return label if len(label) <= 28 else label.replace(" (", "\n(").replace(", ", ",\n")
 
@@ -55,7 +55,7 @@ def random_subset(count: int, most: int) -> NDArray[np.int64]:
     return np.sort(np.random.default_rng(0).choice(count, most, replace=False))
 
 
-MOST_POINTS = 2000
+MAX_POINTS = 2000
 
 
 def plot_main_effects(parameters: Sequence[Parameter], response: Response, effects: Sequence[MainEffect]) -> Figure:
@@ -70,12 +70,12 @@ def plot_main_effects(parameters: Sequence[Parameter], response: Response, effec
 def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffect]) -> Figure:
     """The measure of each run over each parameter, means as lines, and failed runs as marks at the lower edge."""
     figure, axes = parameter_panels(data.parameters, response.title)
-    selected = random_subset(len(response.rows), MOST_POINTS)
-    # Markers of few runs are large; those of many are small and transparent.
+    selected = random_subset(len(response.rows), MAX_POINTS)
+    # Markers of few runs are large, of many runs small and transparent.
     size = float(np.clip(60.0 / len(selected) ** 0.4, 3.0, 10.0))
     alpha = float(np.clip(12.0 / len(selected) ** 0.45, 0.4, 0.9))
     failed = data.failed_of(response)
-    failed = failed[random_subset(len(failed), MOST_POINTS)]
+    failed = failed[random_subset(len(failed), MAX_POINTS)]
     for k, (panel, effect) in enumerate(zip(axes, effects, strict=True)):
         x = data.x[response.rows[selected], k]
         (points,) = panel.plot(
@@ -92,19 +92,19 @@ def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffe
 
 
 def plot_failed(data: StudyData) -> Figure:
-    """The share of failed runs over each parameter with Wilson's interval of 95 %, and the runs as marks."""
+    """The fraction of failed runs over each parameter with Wilson's interval of 95 %, and the runs as marks."""
     figure, axes = parameter_panels(data.parameters, "failed runs, %")
     for k, panel in enumerate(axes):
         _plot_interval(panel, data.parameters[k], failed_share(data.x[:, k], data.failed), RED, 100.0)
         rows = np.flatnonzero(data.failed)
-        rows = rows[random_subset(len(rows), MOST_POINTS)]
+        rows = rows[random_subset(len(rows), MAX_POINTS)]
         panel.plot(data.x[rows, k], np.full(len(rows), 0.02), "|", color=RED, transform=panel.get_xaxis_transform())
     axes[0].set_ylim(bottom=-5.0)
     return figure
 
 
 def _plot_interval(panel: Axes, parameter: Parameter, effect: MainEffect, colour: str, factor: float = 1.0) -> None:
-    """Draw a line with its band, or points with error bars where the parameter is not a number."""
+    """Draw a line with its band, or points with error bars if the parameter is not a number."""
     at, mean, low, high = effect.at, *(factor * part for part in (effect.mean, effect.low, effect.high))
     if parameter.categories:
         panel.errorbar(at, mean, np.stack([mean - low, high - mean]), fmt="o", color=colour, markersize=4)

@@ -1,4 +1,4 @@
-"""Sobol' indices: the share of the variance of a measure that each parameter causes."""
+"""Sobol' indices: the fraction of the variance of a measure that each parameter causes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,17 +9,17 @@ from SALib.analyze import rbd_fast, sobol
 
 from hosts.common.numbers import is_round_off
 
-_FEWEST_BLOCKS = 64
+_MIN_BLOCKS = 64
 _BARS = "Bars: bootstrap, 95 %; an index whose bar reaches zero or lies below it cannot be distinguished from zero."
 _HARMONICS = 10  # of RBD-FAST
-_FEWEST_FOR_ESTIMATE = 64  # runs, of which the bootstrap of SALib uses half
-_MOST_FOR_ESTIMATE = 50_000
+_MIN_RUNS_FOR_ESTIMATE = 64  # runs, of which the bootstrap of SALib uses half
+_MAX_RUNS_FOR_ESTIMATE = 50_000
 _SEED = 1  # of the bootstrap; SALib ignores 0
 
 
 @dataclass(frozen=True)
 class Indices:
-    """Indices of the parameters, 0 to 1; NaN where there is none."""
+    """Indices of the parameters, 0 to 1; NaN if there is none."""
 
     names: tuple[str, ...]
     first: NDArray[np.float64]
@@ -55,11 +55,8 @@ def saltelli_indices(names: Sequence[str], points: NDArray[np.int64], y: NDArray
     blocks = np.full((int(points.max()) // width + 1, width), np.nan)
     blocks.flat[points] = y
     whole = np.isfinite(blocks).all(axis=1)
-    if whole.sum() < _FEWEST_BLOCKS:
-        return (
-            f"Only {whole.sum()} blocks of {width} runs of the design are whole; from {_FEWEST_BLOCKS} on indices are "
-            "given."
-        )
+    if whole.sum() < _MIN_BLOCKS:
+        return f"Only {whole.sum()} blocks of {width} runs of the design are whole; indices need {_MIN_BLOCKS}."
     values = blocks[whole].ravel()
     if message := _constant_text(values):
         return message
@@ -105,12 +102,12 @@ def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[n
     S. Tarantola, D. Gatelli, T. Mara, Reliability Engineering and System Safety 91, 2006, 717-727; with the bias
     correction of J.-Y. Tissot and C. Prieur, 2012; by SALib.
     """
-    if len(y) < _FEWEST_FOR_ESTIMATE:
-        return f"{len(y)} runs yield the measure; from {_FEWEST_FOR_ESTIMATE} on indices are estimated."
+    if len(y) < _MIN_RUNS_FOR_ESTIMATE:
+        return f"{len(y)} runs yield the measure; estimated indices need {_MIN_RUNS_FOR_ESTIMATE}."
     if message := _constant_text(y):
         return message
-    if len(y) > _MOST_FOR_ESTIMATE:
-        subset = np.random.default_rng(_SEED).choice(len(y), _MOST_FOR_ESTIMATE, replace=False)
+    if len(y) > _MAX_RUNS_FOR_ESTIMATE:
+        subset = np.random.default_rng(_SEED).choice(len(y), _MAX_RUNS_FOR_ESTIMATE, replace=False)
         x, y = x[subset], y[subset]
     result = rbd_fast.analyze(_salib_problem(names), x, y, M=_HARMONICS, seed=_SEED)
     none = np.full(len(names), np.nan)
@@ -122,7 +119,7 @@ def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[n
 
 
 def _constant_text(values: NDArray[np.float64]) -> str:
-    """A sentence if values differ by rounding errors only; else empty."""
+    """A sentence if values differ by rounding errors only; otherwise empty."""
     if is_round_off(float(np.ptp(values)), float(np.abs(values).max())):
         return f"The measure is {values[0]:.6g} in all runs."
     return ""

@@ -10,10 +10,10 @@ from scipy import stats
 
 from hosts.study.limits import CONFIDENCE, interval_of_share
 
-_MOST_LEVELS = 12  # distinct values; more are divided into classes
-_MOST_BINS = 10
-_FEWEST_IN_BIN = 5
-_FEWEST_FOR_NORMAL = 500  # runs; intervals of fewer are by the bootstrap
+_MAX_LEVELS = 12  # distinct values; more are divided into classes
+_MAX_BINS = 10
+_MIN_RUNS_IN_BIN = 5
+_MIN_RUNS_FOR_NORMAL = 500  # runs; intervals of fewer are by the bootstrap
 _RESAMPLES = 999
 
 
@@ -38,9 +38,9 @@ class MainEffect:
 def classes(x: NDArray[np.float64]) -> NDArray[np.int64]:
     """Class of each value: its level, or one of up to ten classes of equal size; shape (n,)."""
     levels, codes = np.unique(x, return_inverse=True)
-    if len(levels) <= _MOST_LEVELS:
+    if len(levels) <= _MAX_LEVELS:
         return codes.astype(np.int64)
-    bins = int(np.clip(len(x) // _FEWEST_IN_BIN, 1, _MOST_BINS))
+    bins = int(np.clip(len(x) // _MIN_RUNS_IN_BIN, 1, _MAX_BINS))
     ranks = stats.rankdata(x, method="min") - 1.0
     codes = np.minimum(ranks * bins // len(x), bins - 1).astype(np.int64)
     return np.unique(codes, return_inverse=True)[1].astype(np.int64)
@@ -49,15 +49,15 @@ def classes(x: NDArray[np.float64]) -> NDArray[np.int64]:
 def main_effect(x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 0) -> MainEffect:
     """The main effect of a parameter.
 
-    `x`, `y`: parameter and measure of each run, shape (n,), n at least 1; `seed`: of the bootstrap. The intervals are
-    percentiles of the bootstrap, or of the normal distribution for more than 500 runs.
+    `x`, `y`: parameter and measure of each run, shape (n,), n at least 1; `seed`: seed of the bootstrap. The intervals
+    are percentiles of the bootstrap, or of the normal distribution for more than 500 runs.
     """
     rng = np.random.default_rng(seed)
     return _effect_of_classes(x, y, lambda of_class: _interval(of_class, rng))
 
 
 def failed_share(x: NDArray[np.float64], failed: NDArray[np.bool_]) -> MainEffect:
-    """The share of failed runs, 0 to 1, with Wilson's interval. `x`, `failed`: parameter and status of runs, (n,)."""
+    """Fraction of failed runs, 0 to 1, with Wilson's interval. `x`, `failed`: parameter and status of runs, (n,)."""
     return _effect_of_classes(x, failed, lambda of_class: interval_of_share(int(of_class.sum()), len(of_class)))
 
 
@@ -74,7 +74,7 @@ def _interval(y: NDArray[np.float64], rng: np.random.Generator) -> tuple[float, 
         return float("nan"), float("nan")
     if np.ptp(y) == 0.0:
         return float(y[0]), float(y[0])
-    if len(y) > _FEWEST_FOR_NORMAL:
+    if len(y) > _MIN_RUNS_FOR_NORMAL:
         half = float(stats.norm.ppf(0.5 + 0.5 * CONFIDENCE)) * float(y.std(ddof=1)) / np.sqrt(len(y))
         return float(y.mean() - half), float(y.mean() + half)
     means = y[rng.integers(len(y), size=(_RESAMPLES, len(y)))].mean(axis=1)

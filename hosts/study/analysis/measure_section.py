@@ -14,10 +14,10 @@ from hosts.common.display_units import number_in
 from hosts.common.numbers import is_round_off
 from hosts.experiment.report import FAINT, NOTE, Plots, Section, commands_cell, paragraph
 from hosts.study.analysis.data import Parameter, Response, StudyData
-from hosts.study.analysis.effect_plots import MOST_POINTS, plot_main_effects, plot_scatter
+from hosts.study.analysis.effect_plots import MAX_POINTS, plot_main_effects, plot_scatter
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import MainEffect, main_effect
-from hosts.study.analysis.parallel_plots import MOST_LINES, plot_parallel
+from hosts.study.analysis.parallel_plots import MAX_LINES, plot_parallel
 from hosts.study.analysis.study_section import Commands
 from hosts.study.analysis.summary_plots import plot_overview
 from hosts.study.analysis.tables import Row, extremes, reason_without_distribution
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from lxml.html import HtmlElement
     from matplotlib.figure import Figure
 
-_MOST_EXTREMES = 5
+_MAX_EXTREMES = 5
 
 
 def measure_section(
@@ -39,8 +39,8 @@ def measure_section(
 ) -> Section:
     """The section of a measure: distribution, indices, main effects, runs, and the highest and lowest runs.
 
-    `number`: of the response, for the names of its plots; `commands`: that repeat a run; `numbers`: rows of the table
-    of effects, to which one for each parameter is added.
+    `number`: number of the response, for the names of its plots; `commands`: commands that repeat a run; `numbers`:
+    rows of the table of effects, to which one for each parameter is added.
     """
     if not response.varies:
         value = number_in(float(response.values.min()), response.unit, ".6g")
@@ -68,13 +68,13 @@ def measure_section(
         body.append(element("h3", "Runs"))
         body.append(plot(plot_scatter(data, response, effects), "runs", f"{label} over each parameter"))
         body.append(
-            _count_note("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs" * has_failed)
+            _count_note("run", len(response.rows), MAX_POINTS, "; red marks below are failed runs" * has_failed)
         )
         body.append(plot(plot_parallel(data, response), "parallel", f"Parallel coordinates of {label}"))
         body.append(
-            _count_note("line", len(response.rows), MOST_LINES, "; dotted red lines are failed runs" * has_failed)
+            _count_note("line", len(response.rows), MAX_LINES, "; dotted red lines are failed runs" * has_failed)
         )
-    highest, lowest = extremes(data, response, _MOST_EXTREMES)
+    highest, lowest = extremes(data, response, _MAX_EXTREMES)
     body.append(element("h3", "Highest and lowest"))
     body.append(_extremes_table(data, response, [*highest, *reversed(lowest)], commands))
     return Section(response.title, body)

@@ -15,19 +15,19 @@ from ali3.chart_style import RED
 from hosts.study.analysis.data import Parameter, Response, StudyData
 from hosts.study.analysis.effect_plots import WIDTH, random_subset
 
-MOST_LINES = 300
+MAX_LINES = 300
 _TICKS = 5
-_MOST_LEVELS = 6
+_MAX_LEVELS = 6
 
 
 def plot_parallel(data: StudyData, response: Response) -> Figure:
     """Parallel coordinates with the measure on the last axis and as colour; failed runs, without it, are dotted."""
-    selected = random_subset(len(response.rows), MOST_LINES)
+    selected = random_subset(len(response.rows), MAX_LINES)
     # Lines of extreme runs are drawn last.
     selected = selected[np.argsort(np.abs(response.values[selected] - np.median(response.values)), kind="stable")]
     values = response.values[selected]
     failed = data.failed_of(response)
-    failed = failed[random_subset(len(failed), MOST_LINES // 5)]
+    failed = failed[random_subset(len(failed), MAX_LINES // 5)]
 
     heights, ticks = [], []
     for k, parameter in enumerate(data.parameters):
@@ -63,7 +63,7 @@ def _scaled_axis(parameter: Parameter, x: NDArray[np.float64]) -> tuple[NDArray[
             ((k - low) / (high - low), w) for k, w in enumerate(parameter.categories)
         ]
     levels = np.unique(scaled)
-    marks = levels if len(levels) <= _MOST_LEVELS else np.linspace(low, high, _TICKS)
+    marks = levels if len(levels) <= _MAX_LEVELS else np.linspace(low, high, _TICKS)
     values = np.exp(marks) if parameter.log else marks
     ticks = [((float(m) - low) / (high - low), _tick_text(v)) for m, v in zip(marks, values, strict=True)]
     return (scaled - low) / (high - low), ticks

@@ -16,7 +16,7 @@ from hosts.experiment.report import FAINT, Plots, Section, page, paragraph
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.measure_section import measure_section
 from hosts.study.analysis.study_section import (
-    MOST_RESPONSES,
+    MAX_RESPONSES,
     Commands,
     facts,
     failed_sections,
@@ -32,8 +32,8 @@ from hosts.study.store import read_study, study_record
 def write_report(folder: Path) -> list[Path]:
     """Write ``report.html``, and its plots and the table of effects into ``analysis``.
 
-    `folder`: of a study, finished or not. Returns the paths of the report and of the folder ``analysis``. Raises
-    `HostError`: there is no study, no finished run, a link in the folder, or a damaged file of rows or signals.
+    `folder`: folder of a study, finished or not. Returns the paths of the report and of the folder ``analysis``. Raises
+    `HostError` if there is no study or no finished run, the folder has a link, or a file of rows or signals is damaged.
     """
     frame = read_study(folder)
     check_signals(folder, study_record(folder))
@@ -51,7 +51,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
     check_no_link(folder)
     data, plots = study_data(frame), Plots(folder / ANALYSIS)
-    responses = data.responses[:MOST_RESPONSES]
+    responses = data.responses[:MAX_RESPONSES]
     effect_rows: list[dict[str, object]] = []
     with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
         sections = [*limits_section(data), measures_section(data), *failed_sections(data, plots, commands)]

@@ -13,9 +13,9 @@ from hosts.study.analysis.effect_plots import plot_failed
 from hosts.study.analysis.tables import messages_with_runs, reasons, reported_statistics, statistics
 from hosts.study.limits import share_notes, share_rows, shares
 
-MOST_RESPONSES = 40
-_MOST_RUNS_OF_REASON = 3
-_MOST_REASONS = 20
+MAX_RESPONSES = 40
+_MAX_RUNS_OF_REASON = 3
+_MAX_REASONS = 20
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -43,11 +43,11 @@ def facts(data: StudyData) -> list[HtmlElement]:
         body.append(
             paragraph(f"{missing} of {data.planned} runs are not done yet; this is the report of the others.", NOTE)
         )
-    if len(data.responses) > MOST_RESPONSES:
-        remaining = len(data.responses) - MOST_RESPONSES
+    if len(data.responses) > MAX_RESPONSES:
+        remaining = len(data.responses) - MAX_RESPONSES
         body.append(
             paragraph(
-                f"Plots are drawn of the first {MOST_RESPONSES} measures; {remaining} more are in the table only.", NOTE
+                f"Plots are drawn of the first {MAX_RESPONSES} measures; {remaining} more are in the table only.", NOTE
             )
         )
     return body
@@ -70,7 +70,7 @@ def measures_section(data: StudyData) -> Section:
 
 
 def limits_section(data: StudyData) -> list[Section]:
-    """The table of shares of the runs within the limits of the study; empty where it has none."""
+    """The table of fractions of the runs within the limits of the study; empty if it has none."""
     share_list = shares(data.frame)
     if not share_list:
         return []
@@ -81,7 +81,7 @@ def limits_section(data: StudyData) -> list[Section]:
 
 
 def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[Section]:
-    """Sections on failed runs, on incomplete runs and on messages of the FMU; empty where there are none."""
+    """Sections on failed runs, on incomplete runs and on messages of the FMU; empty if there are none."""
     sections = []
     for groups, title in (
         (reasons(data, FAILED), "Failed runs"),
@@ -96,12 +96,12 @@ def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[S
             message = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
             body += [plots.add(plot, "failed"), paragraph(message, FAINT)]
         rows: list[tuple[Content, ...]] = []
-        for text, indices in groups[:_MOST_REASONS]:
-            for k, index in enumerate(indices[:_MOST_RUNS_OF_REASON]):
+        for text, indices in groups[:_MAX_REASONS]:
+            for k, index in enumerate(indices[:_MAX_RUNS_OF_REASON]):
                 first = (text, str(len(indices))) if k == 0 else ("", "")
                 rows.append((*first, str(index), commands_cell(commands(index))))
         body.append(table("Words and runs", ("words", "runs", "for example", "to repeat it"), rows, "numbers"))
-        if len(groups) > _MOST_REASONS:
-            body.append(paragraph(f"{len(groups) - _MOST_REASONS} rarer ones are in the table of runs only.", FAINT))
+        if len(groups) > _MAX_REASONS:
+            body.append(paragraph(f"{len(groups) - _MAX_REASONS} rarer ones are in the table of runs only.", FAINT))
         sections.append(Section(title, body))
     return sections

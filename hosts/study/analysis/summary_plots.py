@@ -18,7 +18,7 @@ from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.tables import reason_without_distribution
 
 PERCENTILES = (5.0, 50.0, 95.0)
-_MOST_BINS = 60
+_MAX_BINS = 60
 
 
 def plot_overview(data: StudyData, response: Response, indices: Indices | str) -> Figure:
@@ -35,7 +35,7 @@ def plot_overview(data: StudyData, response: Response, indices: Indices | str) -
 
 
 def plot_distribution(axes: Axes, data: StudyData, response: Response) -> None:
-    """Draw a histogram with percentiles, or the sorted values where there is no distribution, and the limits."""
+    """Draw a histogram with percentiles, or the sorted values if there is no distribution, and the limits."""
     if reason := reason_without_distribution(data, response):
         axes.plot(np.sort(response.values), np.arange(1, len(response.values) + 1), "o", color=BLUE, markersize=4)
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
@@ -55,8 +55,8 @@ def plot_distribution(axes: Axes, data: StudyData, response: Response) -> None:
 
 def _histogram(axes: Axes, y: NDArray[np.float64]) -> None:
     edges = np.histogram_bin_edges(y, "auto")
-    if len(edges) > _MOST_BINS + 1:
-        edges = np.linspace(y.min(), y.max(), _MOST_BINS + 1)
+    if len(edges) > _MAX_BINS + 1:
+        edges = np.linspace(y.min(), y.max(), _MAX_BINS + 1)
     axes.hist(y, edges.tolist(), color=BLUE, alpha=0.75)
     for percent, value in zip(PERCENTILES, np.percentile(y, PERCENTILES), strict=True):
         dashes = "-" if percent == 50.0 else "--"
@@ -66,7 +66,7 @@ def _histogram(axes: Axes, y: NDArray[np.float64]) -> None:
 
 
 def plot_indices(axes: Axes, indices: Indices) -> None:
-    """Draw indices with their intervals, with hollow markers where the interval includes zero."""
+    """Draw indices with their intervals, with hollow markers if the interval includes zero."""
     order = np.argsort(np.where(np.isnan(indices.total), indices.first, indices.total))
     at = np.arange(len(order), dtype=float)
     has_total = bool(np.isfinite(indices.total).any())

@@ -12,7 +12,7 @@ from hosts.study.analysis.data import Response, StudyData
 
 _STATISTICS = ("runs", "mean", "std", "lowest", "5 %", "median", "95 %", "highest")  # as pandas describes numbers
 _SAMPLE_STATISTICS = ("mean", "std", "5 %", "95 %")
-_FEWEST_FOR_DISTRIBUTION = 20  # runs, of which one is below the 5 % percentile
+_MIN_RUNS_FOR_DISTRIBUTION = 20  # runs, of which one is below the 5 % percentile
 _NUMBER = re.compile(r"(?<![A-Za-z_\d.\[])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w\]])")
 
 
@@ -29,9 +29,9 @@ def reason_without_distribution(data: StudyData, response: Response) -> str:
     """Why a distribution cannot be estimated from the values of a measure, as a clause; empty if it can."""
     count = len(response.values)
     if data.method in ("grid", "table"):
-        return f"{count} runs of a {data.method}, no random sample"
-    few = count < _FEWEST_FOR_DISTRIBUTION
-    return f"{count} runs, from {_FEWEST_FOR_DISTRIBUTION} on a distribution" if few else ""
+        return f"{count} runs of a {data.method}, not a random sample"
+    few = count < _MIN_RUNS_FOR_DISTRIBUTION
+    return f"{count} runs; a distribution needs {_MIN_RUNS_FOR_DISTRIBUTION}" if few else ""
 
 
 def statistics(response: Response) -> dict[str, float]:
@@ -47,9 +47,9 @@ def reported_statistics(data: StudyData) -> tuple[list[str], str]:
 
 
 def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row], list[Row]]:
-    """The highest and the lowest runs; of equal ones those of the lowest index come first.
+    """The highest and the lowest runs; of equal ones, the lowest index comes first.
 
-    `count`: of each, at most half of the runs.
+    `count`: number of each, at most half of the runs.
     """
     ascending = np.argsort(response.values, kind="stable")
     descending = np.argsort(-response.values, kind="stable")

@@ -123,7 +123,7 @@ class Expression:
 def _evaluate(text: str, signals: Mapping[str, Quantity]) -> Quantity:
     """The value of an expression.
 
-    Raises `HostError`: a part of it is not allowed; `NotYieldedError`: the signals do not yield a value.
+    Raises `HostError` if a part of it is not allowed, `NotYieldedError` if the signals do not yield a value.
     """
     label = f"The measure '{text}'"
     evaluator = simpleeval.SimpleEval(operators=dict(_OPERATORS), functions=dict(_FUNCTIONS))
@@ -192,5 +192,5 @@ def _signal_name(node: ast.AST) -> str:
 
 
 def similar_names(name: str, known: Mapping[str, str]) -> str:
-    """A suggestion of similar names, as the end of a sentence."""
+    """The end of a message on an unknown name: similar names, or the known ones."""
     return did_you_mean(name, known, f"there are: {', '.join(known) or 'none'}" if len(known) <= 2 * MOST else "")

@@ -40,12 +40,12 @@ class Quantity:
 
     def __mul__(self, other: Quantity) -> Quantity:
         a, b = self.unit, other.unit
-        unit = b if a == NONE else a if b == NONE else f"{_parenthesised(a)}.{_parenthesised(b)}"
+        unit = b if a == NONE else a if b == NONE else f"{_parenthesise(a)}.{_parenthesise(b)}"
         return self._combined(other, "*", operator.mul, unit)
 
     def __truediv__(self, other: Quantity) -> Quantity:
         a, b = self.unit, other.unit
-        unit = a if b == NONE else NONE if a == b else f"{_parenthesised(a)}/{_parenthesised(b)}"
+        unit = a if b == NONE else NONE if a == b else f"{_parenthesise(a)}/{_parenthesise(b)}"
         return self._combined(other, "/", operator.truediv, unit)
 
     def __neg__(self) -> Quantity:
@@ -72,7 +72,7 @@ class Quantity:
         return self.unit
 
 
-def _parenthesised(unit: str) -> str:
+def _parenthesise(unit: str) -> str:
     if unit == ANY:
         return unit
     return unit if _SINGLE_UNIT.fullmatch(unit) else f"({unit})"

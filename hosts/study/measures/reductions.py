@@ -25,7 +25,7 @@ class Reduction:
     apply: Callable[[Array, Array, float], float]
     """Function of time, s, and signal, shape (n,), n at least 1, and of the number."""
     unit: str | None = None
-    """Unit of the result; None: that of the signal."""
+    """Unit of the result; None: unit of the signal."""
     number: str = ""
     """Description of the second argument; empty: there is none."""
     greatest: float = math.inf
@@ -36,7 +36,8 @@ class Reduction:
     def __call__(self, *arguments: Quantity, **window: Quantity) -> Quantity:
         """Reduce a signal.
 
-        Raises `HostError`: the arguments are not allowed; `NotYieldedError`: the signal has no sample in the window.
+        Raises `HostError` if the arguments are not allowed, `NotYieldedError` if the signal has no sample in the
+        window.
         """
         if len(arguments) != (2 if self.number else 1):
             arguments_text = f"a signal and {self.number}" if self.number else "one signal"

@@ -87,7 +87,7 @@ class UserFunction:
         return function(result, parameters) if _takes_parameters(function) else function(result)
 
     def _by_column(self, value: Any, columns: Mapping[str, str]) -> dict[str, Any]:
-        """The value of the function by the names of the columns. Raises `HostError` where it is not as declared."""
+        """The value of the function by the names of the columns. Raises `HostError` if it is not as declared."""
         is_single = list(columns) == [self.name]
         if not isinstance(value, Mapping):
             if is_single:
@@ -110,8 +110,8 @@ class UserFunction:
 def read_user_function(file: Path, function: str, name: str = "") -> UserFunction:
     """Read the file and load it once, so that its mistakes are reported before the first run.
 
-    `name`: of the measure; by default that of the function. Raises `HostError`: no file, no function, or the file
-    cannot be run.
+    `name`: name of the measure; by default the name of the function. Raises `HostError` if the file or the
+    function is missing, or the file cannot be run.
     """
     if not function.isidentifier():
         raise HostError(f"'{file}:{function}' names no function; the form is file.py:function.")

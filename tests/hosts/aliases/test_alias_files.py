@@ -40,7 +40,7 @@ def test_names_and_numbers_go_there_and_come_back(file):
 
 def test_start_values_keep_their_kind(file):
     aliases = read_aliases(file('"initial.x" = { name = "X", factor = 1000.0 }\n"road.file" = "Psi"'), NAMES)
-    assert aliases.values({"initial.x": 2, "road.file": "my.road", "brake": 1}) == {
+    assert aliases.fmu_values({"initial.x": 2, "road.file": "my.road", "brake": 1}) == {
         "X": 2000.0,
         "Psi": "my.road",
         "brake": 1,

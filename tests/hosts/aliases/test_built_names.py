@@ -152,7 +152,7 @@ def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
     assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
     start = {entry["name"]: entry["new"] for entry in json.loads(table.with_suffix(".json").read_text("utf-8"))["set"]}
     assert set(start) <= set(Variables(described(theirs)).names)
-    assert start["IMP_STEER_SW"] == pytest.approx(aliases.values({"steering": 0.5})["IMP_STEER_SW"])
+    assert start["IMP_STEER_SW"] == pytest.approx(aliases.fmu_values({"steering": 0.5})["IMP_STEER_SW"])
 
 
 @pytest.mark.slow

@@ -232,5 +232,5 @@ def test_a_variable_that_is_no_output_is_reported(foreign_fmu, tmp_path, alias_f
     changed_fmu(fmu, result, {DESCRIPTION: local})
     aliases = find_aliases(alias_file("carmaker"), Variables(read_model_description(str(result), validate=False)))
     assert aliases.why_missing("chassis.ay") == (
-        "carmaker.toml takes 'chassis.ay' from 'Car.ay', which is a local variable of the FMU and no output"
+        "carmaker.toml takes 'chassis.ay' from 'Car.ay', which is a local variable of the FMU and not an output"
     )

@@ -149,7 +149,7 @@ def test_files_that_extend_one_another(tmp_path):
     )
     (tmp_path / "mine.toml").write_text('extends = "base.toml"\nthrottle = "Throttle"\n[constants]\nk = 3.6')
     aliases = read_aliases(tmp_path / "mine.toml", NAMES)
-    assert {a.ours: (a.theirs, a.factor) for a in aliases.aliases} == {
+    assert {a.name: (a.fmu_name, a.factor) for a in aliases.aliases} == {
         "throttle": ("Throttle", 1.0),
         "speed": ("vx", 3.6),
     }

@@ -108,11 +108,11 @@ def test_limits_of_their_own_units_and_notes(fmu, tmp_path):
     row = next(r for r in document.xpath("//tr") if texts(r)[0] == "a a, m")
     assert texts(row)[1:] == [
         "1 m keptone",
-        "22.92 deg kepthere at least 17.189 degin deg, the first in mtwo",
+        "22.92 deg kepthere at least 17.189 degin deg; the first car in mtwo",
         "–",
         "at least 0.5 mx",
     ]
-    assert "not asked for" in texts(document.xpath("//td"))
+    assert "not selected" in texts(document.xpath("//td"))
 
 
 def test_a_section_has_all_of_a_test(report):

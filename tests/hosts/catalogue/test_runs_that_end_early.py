@@ -16,7 +16,7 @@ from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
 from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
-from hosts.measures.sine_with_dwell import sine_with_dwell
+from hosts.measures.sine_with_dwell import measure_sine_with_dwell
 from tests.hosts.catalogue.bicycle import BicycleCar
 from tests.hosts.catalogue.measured import sheet_of
 
@@ -93,7 +93,7 @@ def test_a_series_that_one_side_has_lost_has_no_displacement() -> None:
 
     def driven(amplitude: float, side: float) -> DwellRun:
         run = filtered_run(steer(car, "m", speed, *sine_with_dwell_table(side * amplitude), Pedals.COAST))
-        return DwellRun(amplitude, run, sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration))
+        return DwellRun(amplitude, run, measure_sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration))
 
     both, one = [[[driven(f * a, s) for f in fs] for s, fs in zip((1.0, -1.0), sides, strict=True)]
                  for sides in (((2.0, 5.0), (2.0, 5.0)), ((2.0, 5.0), (2.0,)))]  # fmt: skip

@@ -93,7 +93,7 @@ PLANTED = {
     "sign of ay": (scaled("chassis.ay", -1.0), "the other sign of 'ay'"),
     "sign of the heading": (scaled("chassis.yaw", -1.0), "the other sign of 'yaw'"),
     "time twice as fast": (timed(0.5), "time twice as fast"),
-    "time in ms": (timed(1e3), "ms in place of s"),
+    "time in ms": (timed(1e3), "ms instead of s"),
     "ax and ay": (swapped("chassis.ax", "chassis.ay"), "'ax' and 'ay' exchanged"),
     "ay late": (late("chassis.ay", 0.9), "a delay of 0.9"),
     "-9999": (missing("chassis.ay"), "-9999 in the place of no value in"),

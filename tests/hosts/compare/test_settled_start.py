@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hosts.compare.command import main
-from hosts.compare.segment_fmu import smoothed
+from hosts.compare.segment_fmu import smooth_speed
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu import Fmu
@@ -72,15 +72,15 @@ def test_the_acceleration_that_a_driver_follows_is_without_noise() -> None:
     t = np.arange(0.0, 5.0, 0.01)
     noise = 0.03 * np.random.default_rng(1).standard_normal(len(t))
     true = Signal("speed", "speed", "m/s", t, 20.0 - 6.0 * t + 1.5 * t**2)
-    result = smoothed(Signal("speed", "speed", "m/s", t, true.values + noise))
+    result = smooth_speed(Signal("speed", "speed", "m/s", t, true.values + noise))
     assert np.gradient(result.values - true.values, t).std() < 0.2 * np.gradient(noise, t).std()
-    np.testing.assert_allclose(smoothed(true).values, true.values, atol=1e-9)  # a parabola stays
+    np.testing.assert_allclose(smooth_speed(true).values, true.values, atol=1e-9)  # a parabola stays
     for some in (slice(3), slice(15)):
         short = Signal("speed", "speed", "m/s", t[some], noise[some])
-        np.testing.assert_array_equal(smoothed(short).values, short.values)
+        np.testing.assert_array_equal(smooth_speed(short).values, short.values)
 
 
 def test_a_gap_is_no_edge_of_the_speed() -> None:
     t = np.concatenate([np.arange(0.0, 2.0, 0.01), np.arange(4.0, 6.0, 0.01)])
-    actual = smoothed(Signal("speed", "speed", "m/s", t, 50.0 - 6.0 * t))
+    actual = smooth_speed(Signal("speed", "speed", "m/s", t, 50.0 - 6.0 * t))
     np.testing.assert_allclose(actual.values, 50.0 - 6.0 * t, atol=1e-9)

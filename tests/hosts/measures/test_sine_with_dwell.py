@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hosts.measures.sine_with_dwell import sine_with_dwell
+from hosts.measures.sine_with_dwell import measure_sine_with_dwell
 from hosts.measures.slowly_increasing_steer import G, angle_by_regression
 
 T = np.arange(-1.0, 4.5, 0.005)
@@ -41,34 +41,38 @@ def test_yaw_rate_ratios_and_times(side: float, part: float) -> None:
     # one peak above the plateau, between the change of side and the completion
     rate = np.where(T > 0.75, rate - 0.2 * np.exp(-(((T - 1.3) / 0.05) ** 2)), rate)
     rate = np.where(T > END, -0.8 * decay, rate)
-    actual = sine_with_dwell(
+    actual = measure_sine_with_dwell(
         T, side * steering(1.5), side * rate, side * np.full_like(T, 4.0), side * 0.1 * np.clip(rate, -1.0, 1.0)
     )
-    assert actual.begin == pytest.approx(math.asin(math.radians(5.0) / 1.5) / (2 * np.pi * 0.7), abs=1e-4)
+    assert actual.beginning == pytest.approx(math.asin(math.radians(5.0) / 1.5) / (2 * np.pi * 0.7), abs=1e-4)
     assert actual.completion == pytest.approx(END, abs=4e-3)
-    assert actual.ratio_1_00 == pytest.approx(0.8 * part, abs=5e-3)
-    assert actual.ratio_1_75 == pytest.approx(0.8 * part * math.exp(-0.75), abs=5e-3)
+    assert actual.yaw_rate_ratio_1_00 == pytest.approx(0.8 * part, abs=5e-3)
+    assert actual.yaw_rate_ratio_1_75 == pytest.approx(0.8 * part * math.exp(-0.75), abs=5e-3)
     assert actual.sideslip == pytest.approx(0.1, abs=1e-3)
 
 
-def test_displacement_is_the_double_integral_from_the_begin() -> None:
-    actual = sine_with_dwell(T, steering(1.0), yaw_rate(0.0), np.full_like(T, 3.2))
+def test_displacement_is_the_double_integral_from_beginning_of_steer() -> None:
+    actual = measure_sine_with_dwell(T, steering(1.0), yaw_rate(0.0), np.full_like(T, 3.2))
     assert actual.displacement == pytest.approx(0.5 * 3.2 * 1.07**2, rel=1e-6)
     # 6 t from the beginning: t³
-    grows = 6.0 * (T - actual.begin)
-    assert sine_with_dwell(T, steering(1.0), yaw_rate(0.0), grows).displacement == pytest.approx(1.07**3, rel=1e-3)
+    grows = 6.0 * (T - actual.beginning)
+    assert measure_sine_with_dwell(T, steering(1.0), yaw_rate(0.0), grows).displacement == pytest.approx(
+        1.07**3, rel=1e-3
+    )
 
 
 def test_a_short_record_gives_the_numbers_before_its_end() -> None:
     for end, known in ((0.5, 0), (1.5, 1), (END + 1.2, 2), (END + 1.8, 3)):
         n = int(np.searchsorted(T, end))
-        result = sine_with_dwell(T[:n], steering(1.0)[:n], yaw_rate(0.5)[:n], np.ones(n))
-        shown = [math.isfinite(x) for x in (result.displacement, result.ratio_1_00, result.ratio_1_75)]
+        result = measure_sine_with_dwell(T[:n], steering(1.0)[:n], yaw_rate(0.5)[:n], np.ones(n))
+        shown = [
+            math.isfinite(x) for x in (result.displacement, result.yaw_rate_ratio_1_00, result.yaw_rate_ratio_1_75)
+        ]
         assert shown == [True] * known + [False] * (3 - known)
 
 
 def test_no_steering_yields_nothing() -> None:
-    assert math.isnan(sine_with_dwell(T, np.zeros_like(T), np.zeros_like(T), np.zeros_like(T)).begin)
+    assert math.isnan(measure_sine_with_dwell(T, np.zeros_like(T), np.zeros_like(T), np.zeros_like(T)).beginning)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import freqs
 
-from hosts.measures.vibration import LONGEST_STEP, largest_running_rms, vibration_dose, weighted, weighting_wk
+from hosts.measures.vibration import MAX_STEP, largest_running_rms, vibration_dose, weighted, weighting_wk
 
 # Wk at the exact frequencies 10^(k/10) Hz of one-third octaves, as tables of ISO 2631-1 give it.
 TABLE = {-3: 0.418, 0: 0.482, 3: 0.531, 5: 0.804, 6: 0.967, 7: 1.039, 8: 1.054, 9: 1.036, 10: 0.988, 11: 0.902}
@@ -22,7 +22,7 @@ def test_weighting_has_the_factors_of_the_table() -> None:
 
 
 @pytest.mark.parametrize(
-    ("step", "frequency", "accuracy"), [(0.001, 50.0, 0.011), (LONGEST_STEP, 20.0, 0.031), (1e-4, 1.0, 0.005)]
+    ("step", "frequency", "accuracy"), [(0.001, 50.0, 0.011), (MAX_STEP, 20.0, 0.031), (1e-4, 1.0, 0.005)]
 )
 def test_filter_of_samples_weights_a_sine_as_the_transfer_function_does(
     step: float, frequency: float, accuracy: float

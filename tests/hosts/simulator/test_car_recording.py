@@ -124,7 +124,7 @@ def test_an_hour_of_the_prototype_has_200_megabytes_at_most_and_the_rest_is_foun
 def test_unpaced_the_car_waits_for_a_slow_recorder(
     fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(car_module, "_LEAST_ROWS", 16)
+    monkeypatch.setattr(car_module, "_MIN_ROWS", 16)
     monkeypatch.setattr(car_module, "_ROW_SECONDS", 0.0)
     with Car(settings(fmu("sledge"), tmp_path / "drive")) as car:
         steps(car, 500)
@@ -135,7 +135,7 @@ def test_unpaced_the_car_waits_for_a_slow_recorder(
 def test_in_real_time_it_does_not_wait_and_counts_lost_rows(
     fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(car_module, "_LEAST_ROWS", 16)
+    monkeypatch.setattr(car_module, "_MIN_ROWS", 16)
     monkeypatch.setattr(car_module, "_ROW_SECONDS", 0.0)
     stall, write = threading.Event(), Recorder.row
 

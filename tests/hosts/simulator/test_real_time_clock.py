@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hosts.simulator.late_causes import CAUSES
-from hosts.simulator.real_time_clock import MOST_LATE, RealTimeClock
+from hosts.simulator.real_time_clock import MAX_LATENESS, RealTimeClock
 from hosts.simulator.step_times import TIMES_SIZE, TimesRecord
 
 H = 0.002
@@ -65,7 +65,7 @@ def test_a_computer_that_is_too_slow_is_reported_with_the_factor_that_is_reached
     drive.step(3e-3, 6000)
     wall = drive.clock.time - drive.begins[0]
     assert drive.times["skipped"] >= 10.0
-    assert drive.times["lost"] == pytest.approx(wall - drive.times["scheduled"], abs=MOST_LATE)
+    assert drive.times["lost"] == pytest.approx(wall - drive.times["scheduled"], abs=MAX_LATENESS)
     assert drive.times["missed"] > 5999.0
     assert drive.times["scheduled"] / wall == pytest.approx(2.0 / 3.0, abs=0.02)
     assert drive.pace.behind
@@ -101,7 +101,7 @@ def test_a_stall_moves_the_schedule_once_and_is_over_a_second_later(drive: Drive
 
 
 def test_just_not_too_late_is_caught_up_whole(drive: Drive) -> None:
-    drive.step(MOST_LATE)
+    drive.step(MAX_LATENESS)
     drive.step(SHORT, 500)
     assert drive.times["lost"] == 0.0
     assert drive.begins[500] == pytest.approx(drive.begins[0] + 500 * H, abs=1e-9)

@@ -257,7 +257,7 @@ def test_a_port_that_the_user_may_not_have(monkeypatch):
         raise PermissionError(errno.EACCES, "Permission denied")
 
     monkeypatch.setattr(web.socket, "create_server", refuse)
-    with pytest.raises(HostError, match=r"The system does not allow you to use the port 80; give one from 1024 on\."):
+    with pytest.raises(HostError, match=r"The system does not allow you to use the port 80; give 1024 or above\."):
         web.listening_socket("127.0.0.1", 80)
 
 

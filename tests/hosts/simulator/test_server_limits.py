@@ -109,7 +109,7 @@ def test_a_large_message_ends_the_connection(served):
 
 def test_too_many_wrong_messages_end_the_connection(served):
     with connect(served.url) as page:
-        for _ in range(connected_page.MOST_MALFORMED + 1):
+        for _ in range(connected_page.MAX_MALFORMED + 1):
             page.send("{")
         assert refused_with(page) == (1008, "More than 20 messages of this page were wrong.")
 
@@ -139,7 +139,7 @@ def test_new_starts_are_taken_now_and_then_only(car, served):
 
 def test_one_page_too_many_is_refused_with_a_sentence(served):
     with ExitStack() as opened:
-        pages = [opened.enter_context(connect(served.url)) for _ in range(web.MOST_PAGES)]
+        pages = [opened.enter_context(connect(served.url)) for _ in range(web.MAX_PAGES)]
         for page in pages:
             texts(page, "hello")
         status, _, body = request(served.port, f"/drive{served.key}", {}, upgrade=True)
@@ -152,7 +152,7 @@ def test_one_page_too_many_is_refused_with_a_sentence(served):
 @pytest.mark.parametrize("message", [b"", b"GET / HTTP/1.1\r\n"])
 def test_silent_connections_are_limited_and_block_no_other(served, message):
     """The oldest are ended; who has the token is served at once, and stays."""
-    most = web.MOST_STRANGERS
+    most = web.MAX_STRANGERS
     with RawClient(served.port, f"/drive{served.key}") as page, ExitStack() as opened:
         silent = [opened.enter_context(RawClient.silent(served.port)) for _ in range(2 * most)]
         for line in silent:
@@ -227,13 +227,13 @@ def test_unread_responses_are_limited_and_end(car, monkeypatch):
     monkeypatch.setattr("tests.hosts.simulator.served.WORLD", {"name": os.urandom(3_000_000).hex()})
     with serving(car) as served, ExitStack() as opened:
         requested = f"GET /world{served.key} HTTP/1.1\r\nHost: 127.0.0.1:{served.port}\r\n\r\n".encode()
-        lines = [opened.enter_context(RawClient.silent(served.port)) for _ in range(2 * web.MOST_ANSWERS)]
+        lines = [opened.enter_context(RawClient.silent(served.port)) for _ in range(2 * web.MAX_ANSWERS)]
         for line in lines:
             line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
             line.sendall(requested)
         until(lambda: all(select.select([line], [], [], 0)[0] for line in lines))
         heads = [line.recv(20).split(b" ")[1] for line in lines]
-        assert (heads.count(b"200"), heads.count(b"503")) == (web.MOST_ANSWERS, web.MOST_ANSWERS)
+        assert (heads.count(b"200"), heads.count(b"503")) == (web.MAX_ANSWERS, web.MAX_ANSWERS)
         until(lambda: request(served.port, f"/{served.key}", {})[0] == 200)
         assert request(served.port, f"/world{served.key}", {})[2].endswith(b'"}')
 

@@ -73,7 +73,7 @@ def test_a_study_half_done() -> None:
     assert (np.abs(indices.total - TOTAL) < indices.total_conf).all()
     assert (indices.total_conf < 0.2).all()
     few = saltelli_indices(NAMES, np.arange(22), y[:22])
-    assert few == "Only 4 blocks of 5 runs of the design are whole; from 64 on indices are given."
+    assert few == "Only 4 blocks of 5 runs of the design are whole; indices need 64."
 
 
 def test_linear_model() -> None:
@@ -93,7 +93,7 @@ def test_linear_model() -> None:
     assert np.isnan(estimate.total).all()
     assert "estimate" in estimate.how
     assert estimated_indices(NAMES, latin[:50], latin[:50] @ slopes) == (
-        "50 runs yield the measure; from 64 on indices are estimated."
+        "50 runs yield the measure; estimated indices need 64."
     )
 
 

@@ -72,7 +72,7 @@ def test_wrong_options_and_study_files_are_refused(
     file = study_file(name="my study.toml")
     begin_study(results, make_plan(read_study_file(file)[0], file, tuned).record, b"", tuned)
     assert main([str(results)]) == 2
-    assert f"'{file}' --out '{results}'; else give --run or --report." in capsys.readouterr().err
+    assert f"'{file}' --out '{results}'; otherwise give --run or --report." in capsys.readouterr().err
     with pytest.raises(SystemExit) as end:
         main([str(tmp_path), "--jobs", "0"])
     assert end.value.code == 2

@@ -110,7 +110,7 @@ def test_a_resumed_study_reads_each_part_once(
     study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file, folder = study_file(more=SIGNALS), tmp_path / "out"
-    monkeypatch.setattr("hosts.study.outcome_table._MOST_ROWS", 4)
+    monkeypatch.setattr("hosts.study.outcome_table._MAX_ROWS", 4)
     assert run_study(file, folder, None, 1) is not None
     parts = part_files(folder)
     assert len(parts) == 4

@@ -131,9 +131,9 @@ def test_units_are_those_of_the_field() -> None:
 @pytest.mark.parametrize(
     ("method", "count", "title"),
     [
-        ("grid", 2, "Values (2 runs of a grid, no random sample)"),
-        ("table", 40, "Values (40 runs of a table, no random sample)"),
-        ("sobol", 19, "Values (19 runs, from 20 on a distribution)"),
+        ("grid", 2, "Values (2 runs of a grid, not a random sample)"),
+        ("table", 40, "Values (40 runs of a table, not a random sample)"),
+        ("sobol", 19, "Values (19 runs; a distribution needs 20)"),
         ("sobol", 20, "Distribution"),
     ],
 )
@@ -164,7 +164,7 @@ def test_the_table_of_measures_has_percentiles_of_random_samples_alone(method: s
     text = " ".join(" ".join(part.itertext()) for part in section.parts if not isinstance(part, str))
     assert section.title == "Measures"
     assert [name in text for name in ("5 %", "95 %", "mean", "std")] == 4 * [method != "grid"]
-    assert ("There are no percentiles: 20 runs of a grid, no random sample." in text) == (method == "grid")
+    assert ("There are no percentiles: 20 runs of a grid, not a random sample." in text) == (method == "grid")
     assert all(name in text for name in ("lowest", "median", "highest"))
 
 

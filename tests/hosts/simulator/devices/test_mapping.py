@@ -11,7 +11,7 @@ from hosts.common.errors import HostError
 from hosts.simulator.devices.defaults import default_mapping
 from hosts.simulator.devices.mapping import (
     CENTRED,
-    NARROWEST,
+    MIN_AXIS_RANGE,
     PEDALS,
     SELECTOR,
     DeviceSettings,
@@ -37,7 +37,7 @@ def axis(value: float) -> Reading:
 @st.composite
 def mappings(draw: st.DrawFn) -> InputMapping:
     low, high = sorted((draw(POSITION), draw(POSITION)))
-    assume(high - low >= NARROWEST)
+    assume(high - low >= MIN_AXIS_RANGE)
     share = draw(st.none() | st.floats(0.25, 0.75))
     centre = None if share is None else low + share * (high - low)
     fields = {"low": low, "high": high, "inverted": draw(st.booleans()), "dead_zone": draw(st.floats(0.0, 0.9))}

@@ -34,10 +34,10 @@ GOOD = 'format = "ALi3 device"\nversion = 1\n'
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "format = .* are missing"),
+        ("", "it must have format = "),
         ("version = ", "Invalid value"),
         ("\udcff", "is not text in UTF-8"),
-        (GOOD.replace("1", "2"), "version = 1 are missing"),
+        (GOOD.replace("1", "2"), "it must have format = .* and version = 1"),
         (GOOD + "colour = 1", "'colour' is unknown"),
         (GOOD + "inputs = 3", "inputs = 3 is not a table"),
         (GOOD + "[inputs.brake]\nsource = 'axle'", "'axle' is not a source"),
@@ -47,14 +47,14 @@ GOOD = 'format = "ALi3 device"\nversion = 1\n'
 )
 def test_a_damaged_file_is_named_with_its_fault(tmp_path, text, message):
     files = MappingFiles(tmp_path)
-    files.file("0300").write_bytes(text.encode("utf-8", "surrogateescape"))
+    files.path("0300").write_bytes(text.encode("utf-8", "surrogateescape"))
     with pytest.raises(HostError, match=rf"0300\.toml .*{message}"):
         files.read("0300")
 
 
 def test_a_file_that_cannot_be_read_or_written_is_named(tmp_path):
     files = MappingFiles(tmp_path)
-    files.file("0300").mkdir()
+    files.path("0300").mkdir()
     with pytest.raises(HostError, match=r"0300\.toml is a folder"):
         files.read("0300")
     with pytest.raises(HostError, match=r"0300\.toml cannot be removed"):
@@ -92,7 +92,7 @@ def test_without_serial_number_or_place_they_come_in_order():
 def test_the_file_in_the_documents_can_be_read(tmp_path):
     page = (Path(__file__).parents[4] / "docs" / "devices.md").read_text(encoding="utf-8")
     files = MappingFiles(tmp_path)
-    files.file("0300").write_text(page.split("```toml\n")[1].split("```")[0], encoding="utf-8")
+    files.path("0300").write_text(page.split("```toml\n")[1].split("```")[0], encoding="utf-8")
     mapping = files.read("0300")
     assert mapping is not None
     assert mapping.settings == DeviceSettings(rotation=900.0), "but for the turn of the wheel they are as by default"
