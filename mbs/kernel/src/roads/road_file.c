@@ -16,6 +16,7 @@ enum { GRID = 2 }; /* elements/road.h */
 enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, HINTS = 256, TEXT = 200 };
 enum { CELLS = 16 }; /* stored along x and y: enough for the wheels of a car */
 static const double TABLE_FRICTION = 0.9; /* of a table without frictions */
+static const char NO_MEMORY[] = "there is not enough memory";
 
 struct ali3_road_file {
   void (*release)(void *block);
@@ -219,39 +220,49 @@ static ali3_road_file *allocate_file(const ali3_road_file *start, size_t size,
   return file;
 }
 
+/* Reads the text of a table and closes its stream; NULL: it is refused. */
+static char *read_text(ali3_road_file *start, int64_t size, void *(*allocate)(size_t count, size_t size), char *message,
+                       size_t message_size) {
+  const char *error = NULL;
+  char *text = NULL;
+  if (size > ALI3_MOST_TABLE)
+    error = "it is longer than 64 MB; make a road file of it by: ali3 road INPUT OUTPUT.road";
+  else if ((text = allocate(1, (size_t)size + 1)) == NULL)
+    error = NO_MEMORY;
+  else if (!ali3_file_read(start->stream, 0, text, (size_t)size))
+    error = "it cannot be read";
+  ali3_file_close(start->stream);
+  start->stream = NULL;
+  if (error == NULL) return text;
+  if (text != NULL) start->release(text);
+  refuse(message, message_size, error);
+  return NULL;
+}
+
 /* Opens a table, which is read completely, and closes its stream. */
 static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*allocate)(size_t count, size_t size),
                                   char *message, size_t message_size) {
   ali3_road_table t = {0};
-  ali3_road_header *h = &start->head;
-  char *text = size <= ALI3_MOST_TABLE ? allocate(1, (size_t)size + 1) : NULL;
-  int valid = text != NULL ? ali3_file_read(start->stream, 0, text, (size_t)size)
-                           : refuse(message, message_size,
-                                    "it is longer than 64 MB; make a road file of it by: ali3 "
-                                    "road INPUT OUTPUT.road");
-  ali3_file_close(start->stream);
-  start->stream = NULL;
-  if (valid) {
-    start->identity = ali3_crc32(text, (size_t)size);
-    valid = ali3_road_table_read(text, (size_t)size, &t, allocate, start->release, message, message_size);
-  } else if (text != NULL) {
-    refuse(message, message_size, "it cannot be read");
-  }
-  if (text != NULL) start->release(text);
+  char *text = read_text(start, size, allocate, message, message_size);
+  if (text == NULL) return NULL;
+  start->identity = ali3_crc32(text, (size_t)size);
+  const int valid = ali3_road_table_read(text, (size_t)size, &t, allocate, start->release, message, message_size);
+  start->release(text);
   if (!valid) return NULL;
-  const ali3_road_header header = {.kind = GRID,
+  start->head = (ali3_road_header){.kind = GRID,
                                    .nx = t.nx,
                                    .ny = t.ny,
                                    .tile = ALI3_ROAD_TILE,
                                    .maps = t.maps,
                                    .real = {t.first[0], t.first[1], t.spacing[0], t.spacing[1], TABLE_FRICTION}};
-  *h = header;
-  const char *error = ali3_road_grid_problem(h);
+  const char *error = ali3_road_grid_problem(&start->head);
   ali3_road_file *file = NULL;
-  if (error != NULL)
+  if (error != NULL) {
     refuse(message, message_size, error);
-  else if (check_table(&t, message, message_size))
+  } else if (check_table(&t, message, message_size)) {
     file = allocate_file(start, 0, allocate);
+    if (file == NULL) refuse(message, message_size, NO_MEMORY);
+  }
   if (file == NULL) {
     start->release(t.values);
     return NULL;
@@ -293,7 +304,7 @@ ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t c
     start.n_slots = start.n_tiles < ALI3_TILES_NEAR ? (int32_t)start.n_tiles : ALI3_TILES_NEAR;
     const size_t size = (size_t)start.n_slots * start.tile_bytes;
     file = allocate_file(&start, size + (start.version == ALI3_ROAD_SHARED ? ALI3_MOST_RECORD : 0), allocate);
-    if (file == NULL) error = "there is not enough memory";
+    if (file == NULL) error = NO_MEMORY;
     if (file != NULL) file->record = file->slot + size;
   }
   if (error != NULL) {
