@@ -302,10 +302,10 @@ ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t c
     start.tiles_y = ali3_road_tiles_along(start.head.ny);
     start.n_tiles = ali3_road_tiles_along(start.head.nx) * start.tiles_y;
     start.n_slots = start.n_tiles < ALI3_TILES_NEAR ? (int32_t)start.n_tiles : ALI3_TILES_NEAR;
-    const size_t size = (size_t)start.n_slots * start.tile_bytes;
-    file = allocate_file(&start, size + (start.version == ALI3_ROAD_SHARED ? ALI3_MOST_RECORD : 0), allocate);
+    const size_t tile_memory = (size_t)start.n_slots * start.tile_bytes;
+    file = allocate_file(&start, tile_memory + (start.version == ALI3_ROAD_SHARED ? ALI3_MOST_RECORD : 0), allocate);
     if (file == NULL) error = NO_MEMORY;
-    if (file != NULL) file->record = file->slot + size;
+    if (file != NULL) file->record = file->slot + tile_memory;
   }
   if (error != NULL) {
     if (start.stream != NULL) ali3_file_close(start.stream);

@@ -197,7 +197,7 @@ static int read_values(reader *r, ali3_road_table *t, double *x, double *y) {
 }
 
 int ali3_road_table_read(const char *text, size_t size, ali3_road_table *t,
-                         void *(*allocate)(size_t count_cells, size_t size), void (*release)(void *block),
+                         void *(*allocate)(size_t count, size_t size), void (*release)(void *block),
                          char *message, size_t message_size) {
   reader r = {.position = text, .end = text + size, .message = message, .message_size = message_size};
   if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) r.position += 3;
