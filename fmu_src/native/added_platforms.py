@@ -71,7 +71,7 @@ def _identifier(fmu: Path, files: dict[str, bytes]) -> str:
 
 
 def _compiled(files: dict[str, bytes], targets: Sequence[str], folder: Path, library: str) -> bytes:
-    """The library; from the installed sources where the FMU has the same, since the compiler has kept their objects."""
+    """The library; from the installed sources if the FMU has the same, since the compiler has kept their objects."""
     sources = {name.removeprefix("sources/"): data for name, data in files.items() if name.startswith("sources/")}
     for path, data in sources.items():
         (folder / "sources" / path).parent.mkdir(parents=True, exist_ok=True)

@@ -117,7 +117,7 @@ class NativeContents:
 
     @property
     def generated(self) -> dict[str, str]:
-        """C that was generated for Systems by its name; those of one structure share it."""
+        """C that was generated for Systems, by its name; Systems of one structure share it."""
         return dict(self.code)
 
     @property
@@ -135,7 +135,7 @@ class NativeContents:
 
     @property
     def origin_text(self) -> list[str]:
-        """A paragraph of the documentation about `origin`; none where there is nothing."""
+        """A paragraph of the documentation about `origin`; empty if there is nothing to say."""
         if not self.origin:
             return []
         return [f"Made from the files that lie in it as {', '.join(sorted(self.origin))}."]

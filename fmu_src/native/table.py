@@ -121,7 +121,7 @@ def _generated(names: Sequence[str], systems: int) -> str:
 
 
 def _names(what: str, of_systems: Sequence[Sequence[str]]) -> str:
-    """Names of all Systems one after the other, and where those of each begin."""
+    """Names of all Systems one after the other, and where each System begins."""
     lines = "\n".join(f"    {c_string(name)}," for one in of_systems for name in one) or "    NULL,"
     first = ", ".join(str(sum(map(len, of_systems[:k]))) for k in range(len(of_systems) + 1))
     return (

@@ -8,7 +8,7 @@ static const double JUMP = 0.015; /* m; at 0.02 m a load has an error of a fifth
 
 static const double BEND = 1e-4; /* m; loads then have errors of up to 1.2 %, see docs/decisions/0091 */
 static const double FARTHEST =
-    4.0; /* limit of the squared distance of a wheel from its answer over that of two answers */
+    4.0; /* limit of the squared distance of a wheel from its answer, relative to the one between two answers */
 
 /* A normal that turns suddenly shows that one plane carries the load where ground and edge should. */
 static void check_turn(slave *s, size_t i) {

@@ -3,7 +3,7 @@
  * the slower one, by x/sqrt(1 + x^2) of the difference of their rates over LOCKING_RATE.
  * The rates of the wheels are absolute about the axis f x g; f, g are orthonormal on the frame. The reals are followed
  * by the total ratio of each gear, the highest gear last.
- * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step, then those of
+ * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step, then the states of
  * selector.h. Reverse is one gear, with the torque of a first gear of its ratio, reversed.
  * A requested shift begins with the step of the request, once the last shift has ended. The clutch is a friction clutch
  * after the converter, whose torque is at most 1 - pedal times the largest one of the drive in its gear; it slips above
@@ -96,8 +96,8 @@ static double clutch_share(ali3_element_args *a, double ratio, double wheel_torq
   return limit / fabs(wheel_torque);
 }
 
-/* Wheel torque in the direction of the selector, by the share that is engaged; without torque the engine runs up to its
- * limit speed. The torque of a slipping clutch does not depend on the speed. */
+/* Wheel torque in the direction of the selector, by the fraction that is engaged; without torque the engine runs up to
+ * its limit speed. The torque of a slipping clutch does not depend on the speed. */
 static double selector_torque(ali3_element_args *a, double ratio, double *slope, double *speed, double *engine,
                               int *direction) {
   const double *p = a->real, *q = selector_reals(a), throttle = throttle_input(a), W = wheel_rate(a);
@@ -167,7 +167,7 @@ static void shift_rates(const double *p, int gear, double throttle, double *up, 
   *down = (p[DOWN_CLOSED] + throttle * (p[DOWN_OPEN] - p[DOWN_CLOSED])) / p[AUTOMATIC_DRIVE_REALS + gear - 1];
 }
 
-/* Selects the gear for the speed from `gear` on, without a shift. */
+/* Selects the gear for the speed without a shift; the search begins at `gear`. */
 static void choose_gear(ali3_element_args *a, int gear, double rate) {
   const double *p = a->real, throttle = throttle_input(a);
   double up, down;

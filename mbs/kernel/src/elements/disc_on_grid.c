@@ -109,7 +109,7 @@ static double spacing_along(const ali3_grid *g, const double ahead[3]) {
   return 1.0 / (fabs(ahead[0]) / g->dx + fabs(ahead[1]) / g->dy);
 }
 
-/* Whether second differences of heights under the disc exceed BEND_LIMIT over its radius. */
+/* Whether second differences of heights under the disc exceed BEND_LIMIT / radius. */
 static int is_bent(const profile *p, double radius) {
   const double step = fmax(spacing_along(p->grid, p->ahead), 2.0 * radius / (MAX_SAMPLES - 4));
   const int half = (int)(radius / step) + 1;

@@ -7,7 +7,7 @@
 
 /* Friction saturates, and Newton's method with its exact, zero tangent may alternate between both signs. The secant of
  * friction over rate majorises it: with any tangent above half the secant each iteration is a descent. This is the
- * least share used. */
+ * least fraction used. */
 #define ALI3_SECANT_SHARE 0.55
 
 static inline real ali3_input_or_zero(const real *input, int32_t index) {

@@ -268,8 +268,8 @@ static double rolling(const ali3_magic_state *s, const terms *q, double Fx) {
   return moment > 0.0 ? moment : 0.0; /* outside its range a fit could become negative and drive the wheel */
 }
 
-/* Carcass stiffness, N/m: from the stiffnesses of the file (Besselink et al., eqs. 13 and 14), else slip stiffness over
- * relaxation length of the file, else over an assumed one. */
+/* Carcass stiffness, N/m: from the stiffnesses of the file (Besselink et al., eqs. 13 and 14), otherwise slip stiffness
+ * over relaxation length of the file, otherwise over an assumed one. */
 static void carcass_stiffness(const ali3_magic_state *s, const terms *q, const pure *x, const pure *y, double out[2]) {
   const double *c = s->c, dfz = q->dfz, load = s->load / q->nominal;
   const double along = load * (c[ALI3_MF_PTX1] + c[ALI3_MF_PTX2] * dfz) * ali3_exp(-c[ALI3_MF_PTX3] * dfz) * s->radius *

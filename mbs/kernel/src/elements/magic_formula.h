@@ -45,7 +45,7 @@ typedef struct {
   const double *c; /* coefficients by ALI3_MF_... */
   int32_t version, combined;
   double nominal_load, radius; /* N, m: FNOMIN, UNLOADED_RADIUS */
-  double load, camber, pressure; /* N, > 0; rad, axes of the file; pressure over the nominal one */
+  double load, camber, pressure; /* N, > 0; rad, axes of the file; pressure / nominal pressure - 1 */
   double friction[2]; /* factors on the peaks of the forces, beside LMUX and LMUY */
   double stiffness[2]; /* factors on the slip stiffnesses, beside LKX and LKY */
   double moving; /* factor on shifts, camber thrust and moments: 0 at rest to 1 */
@@ -68,7 +68,7 @@ typedef struct {
  * file. */
 void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, ali3_magic_force *out);
 
-/* Mx, My and Mz at the acting forces F in place of the steady ones. */
+/* Mx, My and Mz at the acting forces F instead of the steady ones. */
 void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_magic_force *out);
 
 /* Effective rolling radius, m, at a free radius (m, including growth by speed), stiffness at the nominal load (N/m) and

@@ -20,7 +20,7 @@ static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   return 1;
 }
 
-/* Type of a road: that of its file, otherwise its own. */
+/* Type of a road: from its file, otherwise its own. */
 static int32_t type_of(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_kind(road->file) : road->type;
 }

@@ -25,7 +25,7 @@ static const double *answer(const ali3_road *road, int32_t k) {
 
 static int32_t answers(const ali3_road *road) { return (int32_t)road->real[PORT_ANSWERS]; }
 
-/* A unit normal; upwards where the inputs give none, which no step accepts. */
+/* A unit normal; upwards if the inputs give none, which no step accepts. */
 static void normal_of(const double *given, double n[3]) {
   const bool good = ali3_is_road_normal(given) != 0;
   const double size = good ? ali3_norm(given) : 1.0;
@@ -56,8 +56,8 @@ static void slope_of_all(const ali3_road *road, double by[2]) {
   by[1] = (xx * yz - xy * xz) / size;
 }
 
-/* Slope of an answer beside its wheel: its own, which fades to that of the plane of all answers the steeper it is against
- * this plane, since an edge under a wheel ends beside it. */
+/* Slope of an answer beside its wheel: its own, which fades to the slope of the plane of all answers the steeper it is
+ * against this plane, since an edge under a wheel ends beside it. */
 static void slope_beside(const double *given, const double all[2], double by[2]) {
   slope_of(given, by);
   const double away[2] = {by[0] - all[0], by[1] - all[1]};

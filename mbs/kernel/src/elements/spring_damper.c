@@ -46,7 +46,7 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
 
 static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
 
-/* The onset of progressive stops has no kink and is no event. */
+/* The onset of progressive stops has no kink and is not an event. */
 static double event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
   if (has_progressive_stops(nreal)) return 1.0;
   return ali3_end_stops_event(real + STOPS, (double[]){from[0], to[0]}, (double[]){from[2], to[2]}, h);

@@ -19,7 +19,7 @@
  * direction.
  *
  * Camber acts as a lateral slip: v_s = v_y + camber_slip sin(gamma) r |Omega|, nothing at rest. That part of the force
- * has no trail. F acts on Omega by the same share, so that camber thrust takes its work from the spin.
+ * has no trail. F acts on Omega by the same factor, so that camber thrust takes its work from the spin.
  *
  * The tangent leaves out the coupling of load and horizontal force and the turning of the frames. */
 #include "../algebra/elementary.h"
@@ -58,7 +58,7 @@ static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
 }
 
 /* One step of the carcass with slip velocity v and transport speed w, m/s: force F, new states, and damping matrix C =
- * -dF/dv (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
+ * -dF/dv (symmetric part, not below the safe part of the secant) as xx, xy, yy. */
 static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2], real C[3],
                     real g[2], ali3_tyre_bore *bore) {
   const real *p = a->real, *c = p + TYRE_CARCASS_STIFFNESS, *d = p + TYRE_CARCASS_DAMPING, q = load_factor(p, contact);

@@ -179,7 +179,7 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
   allocate(g, &pool);
 }
 
-/* Copies a vector of each instance to the group; unused lanes get that of the first. */
+/* Copies a vector of each instance to the group; unused lanes get the vector of the first. */
 #define PUT(g, to, n, in, from)                                                                                        \
   do {                                                                                                                 \
     const double *vector[ALI3_MOST_LANES];                                                                             \
@@ -201,7 +201,7 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
     (g)->code->collect(vector, from, n);                                                                               \
   } while (0)
 
-/* End of the run of elements from e on that are all evaluated in vectors, or all one by one. */
+/* End of the run of elements that begins at e, all evaluated in vectors or all one by one. */
 static int32_t end_of_run(const ali3_lane_group *g, int32_t e) {
   int32_t end = e + 1;
   while (end < g->system->size.ne && g->by_law[end] == g->by_law[e]) end++;

@@ -4,7 +4,7 @@
  * Jump: where all arms of a ring are nearly aligned, branches of the solution are close to each other. A step there in
  * which a triad changes its sign is repeated in 4 parts, up to the part in which it has changed, and, if they do not
  * change it, in 8: if both agree with each other but not with the step, the step has jumped to another branch. On a
- * smooth branch all three agree. The state and the work arrays after the check are those of the undivided step. */
+ * smooth branch all three agree. The state and the work arrays after the check belong to the undivided step. */
 #include <math.h>
 #include <string.h>
 
@@ -20,7 +20,7 @@
 #include "steps.h"
 
 static const double ALIGNED_SINE = 0.25; /* squared sine of the angles of a ring below which branches may be close */
-static const double DIFFERENT = 0.5; /* a larger share of the change of a sine is a difference between branches */
+static const double DIFFERENT = 0.5; /* a larger fraction of the change of a sine is a difference between branches */
 static const double MAX_TURN = 0.2; /* largest change of a sine in a controlled step near other branches */
 static const double SAFETY = 0.65, DIFFERENT_SHARE = 0.25; /* factors of the step after a large turn, after a jump */
 enum { FEW = 4, MANY = 8, SAMPLES = 8 };
@@ -187,7 +187,7 @@ static void report_left_modes(ali3_instance *in, double t) {
 
 /* Largest change of a sine in an aligned ring of which a triad changes its sign in the controlled step, 0: there is
  * none. Signs at samples within the step are interpolated, as folded arms may turn little while another joint of the
- * ring changes its branch. *sample: the sample, from 1 on, at which the sign changes. */
+ * ring changes its branch. *sample: number of the sample, the first is 1, at which the sign changes. */
 static double ring_turn(ali3_instance *in, double h, int *sample) {
   const ali3_system *S = in->system;
   const size_t size = (size_t)ali3_triad_count(S) * sizeof(double);
@@ -219,7 +219,7 @@ static double ring_turn(ali3_instance *in, double h, int *sample) {
 
 /* Checks the accepted controlled step of in->kept.origin, in->kept.centre and in->now for a jump between close
  * branches: it turns a ring too far, or MANY shorter steps end elsewhere; the step and its halves may have jumped in
- * the same way. Returns the share of the step that may be made, 1: all. */
+ * the same way. Returns the fraction of the step that may be made, 1: all. */
 double ali3_branch_share(ali3_instance *in, const ali3_measure *measure, double t, double h) {
   const int32_t nq = in->system->size.nq;
   int sample = 0;

@@ -59,7 +59,7 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
 }
 
 /* Adds a step to in->next with its kinetic energy and energy error, J, to the balance; the remaining change of energy
- * is work. `weight`: energy of gravity, J, known for Systems without flexible and tabled bodies, else NULL. */
+ * is work. `weight`: energy of gravity, J, known for Systems without flexible and tabled bodies, otherwise NULL. */
 void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight) {
   ali3_report *r = &in->report;
   const double energy = kinetic + potential(in, &in->next, weight);

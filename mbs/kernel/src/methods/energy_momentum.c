@@ -37,7 +37,7 @@ static const double REFACTORISE_ERROR = 10.0; /* tolerances: also if two more it
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
 static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 50.0; /* of the tolerance; s^-1 */
 static const double EPS_SHARE = 1e-3; /* of eps_rel */
-/* Limits of the correction relative to accelerations: share of the error of the method, round-off. */
+/* Limits of the correction relative to accelerations: fraction of the error of the method, round-off. */
 static const double SHARE = 1e-2, ROUND_OFF = 1e-12;
 static const double SIGN_CHANGE = 1e5, MAX_RAISE = 100.0; /* of penalties */
 /* Factors of the penalty; the last attempt is not stopped when it diverges. */
@@ -198,7 +198,7 @@ static double relative_correction(const ali3_instance *in) {
   return size > 0.0 ? sqrt(change / size) : 0.0;
 }
 
-/* Limit of relative_correction for a sub-step of order four: a share of the error of the method, the fourth power of
+/* Limit of relative_correction for a sub-step of order four: a fraction of the error of the method, the fourth power of
  * the change of accelerations between sub-steps. A tolerance in metres would spoil the order at small steps. */
 static double correction_limit(const ali3_instance *in, double h) {
   const ali3_vectors *v = &in->now;

@@ -79,7 +79,7 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
     ali3_forces(in, &call);
     status = ali3_index_one_solve(in, in->step.Q, in->step.gamma, ROUND_OFF, v->qdd, v->lam);
   }
-  in->report.factorizations = factorizations; /* those of steps are counted */
+  in->report.factorizations = factorizations; /* factorizations of steps are counted */
   in->report.solves = solves;
   return status;
 }

@@ -6,8 +6,8 @@
 #include "energy_balance.h"
 #include "energy_watch.h"
 
-/* Largest energy errors over the kinetic energy: of a requested step, and of a part that can be halved again. A part
- * that cannot has the limit of a requested step, as otherwise a series of short steps would pass where a long one
+/* Largest energy errors relative to the kinetic energy: of a requested step, and of a part that can be halved again. A
+ * part that cannot has the limit of a requested step, as otherwise a series of short steps would pass where a long one
  * fails. */
 static const double MAX_SHARE = 0.1, MAX_SHARE_OF_PART = 0.02;
 static const double MAX_ENERGY = 1e100; /* J */

@@ -1,6 +1,6 @@
-/* Step sizes from the error: the error of each step may be its share of the tolerance (error per unit step), so that
- * the errors of a run add up to the tolerance. Where a shorter step does not reduce the error in proportion (a kink of
- * a force, a velocity jump at a singular position) its error may be a fixed share, and where the error does not
+/* Step sizes from the error: the error of each step may be its part of the tolerance (error per unit step), so that the
+ * errors of a run add up to the tolerance. Where a shorter step does not reduce the error in proportion (a kink of a
+ * force, a velocity jump at a singular position) its error may be a fixed fraction, and where the error does not
  * decrease at all the step is accepted and counted. Proportional-integral controller of Gustafsson 1991 (Hairer,
  * Wanner, "Solving Ordinary Differential Equations II", second edition, IV.2). */
 #include <math.h>
@@ -21,7 +21,7 @@
 static const double MIN_SHARE = 1e-3; /* of the tolerance */
 static const double TARGET = 0.4; /* of the allowed error of a step */
 static const double PROPORTIONAL = 0.4, INTEGRAL = 0.7;
-static const double AFTER_OVER_SHARE = 1.5; /* factor of the step after one accepted above its share */
+static const double AFTER_OVER_SHARE = 1.5; /* factor of the step after one accepted above its part */
 static const double SHRINK = 0.15, GROW = 4.0, MOST_OF_REJECTED = 0.9, AFTER_FAILURE = 0.25;
 /* Shortest steps, relative to the time scale of the motion: for the error, as round-off of index three grows in shorter
  * ones, and for convergence. */
@@ -29,12 +29,12 @@ static const double SHORTEST[] = {
     [ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_COLLOCATION] = 1e-6, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
 static const double SHORTEST_TRIED[] = {
     [ALI3_ROUND_OFF_INDEX_3] = 1e-6, [ALI3_ROUND_OFF_COLLOCATION] = 1e-7, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
-/* Ratios of the errors of two trials: at a kink, over the ratio of their steps; at a jump of velocity. */
+/* Ratios of the errors of two trials: at a kink, divided by the ratio of their steps; at a jump of velocity. */
 static const double KINK_RATIO = 0.5, KICK_RATIO = 0.7;
-enum { MAX_KICKS = 2 };                         /* in one step */
+enum { MAX_KICKS = 2 }; /* in one step */
 static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
-static const double FIRST_STEP = 1e-3;       /* first step over the span, if none is given */
+static const double FIRST_STEP = 1e-3; /* first step / span, if none is given */
 static const double ROAD_LENGTHS = 0.05; /* largest path in a step, in lengths: bumps within a step are missed */
 static const double MIN_ERROR = 1e-4; /* of the allowed error of a step: smaller errors are round-off */
 
@@ -108,7 +108,7 @@ typedef struct {
 
 enum { REJECT = 0, ACCEPT, OVER_SHARE, FORCE };
 
-/* Verdict on a step of h by its error: REJECT, ACCEPT, OVER_SHARE (accepted, though above its share), FORCE (accepted
+/* Verdict on a step of h by its error: REJECT, ACCEPT, OVER_SHARE (accepted, though above its part), FORCE (accepted
  * above the tolerance). Much shorter steps than usual occur at singular positions, where with index three shorter ones
  * gain little and end in round-off. */
 static int judge_error(const ali3_control *c, step_trials *trials, double h, double error, bool is_shortest) {

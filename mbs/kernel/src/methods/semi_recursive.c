@@ -40,7 +40,7 @@ static void store(const ali3_instance *in, double *state) {
   for (int32_t j = 0; j < T->n; j++) *order++ = w->column_order[j];
 }
 
-/* Whether v has the n different integers from `first` on, as a restored state may have other values. */
+/* Whether v is a permutation of the n integers first, first + 1, ..., as a restored state may have other values. */
 static bool permutation(const double *v, int32_t n, int32_t first, int32_t *out) {
   bool used[ALI3_LANES] = {false};
   for (int32_t i = 0; i < n; i++) {

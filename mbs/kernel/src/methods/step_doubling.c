@@ -27,8 +27,7 @@ static double unit_length(const ali3_measure *measure, int32_t i) {
   return measure->scale != NULL ? measure->scale[i] : 1.0;
 }
 
-/* Largest of |q_i| and, for coordinates with mass, |qd_i| over the rate (1/s), relative to the length of the
- * control. */
+/* Largest of |q_i| and, for coordinates with mass, |qd_i| / rate (1/s), relative to the length of the control. */
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate) {
   const ali3_system *S = in->system;
@@ -41,8 +40,8 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
   return largest / measure->control->length;
 }
 
-/* Reference rate of velocities, 1/s: that of the present motion, at least the given one. `all`: includes coordinates
- * without mass, such as driven angles. */
+/* Reference rate of velocities, 1/s: of the present motion, at least the given one. `all`: includes coordinates without
+ * mass, such as driven angles. */
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all) {
   const ali3_system *S = in->system;
   double largest = 0.0;

@@ -1,10 +1,10 @@
 /* Interpolation between the points of a grid. A cubic through a step exceeds the range of its ends by 4/27 of half the
  * step: it dips before a rise and bulges before a drop. Where that is more than MAX_OVERSHOOT of the spacing, beyond a
  * parabola through the ends, the slope at the point is limited to slopes for which the cubic stays in the range (F. N.
- * Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246) or to twice that of the parabola with
- * the smaller one of the curvatures at both ends (A. Suresh, H. T. Huynh, Journal of Computational Physics 136, 1997,
- * 83-99), which preserves the crests of smooth roads; the twist at that point is zero. Slopes belong to points, so that
- * the patches around one are C1. */
+ * Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246) or to twice the slope of the parabola
+ * with the smaller one of the curvatures at both ends (A. Suresh, H. T. Huynh, Journal of Computational Physics 136,
+ * 1997, 83-99), which preserves the crests of smooth roads; the twist at that point is zero. Slopes belong to points,
+ * so that the patches around one are C1. */
 #include "grid.h"
 
 #include <math.h>
@@ -142,7 +142,7 @@ static int may_be_limited(const ali3_grid *g, const double v[4][4]) {
   return 0;
 }
 
-/* Reads heights of n x n points from the indices i, j on; outside the grid those of the border. */
+/* Reads heights of n x n points, the first at the indices i, j; outside the grid heights of the border. */
 static void read_heights(const ali3_grid *g, int i, int j, int n, double *v) {
   if (g->file == NULL || i < 0 || j < 0 || i + n > g->nx || j + n > g->ny) {
     for (int k = 0; k < n; k++)

@@ -1,5 +1,5 @@
 /* Assembly modes of closed loops. At each joint between two moving bodies of a loop the arms to the joints before and
- * after it make an angle, seen along an axis n; its sine is zero where the two bodies lie in line. A mode is a
+ * after it make an angle, seen along an axis n; its sine is zero when the two bodies lie in line. A mode is a
  * combination of signs of sines and cosines that compile found to belong together (mbs/compiler/assembly_modes.py). */
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "../instance.h"
 #include "assembly_mode.h"
 
-static const double DEFINITE = 0.15 * 0.15; /* square of a sine or cosine from which on a sign counts: as compile's */
+static const double DEFINITE = 0.15 * 0.15; /* square of a sine or cosine above which a sign counts: as in `compile` */
 static const double NOTHING = 1e-24; /* of the squares of the lengths: arms without an angle, along the axis */
 
 enum { SIGNALS = 9, KIND = 9, RING = 10, ITEMS = ALI3_TRIAD_ITEMS };

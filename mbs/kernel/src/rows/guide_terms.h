@@ -4,7 +4,7 @@
 #include "../algebra/real.h"
 #include "../instance.h"
 
-/* 1 where there is no coordinate. */
+/* 1 if there is no coordinate. */
 static inline real value_of(const real *q, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(1.0) : q[coordinate];
 }
@@ -58,7 +58,7 @@ static inline void guide_gamma(const ali3_system *S, const real *q, const real *
                    guide_factor(g, guides->s), guide_rate(g, guides), guide_second_rate(g, guides));
 }
 
-/* F += weight * lam w of each, twice where a and b are the same. */
+/* F += weight * lam w of each, twice if a and b are the same. */
 static inline void guide_geometric(const ali3_system *S, const real *s, const real *lam, double weight, real *F) {
   for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++) {
     if (g->term.pos < 0) continue;

@@ -46,7 +46,7 @@ static double current_depth(const ali3_instance *in, int32_t e) {
   return in->system->el_kind[e]->depth != NULL ? depth(in, in->roads.used, in->now.q, e, 0.0, &cosine) : -INFINITY;
 }
 
-/* Rise, searched from `from` on, at which element e at q is as deep as `target_depth`, m. */
+/* Rise, searched upwards from `from`, at which element e at q is as deep as `target_depth`, m. */
 static double find_rise(const ali3_instance *in, const double *q, int32_t e, double from, double target_depth) {
   double rise = from, cosine = 1.0;
   for (int k = 0; k < MOST_MOVES; k++) {

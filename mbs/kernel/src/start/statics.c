@@ -22,7 +22,7 @@
 
 static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
 static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 */
-static const double PENALTY = 1e9; /* c alpha, equal to that of a step with eps_rel = 2.5e-10 */
+static const double PENALTY = 1e9; /* c alpha, as of a step with eps_rel = 2.5e-10 */
 static const double CLOSED = 1e-10; /* m */
 static const double OPEN = 1e-2; /* m: violation above which c does not increase */
 /* Iterations after which c is reduced if rows close slowly because c K is large relative to PENALTY. */
@@ -33,7 +33,7 @@ static const double ROUND_OFF = 1e-12; /* of the largest force */
 static const double TURNED = 1e-12, HELD = 1e-6;
 
 /* Residual of the forces at rest, g = Phi_q' lam - Q, in in->step.r. Stores the largest |g_i| in the report; returns
- * it, or 0 within round-off. `h`: of the step from the drawing, or 0. */
+ * it, or 0 within round-off. `h`: size of the step from the drawing, or 0. */
 static double evaluate_residual(ali3_instance *in, double c, double h) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;

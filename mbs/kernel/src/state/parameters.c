@@ -74,8 +74,8 @@ ali3_status ali3_parameters_apply(ali3_instance *in) {
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
 }
 
-/* Sets all values (size.np doubles at any address) if the data they write are valid, else keeps the present ones; in
- * both cases the previous values are in parameters.work afterwards. */
+/* Sets all values (size.np doubles at any address) if the data they write are valid, otherwise keeps the present ones;
+ * in both cases the previous values are in parameters.work afterwards. */
 bool ali3_parameters_take(ali3_instance *in, const void *values) {
   const size_t size = (size_t)in->system->size.np * sizeof(double);
   memcpy(in->parameters.work, in->parameters.value, size);

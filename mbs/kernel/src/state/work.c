@@ -4,9 +4,9 @@
  * Trapezoidal rule: D'(f0 + f1)/2 with the forces of the converged Newton iteration. Energy-momentum: D'f of the
  * middle, where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages.
  *
- * The work of guides is stored after that of the elements: with ALi3-P and generalised-alpha from the energy balance
- * (../methods/constraint_work.c), with energy-momentum and Radau from the forces of driven rows along their guides,
- * with Runge-Kutta from the powers of the stages, and in relative coordinates as the mean of the powers at both
+ * The work of guides is stored after the work of the elements: with ALi3-P and generalised-alpha from the energy
+ * balance (../methods/constraint_work.c), with energy-momentum and Radau from the forces of driven rows along their
+ * guides, with Runge-Kutta from the powers of the stages, and in relative coordinates as the mean of the powers at both
  * ends. */
 #include <string.h>
 

@@ -278,7 +278,7 @@ static void derive_stretch_terms(ali3_system *s, int32_t k) {
   }
 }
 
-/* First terms of each entry of row k from which on its coordinates are consecutive. */
+/* First terms of each entry of row k from which its coordinates are consecutive. */
 static void derive_runs(ali3_system *s, int32_t k) {
   const bool any = s->row_stretch[k] < s->row_ptr[k + 1];
   for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {

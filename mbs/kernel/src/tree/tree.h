@@ -1,6 +1,6 @@
 /* Relative coordinates along a spanning tree of the bodies, shared by the files of the semi-recursive method.
- * Quantities are in earth axes with respect to the origin of the earth, so that those of bodies add up along the tree
- * without transformations. Most are arrays over bodies ("lanes"), body 0 is the ground; loops over lanes have no
+ * Quantities are in earth axes with respect to the origin of the earth, so that quantities of bodies add up along the
+ * tree without transformations. Most are arrays over bodies ("lanes"), body 0 is the ground; loops over lanes have no
  * branches and no dependence between bodies, recursions along the tree have few operations. */
 #ifndef ALI3_TREE_H
 #define ALI3_TREE_H
