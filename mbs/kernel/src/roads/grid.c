@@ -20,6 +20,7 @@ enum { MAX_POINTS = 400 }; /* read by ali3_grid_top */
 #define OVERSHOOT 0.35     /* relative bound by which a bicubic patch exceeds the range of its values */
 enum { AROUND = 6 };       /* points along a side that slopes at the corners of a cell depend on */
 
+/* Index of the cell at s, in spacings; beyond the border the outermost cell. */
 static int cell_of(double s, int n) { return s >= (double)(n - 1) ? n - 2 : s > 0.0 ? (int)s : 0; }
 
 /* Cubic Hermite weights (slopes by central differences, one-sided at the border) of values first..first+3 (clamped to
@@ -35,16 +36,19 @@ ALI3_INLINED void cubic(double s, int n, double w[4], double dw[4]) {
   if (outside) dw[0] = dw[1] = dw[2] = dw[3] = 0.0; /* constant beyond the border */
 }
 
+/* Height of point (i, j), m. */
 static double height(const ali3_grid *g, int32_t i, int32_t j) {
   return g->file != NULL ? ali3_road_file_height(g->file, i, j) : g->z[(int64_t)i * g->ny + j];
 }
 
+/* Friction of point (i, j). */
 static double friction(const ali3_grid *g, int32_t i, int32_t j) {
   return g->file != NULL ? ali3_road_file_friction(g->file, i, j) : g->mu[(int64_t)i * g->ny + j];
 }
 
 static int32_t clamped_index(int32_t i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
 
+/* The smaller slope; 0 if the signs differ. */
 static double smaller(double a, double b) { return a * b > 0.0 ? (fabs(a) < fabs(b) ? a : b) : 0.0; }
 
 /* Limits low..high to slopes with which a segment of difference d stays in its range, or follows a parabola. */
@@ -187,6 +191,7 @@ static void load_friction(const ali3_grid *g, ali3_cell *cell) {
     for (int j = 0; j < 2; j++) cell->friction[i][j] = friction(g, cell->i + 1 + i, cell->j + 1 + j);
 }
 
+/* Whether a cell holds the values of cell (i0, j0). */
 static int is_loaded(const ali3_cell *cell, int i0, int j0) { return cell->held && cell->i == i0 && cell->j == j0; }
 
 /* Loads a cell; cells of a file are stored with it, unless a tile could not be read. */
@@ -203,7 +208,7 @@ static void load_cell(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
   }
   fill_cell(g, cell, i0, j0);
   load_friction(g, cell);
-  if (ali3_road_file_lost(g->file) == NULL) *stored = *cell;
+  if (ali3_road_file_read_error(g->file) == NULL) *stored = *cell;
 }
 
 /* Loads the cell at a point; s: its position in spacings from the first point. */

@@ -40,18 +40,18 @@ const double *ali3_road_file_reals(const ali3_road_file *file);
 void ali3_road_file_size(const ali3_road_file *file, int32_t *nx, int32_t *ny);
 uint32_t ali3_road_file_identity(const ali3_road_file *file); /* checksum of its content */
 
-/* Height and friction of a point of the grid; 0 if its tile cannot be read, and the file counts as lost. */
+/* Height and friction of a point of the grid; 0 and a read error if its tile cannot be read. */
 double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j);
 /* Heights of the points beginning with (i, j), rows apart by `stride`; `size`, rows and columns, is reduced to one
- * tile. NULL: lost. */
+ * tile. NULL: read error. */
 const double *ali3_road_file_block(ali3_road_file *file, int32_t i, int32_t j, int32_t size[2], int32_t *stride);
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j);
 /* Storage for the cell with the indices i, j before its first corner, shared with all cells that are multiples of 16
  * apart. */
 ali3_cell *ali3_road_file_cell(const ali3_road_file *file, int32_t i, int32_t j);
 
-/* NULL, or the reason why the last tile could not be read, a sentence without its full stop. */
-const char *ali3_road_file_lost(const ali3_road_file *file);
-void ali3_road_file_forgive(ali3_road_file *file); /* clears the loss */
+/* NULL, or why the last tile could not be read, a sentence without its full stop. */
+const char *ali3_road_file_read_error(const ali3_road_file *file);
+void ali3_road_file_clear_read_error(ali3_road_file *file);
 int64_t ali3_road_file_reads(const ali3_road_file *file); /* tiles read so far */
 #endif

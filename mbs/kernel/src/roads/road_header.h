@@ -6,6 +6,7 @@
 
 #include "road_file.h"
 
+enum { ALI3_FILE_PLANE, ALI3_FILE_KERB, ALI3_FILE_GRID }; /* kinds, numbers as in elements/road.h */
 enum { ALI3_ROAD_TRAILER = 16 }; /* bytes of a tile of version 1 after its values */
 
 typedef struct { /* byte 16 and after */
