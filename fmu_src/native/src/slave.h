@@ -89,9 +89,9 @@ typedef enum { /* bits, for masks of allowed calls */
                SLAVE_TERMINATED = 16
 } slave_phase;
 
-enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MOST_TEXT = 1024 };
-enum { SLAVE_TERMS = SLAVE_MOST_ORDERS + 1 }; /* Taylor terms of an input, order 0 included, see slopes.c */
-typedef char slave_text_value[SLAVE_MOST_TEXT]; /* padded with zeros */
+enum { SLAVE_MAX_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MAX_TEXT = 1024 };
+enum { SLAVE_TERMS = SLAVE_MAX_ORDERS + 1 }; /* Taylor terms of an input, order 0 included, see slopes.c */
+typedef char slave_text_value[SLAVE_MAX_TEXT]; /* padded with zeros */
 
 typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
@@ -301,7 +301,7 @@ static inline void slave_invalidate(slave *s) {
 }
 
 /* work.c: the limit of work in a call, from which the kernel subtracts its own */
-#define SLAVE_MOST_WORK 2000000 /* a million steps of one iteration each: half a minute of a rigid car */
+#define SLAVE_MAX_WORK 2000000 /* a million steps of one iteration each: half a minute of a rigid car */
 void slave_reset_work(slave *s);
 double slave_steps_left(const slave *s); /* inner steps of one iteration each */
 const slave_variable *slave_settling(const slave *s); /* settling time of the start; NULL: it is zero */

@@ -167,7 +167,7 @@ struct ali3_system {
 };
 
 /* Items of a triad in mode_triad (9 signals, kind, ring), and most triads of a loop. */
-enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 };
+enum { ALI3_TRIAD_ITEMS = 11, ALI3_MAX_TRIADS = 15 };
 
 /* The larger one of the System as loaded and the System of instances with other axes. */
 static inline const ali3_system *ali3_widest_system(const ali3_system *s) { return s->turned != NULL ? s->turned : s; }

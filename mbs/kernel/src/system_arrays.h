@@ -328,7 +328,7 @@
     "from its perpendicular; bit 1: n is z and the arms lie in the plane), number of its ring in the loop") \
   X(INTEGERS, mode_cell_ptr, MAY, n_mode_ptr, OFFSETS(mode_cell), \
     "modes of a loop; a loop without modes is watched for jumps only") \
-  X(INTEGERS, mode_cell, MAY, ANY, BELOW(1 << 2 * ALI3_MOST_TRIADS), \
+  X(INTEGERS, mode_cell, MAY, ANY, BELOW(1 << 2 * ALI3_MAX_TRIADS), \
     "modes as pairs (signs, mask): bits 2k and 2k+1 say that sine and cosine of the angle of triad k are positive") \
   X(INTEGERS, mode_name_ptr, MAY, IF_ANY(n_mode_ptr, n_triad + 1), OFFSETS(mode_name), \
     "name of the joint of each triad") \

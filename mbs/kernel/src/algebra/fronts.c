@@ -152,6 +152,7 @@ ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_
   return ALI3_OK;
 }
 
+/* Eliminates the n_pivot pivots of a front of n coordinates, panel by panel. */
 ALI3_INLINED ali3_status eliminate(ali3_instance *in, real *block, int32_t first, int32_t n_pivot, int32_t n) {
   ali3_status status = ALI3_OK;
   int32_t p = 0;
@@ -196,6 +197,7 @@ ALI3_INLINED void assemble(const real *block, const int32_t *map, int32_t n_pivo
 }
 
 #ifndef ALI3_WIDTH
+/* Factorises by generated code. */
 static ali3_status factorise_generated(ali3_instance *in, double *F) {
   double pivot;
   const int32_t bad = in->system->generated.factorise(F, in->mass.floor, &in->report.negative_pivots, &pivot);

@@ -27,12 +27,15 @@ enum { STATES = 4 };
  * IN_GEAR on the gear, 0 for none, the number of gears + 1 for reverse; slipping clutch. */
 enum { TURNS = 1, CONVERTS = 2, BY_POWER = 4, LIMITED = 8, CUT_OFF = 16, IN_GEAR = 32, SLIPS = 1 << 16 };
 
+/* Gear, 1 to `gears`, of a state. */
 static int gear_of(double slot, int gears) { return slot >= gears ? gears : slot >= 1.0 ? (int)slot : 1; }
 
+/* Rotation rate of the carrier about the axle, rad/s. */
 static double frame_rate(const ali3_element_args *a) {
   return 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
 }
 
+/* Mean rate of both wheels relative to the carrier, rad/s. */
 static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
 
 /* Requested gear, 0 for none. */
@@ -42,6 +45,7 @@ static int requested_gear(const ali3_element_args *a) {
              : 0;
 }
 
+/* Throttle, 0 to 1. */
 static double throttle_input(const ali3_element_args *a) {
   return ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
 }
@@ -85,8 +89,8 @@ static const double *selector_reals(const ali3_element_args *a) { return a->real
 
 static double selector_input(const ali3_element_args *a) { return a->input[a->integer[SELECTOR]]; }
 
-/* Share of the torque of a gear that its clutch transmits, 1 if it does not slip. */
-static double clutch_share(ali3_element_args *a, double ratio, double wheel_torque) {
+/* Fraction of the torque of a gear that its clutch transmits, 1 if it does not slip. */
+static double clutch_fraction(ali3_element_args *a, double ratio, double wheel_torque) {
   const double *p = a->real, pedal = a->nint > CLUTCH ? ali3_clamp(a->input[a->integer[CLUTCH]], 0.0, 1.0) : 0.0;
   if (!(pedal > 0.0)) return 1.0;
   const double limit =
@@ -101,22 +105,22 @@ static double clutch_share(ali3_element_args *a, double ratio, double wheel_torq
 static double selector_torque(ali3_element_args *a, double ratio, double *slope, double *speed, double *engine,
                               int *direction) {
   const double *p = a->real, *q = selector_reals(a), throttle = throttle_input(a), W = wheel_rate(a);
-  double share;
+  double engaged;
   *direction =
-      ali3_selector_step(a->y_old + STATES, a->y_new + STATES, selector_input(a), a->h / q[ENGAGE_TIME], &share);
+      ali3_selector_step(a->y_old + STATES, a->y_new + STATES, selector_input(a), a->h / q[ENGAGE_TIME], &engaged);
   const double unloaded = p[IDLE_SPEED] + throttle * (p[LIMIT_SPEED] - p[IDLE_SPEED]);
   *slope = *engine = 0.0;
   *speed = unloaded;
   if (*direction == 0) return 0.0;
   const double sign = *direction, geared = sign < 0.0 ? q[REVERSE_RATIO] : ratio;
   const double wheel_torque = torque(p, geared, throttle, sign * W, slope, speed, engine, &a->piece);
-  const double transmitted = clutch_share(a, geared, wheel_torque);
+  const double transmitted = clutch_fraction(a, geared, wheel_torque);
   if (transmitted < 1.0) *slope = 0.0;
-  share *= transmitted;
-  *slope *= share;
-  *engine *= share;
-  *speed = share * *speed + (1.0 - share) * unloaded;
-  return sign * share * wheel_torque;
+  engaged *= transmitted;
+  *slope *= engaged;
+  *engine *= engaged;
+  *speed = engaged * *speed + (1.0 - engaged) * unloaded;
+  return sign * engaged * wheel_torque;
 }
 
 /* Transfers torque up to `limit` from the faster wheel to the slower one. */

@@ -162,7 +162,7 @@ static void friction_force(ali3_element_args *a, const double local[3], const no
     along[j] = (trial[0] * row[0][j] + trial[1] * row[1][j]) / trial_size;
     across[j] = (trial[0] * row[1][j] - trial[1] * row[0][j]) / trial_size;
   }
-  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_SHARE * D * scale, along);
+  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_FRACTION * D * scale, along);
   ali3_add_outer(a->S, SIGNALS, a->wC * D * scale, across);
 }
 

@@ -70,14 +70,14 @@ static double selector_of(const ali3_element_args *a) { return a->input[a->integ
 
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real;
-  double share = 1.0;
+  double engaged = 1.0;
   const int direction =
-      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_of(a), a->h / p[ENGAGE_TIME], &share) : 1;
+      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_of(a), a->h / p[ENGAGE_TIME], &engaged) : 1;
   const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
   torque m = {0.0, 0.0, 0u};
   if (direction != 0) {
     m = motor(p, throttle, direction * speed, direction < 0);
-    m = (torque){direction * share * m.value, share * m.slope, m.piece};
+    m = (torque){direction * engaged * m.value, engaged * m.slope, m.piece};
   }
   const torque wheels = geared(p[GEAR_EFFICIENCY], m, speed);
   const double total = p[RATIO] * wheels.value, slope = p[RATIO] * p[RATIO] * wheels.slope;

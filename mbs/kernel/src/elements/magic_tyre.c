@@ -115,7 +115,7 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
     const double theta = ali3_theta(a->h, c / (d[i] + g[i])), b = a->h * theta;
     offset[i] = c * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c;
-    safe[i] = ALI3_SECANT_SHARE * D[i] * (g[i] / (g[i] + D[i]));
+    safe[i] = ALI3_SECANT_FRACTION * D[i] * (g[i] / (g[i] + D[i]));
     r.F[i] = D[i] / (g[i] + D[i]) * f.F[i] + g[i] / (g[i] + D[i]) * offset[i];
     const double by_g = D[i] / (g[i] + D[i]) * ((offset[i] - f.F[i]) / (g[i] + D[i]));
     for (int j = 0; j < 2; j++) J[i][j] = D[i] / (g[i] + D[i]) * f.J[i][j] + by_g * g_by[i][j];

@@ -19,10 +19,12 @@ int ali3_is_road_normal(const double n[3]) {
   return fabs(size - 1.0) <= OFF_UNIT && n[2] >= UPRIGHT * size;
 }
 
+/* Inputs of answer k of a road at a port. */
 static const double *answer(const ali3_road *road, int32_t k) {
   return *road->input + (int64_t)road->real[PORT_FIRST + k];
 }
 
+/* Number of answers. */
 static int32_t answers(const ali3_road *road) { return (int32_t)road->real[PORT_ANSWERS]; }
 
 /* A unit normal; upwards if the inputs give none, which no step accepts. */
@@ -32,6 +34,7 @@ static void normal_of(const double *given, double n[3]) {
   for (int i = 0; i < 3; i++) n[i] = good ? given[i] / size : (i == 2);
 }
 
+/* Slopes dz/dx, dz/dy of the plane of an answer. */
 static void slope_of(const double *given, double by[2]) {
   double n[3];
   normal_of(given + PORT_NORMAL, n);

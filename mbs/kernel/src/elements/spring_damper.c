@@ -31,7 +31,7 @@ static void discrete(ali3_element_args *a) {
   const double k = p[STIFFNESS] * p[STIFFNESS_FACTOR];
   const double c = p[DAMPING] * p[DAMPING_FACTOR];
   const ali3_line line = ali3_line_between(a);
-  if (line.length <= ALI3_SHORTEST) return;
+  if (line.length <= ALI3_MIN_LENGTH) return;
   ali3_tension t = {.elastic = k * (line.length - p[FREE_LENGTH]), .stiffness = k, .damping = c};
   ali3_end_stops_between(p + STOPS, has_progressive_stops(a->nreal), line.start, line.end, line.rate, &t);
   ali3_line_force(a, &line, t.elastic + c * line.rate, t.stiffness, t.damping);

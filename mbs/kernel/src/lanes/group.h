@@ -37,7 +37,7 @@ struct ali3_lane_group {
   const ali3_system *system;
   const ali3_lane_code *code;
   int32_t width, used; /* number of lanes, and of lanes with an instance */
-  ali3_instance *lane[ALI3_MOST_LANES];
+  ali3_instance *lane[ALI3_MAX_LANES];
   ali3_settings settings; /* the same for all lanes */
   ali3_rule rule;
   double h, alpha;

@@ -12,6 +12,7 @@
 #include "../methods/projection.h"
 #include "../rows/turning.h"
 
+/* Lanes in which all n numbers are finite. */
 static truth all_finite(const real *v, int32_t n) {
   real sum = {0}; /* v - v is 0 for finite v, otherwise NaN */
   for (int32_t i = 0; i < n; i++) sum += v[i] - v[i];
@@ -159,6 +160,7 @@ static truth update_residual(ali3_lane_group *in) {
   return (*in->residual < 1e300) & (*in->violation < 1e300);
 }
 
+/* Lanes in which all rows hold within the tolerance. */
 static truth rows_are_closed(const ali3_lane_group *in) {
   const ali3_system *S = in->system;
   truth open = {0};

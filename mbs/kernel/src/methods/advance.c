@@ -61,12 +61,12 @@ static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   ali3_back_up(in);
   const int64_t made = in->report.iterations;
   const bool at_event = in->parting.event < 1.0;
-  const double share = at_event ? in->parting.event : 0.5;
+  const double fraction = at_event ? in->parting.event : 0.5;
   ali3_request first = *part, second = *part;
-  first.t = part->t - (1.0 - share) * part->h;
-  first.h = share * part->h;
+  first.t = part->t - (1.0 - fraction) * part->h;
+  first.h = fraction * part->h;
   first.iterations_end = made + (part->iterations_end - made) / 2;
-  second.h = (1.0 - share) * part->h;
+  second.h = (1.0 - fraction) * part->h;
   if (!at_event) first.depth = second.depth = part->depth - 1;
   const ali3_status first_status = advance_part(in, &first);
   return first_status == ALI3_OK ? advance_part(in, &second) : first_status;

@@ -233,11 +233,11 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   ali3_vectors *from = &in->now, *to = &in->next;
   const bool generalised_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
   const double turn_rate = in->settings.project ? fastest_turn(in) : 0.0;
-  if (turn_rate * h > MOST_TURN && in->settings.step_iterations == 0) {
+  if (turn_rate * h > MAX_TURN && in->settings.step_iterations == 0) {
     in->report.fastest_rate = turn_rate;
     return ALI3_TURNS_TOO_FAR;
   }
-  in->bound.capped |= turn_rate * h > MOST_TURN;
+  in->bound.capped |= turn_rate * h > MAX_TURN;
   ali3_status status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
   ali3_guides_step(in, from, to, request->t, h);

@@ -27,6 +27,7 @@ static double potential(const ali3_instance *in, const ali3_vectors *v, const do
   return gravity + elastic;
 }
 
+/* Records the energies of a state, J. */
 static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
   if (kinetic > r->kinetic_peak) r->kinetic_peak = kinetic;
   r->energy = energy;

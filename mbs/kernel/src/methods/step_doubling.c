@@ -23,6 +23,7 @@ ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading 
   return ali3_advance(in, &request);
 }
 
+/* Size of a unit of coordinate i, m. */
 static double unit_length(const ali3_measure *measure, int32_t i) {
   return measure->scale != NULL ? measure->scale[i] : 1.0;
 }
@@ -68,10 +69,10 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
   }
   if (status == ALI3_OK) {
     const int32_t order = ali3_method_order(in) < MAX_ORDER ? ali3_method_order(in) : MAX_ORDER;
-    const double share = 1.0 / (ldexp(1.0, order) - 1.0);
+    const double error_factor = 1.0 / (ldexp(1.0, order) - 1.0);
     for (int32_t i = 0; i < nq; i++) {
-      in->step.w[i] = share * (in->now.q[i] - in->kept.coarse.q[i]);
-      in->step.x[i] = share * (in->now.qd[i] - in->kept.coarse.qd[i]);
+      in->step.w[i] = error_factor * (in->now.q[i] - in->kept.coarse.q[i]);
+      in->step.x[i] = error_factor * (in->now.qd[i] - in->kept.coarse.qd[i]);
     }
     *error = ali3_distance(in, measure, in->step.w, in->step.x, ali3_rate(in, measure, false));
     in->report.steps++;

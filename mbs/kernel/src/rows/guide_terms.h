@@ -9,6 +9,7 @@ static inline real value_of(const real *q, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(1.0) : q[coordinate];
 }
 
+/* Rate of a coordinate; 0 if there is none. */
 static inline real rate_of(const real *qd, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
