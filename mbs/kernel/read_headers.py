@@ -49,6 +49,7 @@ LIMITS = {
     "ALI3_MOST_PARTS": "Largest factor by which the step of a second motion is longer; half of it if it is shorter.",
     "ALI3_SYSTEM_VERSION": "Version of the System file.",
 }
+"""Docstring of each constant of the public header."""
 ROADS = "src/roads/road_file.h"
 ROAD_LIMITS = {
     "ALI3_ROAD_VERSION": "Version of a road file.",
@@ -59,6 +60,7 @@ ROAD_LIMITS = {
     "ALI3_ROAD_FRICTION": "Largest friction of a road file.",
     "ALI3_ROAD_POINTS": "Largest number of points of a road file.",
 }
+"""Docstring of each constant of road files."""
 STRUCTURES = {
     "settings": "SettingsFields",
     "report": "ReportFields",

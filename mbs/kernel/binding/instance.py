@@ -175,8 +175,8 @@ class Instance(StandingInstance):
     def settle(self, duration: float, h: float) -> float:
         """Settle all motion of a start but the horizontal one, which is held; after `initialise`.
 
-        `duration`: s, at most `LONGEST_SETTLING`; `h`: step, s. Returns the largest remaining speed relative to the
-        held motion, m/s.
+        `duration`: time to settle, s, at most `LONGEST_SETTLING`; `h`: step, s. Returns the largest remaining speed
+        relative to the held motion, m/s.
         """
         self._start(self._library.ali3_settle(self._handle, duration, h))
         return float(self._library.ali3_unsettled(self._handle))
@@ -212,12 +212,14 @@ class Instance(StandingInstance):
             self._check(status)
 
     def run(self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None, positions: Any = None) -> int:
-        """Make `n` steps of `h` seconds.
+        """Make steps of equal length.
 
         Parameters
         ----------
         h : float
             Step, s.
+        n : int
+            Number of steps.
         inputs : buffer of float64, shape (n, nu), optional
             Input values, a row per step; None keeps the present ones.
         every : int
