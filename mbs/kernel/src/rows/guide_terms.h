@@ -4,7 +4,7 @@
 #include "../algebra/real.h"
 #include "../instance.h"
 
-/* 1 if there is no coordinate. */
+/* Value of a coordinate; 1 if there is none. */
 static inline real value_of(const real *q, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(1.0) : q[coordinate];
 }
@@ -30,7 +30,7 @@ static inline real guide_second_rate(const ali3_guide_term *g, const ali3_vector
   return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
 }
 
-/* Part of a term in gamma, with w and its two rates. */
+/* Part of a term in gamma, from coordinates, their rates, and w with its two rates. */
 static inline real guide_bend(real qa, real qb, real va, real vb, real w, real wd, real wdd) {
   return wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
 }
@@ -51,6 +51,7 @@ static inline void guide_rates(const ali3_system *S, const real *q, const ali3_v
     Phit[g->row] += guide_rate(g, guides) * value_of(q, g->term.a) * value_of(q, g->term.b);
 }
 
+/* gamma += second time derivatives of the terms, without accelerations of coordinates. */
 static inline void guide_gamma(const ali3_system *S, const real *q, const real *qd, const ali3_vectors *guides,
                                real *gamma) {
   for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++)
