@@ -137,7 +137,7 @@ class NativeContents:
 
     @property
     def origin_text(self) -> list[str]:
-        """A paragraph of the documentation about `origin`; empty if there is nothing to say."""
+        """A paragraph of the documentation about `origin`; none where there is nothing."""
         if not self.origin:
             return []
         return [f"Made from the files that lie in it as {', '.join(sorted(self.origin))}."]

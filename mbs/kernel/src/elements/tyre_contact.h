@@ -12,7 +12,8 @@
 #define ALI3_TYRE_NO_LOAD 1e-9 /* N */
 #define ALI3_TYRE_NO_GRIP 1e-6 /* friction ratio below which the horizontal forces are 0 */
 
-/* Bits of the active pieces of a tyre's force law; bits of the second contact are shifted by ALI3_TYRE_CONTACT_BITS. */
+/* Bits of the active pieces of a tyre's force law; those of the second contact are shifted by
+ * ALI3_TYRE_CONTACT_BITS. */
 enum {
   ALI3_TYRE_TOUCHES = 1,
   ALI3_TYRE_BOTTOMS = 2, /* on its bottoming radius */
