@@ -46,7 +46,7 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
         for platform in added:
             library = name + SUFFIXES[platform]
             with told(f"compiling for {platform}", first_time(platform)):
-                binary = _compiled(files, TARGETS[platform], Path(folder, platform), library)
+                binary = _compile(files, TARGETS[platform], Path(folder, platform), library)
             files[f"binaries/{platform}/{library}"] = binary
     write_zip(files, file)
     return added
@@ -70,8 +70,8 @@ def _identifier(fmu: Path, files: dict[str, bytes]) -> str:
     return str(face.get("modelIdentifier"))
 
 
-def _compiled(files: dict[str, bytes], targets: Sequence[str], folder: Path, library: str) -> bytes:
-    """The library; from the installed sources where the FMU has the same, since the compiler has kept their objects."""
+def _compile(files: dict[str, bytes], targets: Sequence[str], folder: Path, library: str) -> bytes:
+    """The library; from the installed sources if the FMU has the same, since the compiler has kept their objects."""
     sources = {name.removeprefix("sources/"): data for name, data in files.items() if name.startswith("sources/")}
     for path, data in sources.items():
         (folder / "sources" / path).parent.mkdir(parents=True, exist_ok=True)

@@ -16,7 +16,7 @@ from mbs.kernel import build
 
 _ROOMS = {build.HERE: "kernel", HERE: "shell", DETOUR: "detour"}
 _INCLUDE = ("kernel/include", "kernel/src", "shell", "detour")
-# The kernel's own functions are not for hosts: only those of FMI are exported.
+# The kernel's own functions are not for hosts: only functions of FMI are exported.
 _DEFINES = ("ALI3_INSIDE",)
 
 
@@ -66,7 +66,7 @@ def library_command(face: str, target: str, table: Path, library: Path) -> list[
 
 
 def exports(files: Sequence[Path]) -> list[str]:
-    """Functions that a WebAssembly module of these C files exports: those of FMI 2.0 and what its host needs beside."""
+    """Functions that a WebAssembly module of these C files exports: FMI 2.0 and what its host needs beside."""
     shell = [f.read_text(encoding="utf-8") for f in files if f.name.startswith("fmi2_")]
     functions = re.findall(r"^FMI2_(?:ENTRY|EXPORT .*\bFMI2_NAME)\((\w+)", "\n".join(shell), re.MULTILINE)
     return [*functions, *build.WASM_HELPERS]

@@ -45,13 +45,15 @@ class NativeContents:
     reach: Dependencies
     """What reaches which outputs."""
     fidelity: int = 0
-    """The default one."""
+    """Number of the default System."""
     followers: Sequence[int] = (-1,)
     """Per System the number of the one that computes what it leaves out; -1: none."""
     author: str = ""
+    """Author of the model; empty: the solver's."""
     copyright: str = ""
+    """Copyright of the model; empty: the solver's."""
     licence: str = ""
-    """`author`, `copyright`, `licence`: of the model, for its description; empty: the solver's."""
+    """Licence of the model; empty: the solver's."""
     origin: Mapping[str, bytes] = field(default_factory=dict)
     """Files that the model was made from, by their paths in the FMU."""
     code: Sequence[tuple[str, str]] = ()
@@ -117,7 +119,7 @@ class NativeContents:
 
     @property
     def generated(self) -> dict[str, str]:
-        """C that was generated for Systems by its name; those of one structure share it."""
+        """C that was generated for Systems, by its name; Systems of one structure share it."""
         return dict(self.code)
 
     @property

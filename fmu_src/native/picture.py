@@ -12,13 +12,14 @@ _FINE = 8
 
 
 def curves_png(t: NDArray[np.float64], curves: list[NDArray[np.float64]]) -> bytes:
-    """Draw up to three curves, each over its own range.
+    """Draw up to three curves, each scaled to its own range.
 
     Parameters
     ----------
     t : ndarray, shape (n,)
         Times, ascending.
     curves : list of ndarray, shape (n,)
+        Values at these times.
 
     Returns
     -------
@@ -33,8 +34,8 @@ def curves_png(t: NDArray[np.float64], curves: list[NDArray[np.float64]]) -> byt
         low, high = float(curve.min()), float(curve.max())
         span = high - low if high > low else 1.0
         times = t[0] + (t[-1] - t[0]) * columns / columns[-1]
-        share = (np.interp(times, t, curve) - low) / span
-        rows = np.rint(_HEIGHT - _EDGE - 4 - share * (_HEIGHT - 2 * _EDGE - 8)).astype(int)
+        height = (np.interp(times, t, curve) - low) / span
+        rows = np.rint(_HEIGHT - _EDGE - 4 - height * (_HEIGHT - 2 * _EDGE - 8)).astype(int)
         x = _EDGE + columns.astype(int)
         for offset in (0, 1):
             pixels[rows + offset, x] = colour

@@ -1,4 +1,4 @@
-"""The platforms an FMU is built for, by the names of FMI 2.0; where it has none, by the tuple of FMI 3.0."""
+"""Platforms an FMU is built for, by the names of FMI 2.0 or, if it has none, by the tuple of FMI 3.0."""
 
 import platform
 import sys

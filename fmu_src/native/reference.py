@@ -45,11 +45,11 @@ class ReferenceRun:
 
 
 def reference_runs(system: mbs.System, follower: mbs.System | None = None) -> tuple[ReferenceRun, ...]:
-    """The default experiment without inputs and, where it runs, with each input in turn; about a hundred rows each.
+    """The default experiment without inputs and, if it runs, with each input in turn; about a hundred rows each.
 
     An input goes a fifth of the way to the end of its range and back, and is held over each step.
 
-    `follower`: with ports: computes what the System leaves out (`mbs.compiler.ports`). Raises `SimulationError` when
+    `follower`: System that computes what one with ports leaves out (`mbs.compiler.ports`). Raises `SimulationError` if
     the default experiment does not run; the sentence names what of the scene sets it.
     """
     experiment = system.meta["experiment"]
@@ -67,7 +67,7 @@ def reference_runs(system: mbs.System, follower: mbs.System | None = None) -> tu
         ) from None
     corners, inputs = _in_turn(system.meta["inputs"], steps * step)
     if inputs:
-        untrusted = (mbs.SimulationError, mbs.AccuracyWarning)  # then it is no reference
+        untrusted = (mbs.SimulationError, mbs.AccuracyWarning)  # then it is not a reference
         with warnings.catch_warnings(), contextlib.suppress(*untrusted):
             warnings.simplefilter("error", mbs.AccuracyWarning)
             runs.append(_run(system, follower, steps, step, corners, inputs))
@@ -108,7 +108,7 @@ def _run(
     times, rows, row_interval = [], [], max(1, steps // _ROWS)
     for k in range(steps + 1):
         if k % row_interval == 0:
-            simulation.step(step, 0)  # makes none; warns where the balance of energy says that those before are wrong
+            simulation.step(step, 0)  # makes none; warns if the energy balance of the earlier ones is wrong
             row = np.array(instance.sensors())
             if follower_instance is not None:
                 follower_instance.follow(instance)
@@ -143,7 +143,7 @@ def reference_files(
 ) -> dict[str, bytes]:
     """Manifest, experiments, their parameters, inputs and results.
 
-    `runs`: as `reference_runs` gives them; `stop_time`, `step`: default experiment, s; `parameters`: their values.
+    `runs`: result of `reference_runs`; `stop_time`, `step`: default experiment, s; `parameters`: their values.
     Result: by path in the FMU.
     """
     references = manifest(
@@ -176,7 +176,7 @@ def reference_files(
         if run.inputs:
             inputs_file = f"{name}_{label}_in.csv"
             ElementTree.SubElement(experiment, "Stimuli", source=inputs_file)
-            # no role of the standard is that of inputs
+            # the standard has no role for inputs
             related(inputs_file, "text/csv", "other", "Inputs, straight between rows, held over each step")
             files[f"{FOLDER}/{inputs_file}"] = _csv(run.corners, run.inputs)
         ElementTree.SubElement(experiment, "References", source=source)

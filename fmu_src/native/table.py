@@ -72,7 +72,7 @@ def c_table(
         f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {str(v.port).lower()}, {v.road}, {bits:#x}, "
         f"{_number((v.works or [None])[0], '-HUGE_VAL')}, {_number((v.works or [None])[-1], 'HUGE_VAL')}, "
         f"{v.role}, {v.other}, {_number(v.scale, '1.0')}, {{{', '.join(map(repr, v.figures)) or '0.0'}}}, "
-        f"{_judged(v, judged or {})}}},"
+        f"{_comparison_row(v, judged or {})}}},"
         for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
@@ -86,7 +86,7 @@ def c_table(
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
         f"{_texts(texts)}{_names('row', names['row'])}{_names('element', names['element'])}"
         f"{_names('coordinate', names['coordinate'])}{_names('notice', names['notice'])}"
-        f"{_generated(generated, len(names['row']))}"
+        f"{_generated_code(generated, len(names['row']))}"
         f"static const int32_t follower[] = {{{', '.join(map(str, followers))}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
         f"{len(table)}, {count},\n    row, first_row, element, first_element, coordinate, first_coordinate, "
@@ -95,7 +95,8 @@ def c_table(
     )
 
 
-def _judged(variable: Variable, judged: Mapping[int, Compared]) -> str:
+def _comparison_row(variable: Variable, judged: Mapping[int, Compared]) -> str:
+    """Unit and kind by which a variable is compared, as C; -1: it is not."""
     comparison = judged.get(variable.index) if variable.source == "sensor" else None
     return "{-1, 0}" if comparison is None else f"{{{comparison.fields.unit:d}, {comparison.fields.kind}}}"
 
@@ -108,7 +109,8 @@ def _texts(texts: Sequence[TextVariable]) -> str:
     return f"static const slave_text texts[] = {{\n{lines}\n}};\n\n"
 
 
-def _generated(names: Sequence[str], systems: int) -> str:
+def _generated_code(names: Sequence[str], systems: int) -> str:
+    """Declarations of the generated code of each System, as C."""
     none = f"static const ali3_generated *const generated[{systems}] = {{NULL}};\n"
     if not names:
         return f"{none}\n"
@@ -121,7 +123,7 @@ def _generated(names: Sequence[str], systems: int) -> str:
 
 
 def _names(what: str, of_systems: Sequence[Sequence[str]]) -> str:
-    """Names of all Systems one after the other, and where those of each begin."""
+    """Names of all Systems one after the other, and where each System begins."""
     lines = "\n".join(f"    {c_string(name)}," for one in of_systems for name in one) or "    NULL,"
     first = ", ".join(str(sum(map(len, of_systems[:k]))) for k in range(len(of_systems) + 1))
     return (

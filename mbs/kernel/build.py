@@ -38,7 +38,7 @@ WASM_FLAGS = [
     "-Wno-pass-failed",  # without simd128, loops cannot be vectorised
     "-Wl,-z,stack-size=1048576",  # below all data, so that an overflow traps
 ]
-"""Flags for WebAssembly in place of ``-shared -fPIC``."""
+"""Flags for WebAssembly instead of ``-shared -fPIC``."""
 WASM_HELPERS = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
 """Exports of a WebAssembly module in addition to the kernel's functions: memory, and files in memory."""
 LANES = ("lanes", "run_many.c", "entries.c")
@@ -48,7 +48,7 @@ LANES = ("lanes", "run_many.c", "entries.c")
 def sources(lanes: bool = True, kernel: Path | None = None) -> list[Path]:
     """C files of the kernel, sorted by folder and name.
 
-    `lanes`: with those in `LANES`; `kernel`: its folder, by default that of this file.
+    `lanes`: whether to include those in `LANES`; `kernel`: folder of the kernel, by default the one of this file.
     """
     files = sorted(((kernel or HERE) / "src").rglob("*.c"))
     return [f for f in files if lanes or not (f.parent.name in LANES or f.name in LANES)]
@@ -77,7 +77,7 @@ def library_name(target: str) -> str:
 
 @functools.cache
 def cache_directory() -> Path:
-    """Cache folder of the compiler: `ZIG_GLOBAL_CACHE_DIR`, else a cache of the user; see `cache_folder`."""
+    """Cache folder of the compiler: `ZIG_GLOBAL_CACHE_DIR`, otherwise a cache of the user; see `cache_folder`."""
     return cache_folder(name="ali3-zig", variable="ZIG_GLOBAL_CACHE_DIR")
 
 
@@ -99,7 +99,7 @@ def compiler() -> str:
 def compile_library(target: str | None = None, out: str | Path | None = None) -> Path:
     """Compile the kernel, once for equal sources, and return the path of the library.
 
-    `target`: triple for `zig cc -target`, by default that of this machine; `out`: path of the library, by default in
+    `target`: triple for `zig cc -target`, by default for this machine; `out`: path of the library, by default in
     `lib/` beside this file with the usual name of the platform.
     """
     target = target or host_target()
@@ -156,7 +156,7 @@ def compile_c(
     shared : bool
         Make a library; otherwise a program.
     exports : sequence of str
-        Functions that a WebAssembly module exports; those of other libraries are marked in the sources.
+        Functions that a WebAssembly module exports; other libraries mark them in the sources.
 
     Raises
     ------
@@ -180,7 +180,7 @@ def compile_c(
 
 
 def compiler_environment() -> dict[str, str]:
-    """Environment of the compiler: that of this process with the folder of the compiler's cache."""
+    """Environment of this process with the folder of the compiler's cache."""
     cache = str(cache_directory())
     return os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache}
 
@@ -195,7 +195,7 @@ def compiler_command(
     shared: bool = True,
     exports: Sequence[str] = (),
 ) -> list[str]:
-    """Command line that compiles C files into `path`; the arguments are those of `compile_c`."""
+    """Command line that compiles C files into `path`, with the arguments of `compile_c`."""
     command = [compiler(), "cc", "-target", target, *FLAGS, *([] if "windows" in target else NO_UNWIND_TABLES)]
     is_wasm = "wasm" in target
     if is_wasm or not shared:

@@ -49,6 +49,7 @@ LIMITS = {
     "ALI3_MOST_PARTS": "Largest factor by which the step of a second motion is longer; half of it if it is shorter.",
     "ALI3_SYSTEM_VERSION": "Version of the System file.",
 }
+"""Docstring of each constant of the public header."""
 ROADS = "src/roads/road_file.h"
 ROAD_LIMITS = {
     "ALI3_ROAD_VERSION": "Version of a road file.",
@@ -59,6 +60,7 @@ ROAD_LIMITS = {
     "ALI3_ROAD_FRICTION": "Largest friction of a road file.",
     "ALI3_ROAD_POINTS": "Largest number of points of a road file.",
 }
+"""Docstring of each constant of road files."""
 STRUCTURES = {
     "settings": "SettingsFields",
     "report": "ReportFields",
@@ -85,7 +87,7 @@ def read_header(file: str) -> str:
 def enumeration(file: str, first: str, prefix: str) -> dict[str, int]:
     """Items of the enumeration that starts with `first`, without their prefix and without its count.
 
-    Raises `ValueError`: the header has no such enumeration, or an item has another prefix.
+    Raises `ValueError` if the header has no such enumeration or an item has another prefix.
     """
     match = re.search(r"enum \{\s*(" + first + r"\b[^}]*)\}", read_header(file))
     if match is None:
@@ -367,7 +369,7 @@ def _enumerations() -> Iterator[str]:
 
 def _magic() -> str:
     numbers = "\n".join(f'    "{name}": {float(value)},' for name, value in table(MAGIC, "ALI3_MAGIC_COEFFICIENTS"))
-    text = "Coefficients in the order of the element, with their values where a tyre property file has none."
+    text = "Coefficients in the order of the element, with their values if a tyre property file has none."
     return f'MAGIC_COEFFICIENTS = {{\n{numbers}\n}}\n"""{text}"""'
 
 

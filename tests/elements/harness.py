@@ -34,6 +34,7 @@ SOURCES += [
     KERNEL / "algebra" / "elementary.c",
     KERNEL / "algebra" / "finite.c",
     KERNEL / "algebra" / "inverse_tangent.c",
+    KERNEL / "algebra" / "parse_number.c",
     *(f for room in ("roads", "files") for f in (KERNEL / room).glob("*.c")),
 ]
 

@@ -262,7 +262,7 @@ def test_a_road_that_is_cut_while_driving_is_a_refused_step(car: Path, host: Any
         if status != OK:
             break
     assert status == 2  # fmi2Discard
-    assert "Of the road its part from x =" in driven.messages[-1]
+    assert "Of the road its part beginning at x =" in driven.messages[-1]
     assert "cannot be read" in driven.messages[-1]
     assert driven.outputs() == before
 

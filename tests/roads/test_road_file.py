@@ -166,7 +166,8 @@ def test_a_file_that_is_cut_while_a_run_is_checked_leaves_its_error_unknown(tmp_
         return 0.3
 
     message = (
-        r"The error of the run is not known: in a refined run with steps of 0\.00\d+ s .* Of the road its part from"
+        r"The error of the run is not known: in a refined run with steps of 0\.00\d+ s .* "
+        r"Of the road its part beginning at"
     )
     road, start = {"road.file": path}, mbs.Pose(speed=20.0)
     with pytest.warns(mbs.AccuracyWarning, match=message) as caught:
@@ -181,7 +182,7 @@ def test_a_file_that_is_cut_while_driving_ends_the_run_with_its_reason(tmp_path,
     simulation = mbs.Simulation(car, pose=mbs.Pose(speed=20.0), parameters={"road.file": path})
     with path.open("r+b") as file:
         file.truncate(path.stat().st_size // 20)
-    with pytest.raises(mbs.SimulationError, match=r"Of the road its part from x = [\d.]+ m, .* cannot be read") as end:
+    with pytest.raises(mbs.SimulationError, match=r"its part beginning at x = [\d.]+ m, .* cannot be read") as end:
         simulation.run(5.0, H)
     assert end.value.status == Status.ROAD_LOST
     assert 0.0 < simulation.time < 3.0

@@ -1,5 +1,6 @@
 """Roads as texts that the kernel reads by itself: the same numbers as Python's, one sentence for what is none."""
 
+import ctypes
 import locale
 import re
 from pathlib import Path
@@ -13,6 +14,7 @@ from mbs.kernel.binding import KernelError, LoadedSystem, Status
 from mbs.kernel.binding.instance import Instance
 from mbs.roads import RoadFileError, read_road, write_road
 from mbs.scenes import prototype_car
+from tests.roads.worlds.harness import road_library
 
 H = 0.002
 SOURCES = Path(mbs.__file__).parent / "kernel" / "src"
@@ -156,6 +158,30 @@ def test_a_bad_text_is_refused(tmp_path, loaded, text, sentence):
     assert sentence in str(refused.value)
     with pytest.raises((RoadFileError, ValueError)):  # Python's reader refuses the same
         write_road(read_road(tmp_path / "a.csv"), tmp_path / "a.road")
+
+
+@pytest.mark.parametrize("granted", [0, 1, 2])
+def test_an_allocation_that_fails_is_named(tmp_path, granted):
+    """The text, its values and the road file are allocated one after the other."""
+    (tmp_path / "a.csv").write_text(GOOD)
+    blocks = {}
+
+    @ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_size_t, ctypes.c_size_t)
+    def allocate(count, size):
+        if allocate.granted == 0:
+            return None
+        allocate.granted -= 1
+        block = ctypes.create_string_buffer(count * size)
+        blocks[ctypes.addressof(block)] = block
+        return ctypes.addressof(block)
+
+    allocate.granted = granted
+    release = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(blocks.pop)
+    message = ctypes.create_string_buffer(256)
+    path = str(tmp_path / "a.csv").encode()
+    assert road_library().ali3_road_file_open(path, allocate, release, message, ctypes.c_size_t(256)) is None
+    assert message.value == b"there is not enough memory"
+    assert blocks == {}
 
 
 def test_altered_texts_end_in_a_sentence(tmp_path, loaded):

@@ -93,7 +93,7 @@ def test_a_table_whose_points_exceed_32_bits_is_refused(prototype: Fmu) -> None:
     result.add_file("roads/large.csv", b"y/x" + b";1" * n + b"\n" + (b"1" + b";0" * n + b"\n") * 4 + b"1;0\n" * (n - 4))
     with pytest.raises(FMICallException):
         result.set("String", [prototype.kinds["road.file"][1]], ["large.csv"])
-    assert "it has fewer cells than rows and columns" in result.messages[-1][1]
+    assert "its size does not allow so many rows and columns" in result.messages[-1][1]
 
 
 @pytest.mark.slow

@@ -17,9 +17,9 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
     if (t->variable[reference[i]].whole)
       return slave_say(s, SLAVE_ERROR, "A derivative of '%s' was set; it is a whole number and has none.",
                        t->variable[reference[i]].name);
-    if (order[i] < 1 || order[i] > SLAVE_MOST_ORDERS)
+    if (order[i] < 1 || order[i] > SLAVE_MAX_ORDERS)
       return slave_say(s, SLAVE_ERROR, "A derivative of order %d of '%s' was set; orders 1 to %d can be.",
-                       (int)order[i], t->variable[reference[i]].name, SLAVE_MOST_ORDERS);
+                       (int)order[i], t->variable[reference[i]].name, SLAVE_MAX_ORDERS);
     if (!(fabs(value[i]) < HUGE_VAL) && !t->variable[reference[i]].port)
       return slave_say(s, SLAVE_ERROR, "The derivative of '%s' was set to %g; a finite number is needed.",
                        t->variable[reference[i]].name, value[i]);

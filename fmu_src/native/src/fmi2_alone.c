@@ -1,5 +1,5 @@
 /* FMI 2.0 for a host without callback functions, such as a page that loads this as a WebAssembly module: a logger that
- * stores messages in memory, where the host reads them. Only with ALI3_ALONE. */
+ * stores messages in memory for the host. Only with ALI3_ALONE. */
 #include "fmi2_face.h"
 
 #if defined(ALI3_ALONE)

@@ -40,7 +40,7 @@ enum {
   FMI2_DONE = SLAVE_STEPPING | SLAVE_STEP_FAILED | SLAVE_TERMINATED
 };
 
-/* The slave of a component if the function may be called now, else NULL. */
+/* The slave of a component if the function may be called now, otherwise NULL. */
 slave *fmi2_slave(fmi2Component c, const char *function, unsigned phases);
 /* Logs an error if a required pointer of the call is NULL; returns `valid`. */
 bool fmi2_check_pointers(slave *s, const char *function, bool valid);

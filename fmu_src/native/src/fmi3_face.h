@@ -38,7 +38,7 @@ enum {
   FMI3_RUN = SLAVE_STEPPING | SLAVE_STEP_FAILED
 };
 
-/* The face of an instance if the function may be called now, else NULL. */
+/* The face of an instance if the function may be called now, otherwise NULL. */
 fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned phases);
 /* Logs an error if a required pointer of the call is NULL; returns `valid`. */
 bool fmi3_check_pointers(fmi3_face *face, const char *function, bool valid);

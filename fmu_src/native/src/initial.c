@@ -65,9 +65,10 @@ static const char *most_changed_parameter(const slave *s, const char *unit, char
   text[0] = 0;
   for (size_t i = 0; i < t->n_known; i++) {
     const slave_variable *v = &t->variable[i];
-    const double share = fabs(s->value[i] - v->start) / (v->max - v->min);
-    if (v->source != SLAVE_PARAMETER || !(share > largest) || (unit != NULL && strcmp(v->unit, unit) != 0)) continue;
-    largest = share;
+    const double deviation = fabs(s->value[i] - v->start) / (v->max - v->min);
+    if (v->source != SLAVE_PARAMETER || !(deviation > largest) || (unit != NULL && strcmp(v->unit, unit) != 0))
+      continue;
+    largest = deviation;
     snprintf(text, size, " '%.64s' is %g%s, farthest from its start value %g.", v->name, s->value[i], v->unit,
              v->start);
   }

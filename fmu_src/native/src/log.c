@@ -5,7 +5,7 @@
 
 #include "slave.h"
 
-/* The first ones are those of the statuses from SLAVE_WARNING on. */
+/* First the categories of the statuses, beginning with SLAVE_WARNING. */
 static const char *const category_name[] = {"logStatusWarning", "logStatusDiscard", "logStatusError",
                                             "logStatusFatal",   "logNotComputed",   "logAll"};
 enum { CATEGORIES = sizeof category_name / sizeof *category_name, ALL = CATEGORIES - 1, NOT_COMPUTED = ALL - 1 };

@@ -7,8 +7,8 @@
 static const double JUMP = 0.015; /* m; at 0.02 m a load has an error of a fifth, see docs/decisions/0091 */
 
 static const double BEND = 1e-4; /* m; loads then have errors of up to 1.2 %, see docs/decisions/0091 */
-static const double FARTHEST =
-    4.0; /* limit of the squared distance of a wheel from its answer over that of two answers */
+static const double MAX_RATIO =
+    4.0; /* limit of the squared distance of a wheel from its answer, relative to the one between two answers */
 
 /* A normal that turns suddenly shows that one plane carries the load where ground and edge should. */
 static void check_turn(slave *s, size_t i) {
@@ -56,7 +56,7 @@ static void check_bend(slave *s, size_t i) {
     distance += along * along;
     lag += along * path[k];
   }
-  const double miss = 0.5 * bend * fmin(distance / square, FARTHEST), end = miss - plane_rise(s, i, centre);
+  const double miss = 0.5 * bend * fmin(distance / square, MAX_RATIO), end = miss - plane_rise(s, i, centre);
   /* a linear change between two planes misses a quarter, in the middle; loads have 0.2 % error at 0.1 mm */
   const bool ramp = slave_is_ramp(s->slope, i);
   const double start = ramp ? 0.25 * miss : miss, limit = ramp ? 4.0 * BEND : BEND;

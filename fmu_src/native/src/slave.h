@@ -39,10 +39,10 @@ typedef struct {
   bool port; /* an input that another program sets at every step */
   int32_t road; /* road whose built-in form the parameter describes, without effect on a road file; -1: none */
   uint64_t uncomputed; /* bits of the fidelities whose System omits it */
-  double least, most; /* range in which vehicles work with the parameter; infinite where it is not known */
+  double least, most; /* range in which vehicles work with the parameter; infinite if it is not known */
   int32_t role; /* of an input, SLAVE_NO_ROLE ... */
   int32_t other; /* variable: x of the wheel of an answer, x of the velocity of a hub, rate of SLAVE_AHEAD; -1: none */
-  double scale; /* of inputs and sensors: value of the variable over that of the System */
+  double scale; /* of inputs and sensors: value of the variable divided by the value in the System */
   double figure[4]; /* of a hub, see mbs.model.records.Role */
   ali3_judged judged; /* how two motions are compared by it; unit -1: not */
 } slave_variable;
@@ -62,7 +62,7 @@ typedef struct {
   const size_t *first_row; /* n_systems + 1 */
   const char *const *element; /* names of the force elements of all Systems */
   const size_t *first_element; /* n_systems + 1 */
-  const char *const *coordinate; /* of all Systems: names of coordinates that are arguments of tables; else "" */
+  const char *const *coordinate; /* of all Systems: names of coordinates that are arguments of tables; otherwise "" */
   const size_t *first_coordinate; /* n_systems + 1 */
   const char *const *notice; /* warnings at the start of all Systems */
   const size_t *first_notice; /* n_systems + 1 */
@@ -89,9 +89,9 @@ typedef enum { /* bits, for masks of allowed calls */
                SLAVE_TERMINATED = 16
 } slave_phase;
 
-enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MOST_TEXT = 1024 };
-enum { SLAVE_TERMS = SLAVE_MOST_ORDERS + 1 }; /* Taylor terms of an input, from order 0 on, see slopes.c */
-typedef char slave_text_value[SLAVE_MOST_TEXT]; /* padded with zeros */
+enum { SLAVE_MAX_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MAX_TEXT = 1024 };
+enum { SLAVE_TERMS = SLAVE_MAX_ORDERS + 1 }; /* Taylor terms of an input, order 0 included, see slopes.c */
+typedef char slave_text_value[SLAVE_MAX_TEXT]; /* padded with zeros */
 
 typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
@@ -138,7 +138,7 @@ typedef struct { /* a communication step that the second motion has not computed
   int64_t n; /* inner steps */
   double h, end; /* s: length of an inner step; time at the end of the communication step */
   int64_t parts; /* of an inner step in the second motion */
-  double ratio; /* of the mean step that the first motion made, halved or not, to that of the second */
+  double ratio; /* mean step of the first motion, halved or not, divided by the step of the second */
   double span; /* s, for which the second motion runs from its start, as a force changed abruptly; 0: it did not */
   double simulated; /* s, as in slave_half_steps */
   double *values; /* inputs at its start, then compared outputs at its end */
@@ -156,7 +156,7 @@ typedef struct { /* the second motion, with at most half the step, see half_step
   ali3_compared *compared;
   size_t *variable;
   double *output, *size;
-  slave_late_step *late; /* ring of n_late late steps, from `first` on */
+  slave_late_step *late; /* ring of n_late late steps; the oldest is `first` */
   size_t first, n_late;
   double scheduled; /* s: time up to which the second motion runs at least */
   int64_t n_made; /* inner steps of the second motion in the first late step */
@@ -210,8 +210,8 @@ struct slave {
   bool early_return, returned_early; /* the host allows early return; the last step did so */
   slave_status last_step; /* status of the last step */
   double *value; /* per variable; outputs are computed when they are read */
-  double *slope; /* per variable and order: derivatives of the inputs from the communication point on */
-  double *completed_slope; /* those of the last completed communication step */
+  double *slope; /* per variable and order: derivatives of the inputs after the communication point */
+  double *completed_slope; /* the same of the last completed communication step */
   slave_rhythm *rhythm; /* per known variable, of ports */
   unsigned char *pending; /* per known variable: set and not yet passed to the kernel */
   unsigned char *said; /* per known variable: SLAVE_GIVEN and logged warnings */
@@ -301,7 +301,7 @@ static inline void slave_invalidate(slave *s) {
 }
 
 /* work.c: the limit of work in a call, from which the kernel subtracts its own */
-#define SLAVE_MOST_WORK 2000000 /* a million steps of one iteration each: half a minute of a rigid car */
+#define SLAVE_MAX_WORK 2000000 /* a million steps of one iteration each: half a minute of a rigid car */
 void slave_reset_work(slave *s);
 double slave_steps_left(const slave *s); /* inner steps of one iteration each */
 const slave_variable *slave_settling(const slave *s); /* settling time of the start; NULL: it is zero */

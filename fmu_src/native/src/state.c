@@ -139,10 +139,10 @@ static const char *value_error(const unsigned char *p) {
     if (flag[i] && t->variable[i].source != SLAVE_INPUT && t->variable[i].source != SLAVE_PARAMETER)
       return "a flag in them is none";
   const unsigned char *text = flag + 2 * t->n_known;
-  for (size_t k = 0; k < t->n_texts; k++, text += SLAVE_MOST_TEXT) {
-    const unsigned char *end = memchr(text, 0, SLAVE_MOST_TEXT);
+  for (size_t k = 0; k < t->n_texts; k++, text += SLAVE_MAX_TEXT) {
+    const unsigned char *end = memchr(text, 0, SLAVE_MAX_TEXT);
     if (end == NULL) return "a text in them has no end";
-    for (; end < text + SLAVE_MOST_TEXT; end++)
+    for (; end < text + SLAVE_MAX_TEXT; end++)
       if (*end != 0) return "a text in them has no end";
   }
   return NULL;

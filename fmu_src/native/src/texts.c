@@ -70,9 +70,9 @@ slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference,
       return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s; it is a fixed parameter.", name,
                        slave_phase_name(s->calls.phase));
     if (value[i] == NULL) return slave_say(s, SLAVE_ERROR, "'%s' was set to no text at all.", name);
-    if (strlen(value[i]) >= SLAVE_MOST_TEXT)
+    if (strlen(value[i]) >= SLAVE_MAX_TEXT)
       return slave_say(s, SLAVE_ERROR, "'%s' was set to a text of %zu bytes; at most %d are taken.", name,
-                       strlen(value[i]), SLAVE_MOST_TEXT - 1);
+                       strlen(value[i]), SLAVE_MAX_TEXT - 1);
   }
   for (size_t i = 0; i < n; i++)
     if (!set_road(s, s->fidelity.kernel, &slave_the_table.text[reference[i] - first], value[i])) {
@@ -86,7 +86,7 @@ slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference,
     char *to = s->text[reference[i] - first];
     const size_t length = strlen(value[i]);
     memmove(to, value[i], length);
-    memset(to + length, 0, SLAVE_MOST_TEXT - length);
+    memset(to + length, 0, SLAVE_MAX_TEXT - length);
   }
   slave_invalidate(s);
   return SLAVE_OK;

@@ -65,7 +65,7 @@ static bool watches_answers(void) {
   return false;
 }
 
-/* Computes those of n variables that are outputs, but for those of a follower. */
+/* Computes the outputs among n variables, except those of a follower. */
 static bool compute_outputs(slave *s, const uint32_t *reference, size_t n) {
   const slave_table *t = &slave_the_table;
   const bool first = s->outputs == SLAVE_STALE;

@@ -12,7 +12,7 @@ enum {
 #define TEXT_OF(number) #number
 #define TEXT_OF_VALUE(number) TEXT_OF(number)
 
-void slave_reset_work(slave *s) { s->work_left = SLAVE_MOST_WORK; }
+void slave_reset_work(slave *s) { s->work_left = SLAVE_MAX_WORK; }
 
 double slave_steps_left(const slave *s) { return floor((double)s->work_left / STEP_WORK); }
 
@@ -37,5 +37,5 @@ void slave_count_start(slave *s) { s->work_left -= START_WORK; }
 const char *slave_reason(const slave *s, ali3_status status) {
   if (status != ALI3_TOO_DEAR || s->work_left > 0) return ali3_status_text(status);
   return "the call has made as many inner steps, parts of them and iterations as one may, " TEXT_OF_VALUE(
-      SLAVE_MOST_WORK) " together";
+      SLAVE_MAX_WORK) " together";
 }

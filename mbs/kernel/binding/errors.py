@@ -46,7 +46,7 @@ def status_remedy(status: int) -> str:
 
 
 def creation_error(library: ctypes.CDLL, status: int, failed_call: str, reason: str = "") -> KernelError:
-    """Error for an object that could not be created; `reason`: by default the sentence of the status."""
+    """Error for an object that could not be created; `reason`: sentence, by default that of the status."""
     return KernelError(status, f"{failed_call}: {reason or status_text(library, status)} {status_remedy(status)}")
 
 

@@ -92,7 +92,7 @@ class Instance(StandingInstance):
         """Set inputs as functions of time by tables, which the kernel reads without calling Python.
 
         `tables`: times, s, not decreasing, and values of an input, contiguous float64 buffers, by number of the input;
-        `tolerance`: largest distance from a jump at which a time counts as that of the jump, s.
+        `tolerance`: largest distance from a jump at which a time counts as the jump, s.
         """
         buffers = {
             i: [buffer(x, len(table[0]), "a table", writable=False) for x in table] for i, table in tables.items()
@@ -115,9 +115,9 @@ class Instance(StandingInstance):
         return value.value
 
     def set_road(self, index: int, path: str | os.PathLike[str] | None) -> None:
-        """Replace a road of the System by a road file, from the next `initialise` on; None: the road of the System.
+        """Replace a road of the System by a road file at the next `initialise`; None: the road of the System.
 
-        Raises `KernelError`: the file is refused; the road does not change.
+        Raises `KernelError` if the file is refused; then the road does not change.
         """
         message = ctypes.create_string_buffer(512)
         text = "" if path is None else os.fspath(path)
@@ -128,7 +128,7 @@ class Instance(StandingInstance):
         self._check(status)
 
     def road_lost(self) -> str:
-        """Fault of a road file after the status `ROAD_LOST`, with the part of the file; else empty."""
+        """Fault of a road file after the status `ROAD_LOST`, with the part of the file; otherwise empty."""
         return bytes(self._library.ali3_road_lost(self._handle)).decode(errors="replace")
 
     def beyond_table(self) -> tuple[int, float, float, float]:
@@ -175,14 +175,14 @@ class Instance(StandingInstance):
     def settle(self, duration: float, h: float) -> float:
         """Settle all motion of a start but the horizontal one, which is held; after `initialise`.
 
-        `duration`: s, at most `LONGEST_SETTLING`; `h`: step, s. Returns the largest remaining speed relative to the
-        held motion, m/s.
+        `duration`: time to settle, s, at most `LONGEST_SETTLING`; `h`: step, s. Returns the largest remaining speed
+        relative to the held motion, m/s.
         """
         self._start(self._library.ali3_settle(self._handle, duration, h))
         return float(self._library.ali3_unsettled(self._handle))
 
     def start_text(self) -> str:
-        """Sentence about a start on a road file that is not level there; else empty."""
+        """Sentence about a start on a road file that is not level there; otherwise empty."""
         return self._text(self._library.ali3_start_text)
 
     def start_excess(self) -> tuple[float, int, str]:
@@ -212,12 +212,14 @@ class Instance(StandingInstance):
             self._check(status)
 
     def run(self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None, positions: Any = None) -> int:
-        """Make `n` steps of `h` seconds.
+        """Make steps of equal length.
 
         Parameters
         ----------
         h : float
             Step, s.
+        n : int
+            Number of steps.
         inputs : buffer of float64, shape (n, nu), optional
             Input values, a row per step; None keeps the present ones.
         every : int
@@ -277,7 +279,7 @@ class Instance(StandingInstance):
         Returns
         -------
         int
-            Number of rows written, with those of earlier calls.
+            Number of rows written, including earlier calls.
         """
         sizes, n = self.system.sizes, memoryview(times).nbytes // 8
         rows = (
@@ -299,7 +301,7 @@ class Instance(StandingInstance):
         self._check(self._library.ali3_refresh(self._handle))
 
     def follow(self, other: Instance) -> None:
-        """Set the state from that of the same model without ports, and compute the forces at the ports, for `sensors`.
+        """Set the state from the same model without ports, and compute the forces at the ports, for `sensors`.
 
         `other`: initialised, not changed. This System has the maps of `mbs.compiler.ports.with_ports_of`.
         """

@@ -120,7 +120,7 @@ _libraries: dict[str, ctypes.CDLL] = {}
 
 
 def library_path() -> Path:
-    """Path of the library: the environment variable ALI3_KERNEL_LIBRARY, else in `lib/` of this package."""
+    """Path of the library: the environment variable ALI3_KERNEL_LIBRARY, otherwise in `lib/` of this package."""
     override = os.environ.get("ALI3_KERNEL_LIBRARY")
     if override:
         return Path(override)
@@ -129,9 +129,9 @@ def library_path() -> Path:
 
 
 def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
-    """Load the kernel and set the types of arguments and results; `path`: by default `library_path()`.
+    """Load the kernel and set the types of arguments and results; `path`: the library, by default `library_path()`.
 
-    Raises `OSError`: there is no such library, or it is for another platform or from other sources than this package.
+    Raises `OSError` if there is no such library, or if it is for another platform or other sources than this package.
     """
     key = str(Path(path) if path is not None else library_path())
     if key in _libraries:

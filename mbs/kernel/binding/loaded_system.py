@@ -51,7 +51,7 @@ class LoadedSystem(KernelMemory):
     def attach(self, library: str | os.PathLike[str]) -> None:
         """Use the code of a library that was generated for this System; before the first instance is created.
 
-        Raises `KernelError`: the code is for another System, kernel or processor; `OSError`: the library cannot be
+        Raises `KernelError` if the code is for another System, kernel or processor; `OSError`: the library cannot be
         loaded.
         """
         message = ctypes.create_string_buffer(256)

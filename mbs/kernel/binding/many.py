@@ -17,7 +17,7 @@ _DOUBLES = POINTER(c_double)
 
 
 class RunEnd(NamedTuple):
-    """End of the run of one instance."""
+    """How the run of one instance ended."""
 
     done: int
     """Number of accepted steps."""
@@ -39,7 +39,7 @@ class Many(KernelMemory):
     """
 
     def __init__(self, system: LoadedSystem, width: int) -> None:
-        self._handle: c_void_p | None = None
+        self._handle: c_void_p | None = None  # for __del__ if the kernel refuses
         self.system, self.width = system, width
         self._library = system._library
         handle = c_void_p()
@@ -58,27 +58,27 @@ class Many(KernelMemory):
 
     @property
     def size(self) -> int:
-        """Bytes in addition to those of the instances."""
+        """Memory beside that of the instances, bytes."""
         return int(self._library.ali3_many_size(self.system._handle, self.width))
 
     def run(
         self, instances: Sequence[Instance], h: float, n: int, every: int, out: Sequence[Any], positions: Sequence[Any]
     ) -> list[RunEnd]:
-        """Make `n` steps of `h` seconds of each instance, with the results of `Instance.run`.
+        """Advance each instance by `n` steps of `h` s, with the same results as `Instance.run`.
 
-        `instances`: at most `width`, with the same settings; `out`, `positions`: for each instance those of
-        `Instance.run`. An instance that stops does not change the others.
+        `instances`: at most `width`, with the same settings; `out`, `positions`: arguments of `Instance.run`, one for
+        each instance. An instance that stops does not change the others.
         """
-        sizes, lanes = self.system.sizes, (LaneFields * len(instances))()
-        buffers = []
+        sizes = self.system.sizes
+        lanes = (LaneFields * len(instances))()
+        buffers = []  # lanes have only pointers to them
         for lane, instance, values, rows in zip(lanes, instances, out, positions, strict=True):
             out_buffer = buffer(values, n // every * sizes.ns, "out", writable=True)
             position_buffer = buffer(rows, n // every * sizes.nq, "positions", writable=True)
             buffers.append((out_buffer, position_buffer))
             lane.instance = instance._handle
-            lane.out, lane.positions = (
-                None if b is None else ctypes.cast(b, _DOUBLES) for b in (out_buffer, position_buffer)
-            )
+            lane.out = _pointer(out_buffer)
+            lane.positions = _pointer(position_buffer)
         self._check(self._library.ali3_many_run(self._handle, len(lanes), lanes, h, n, every))
         return [
             RunEnd(lane.done, lane.alone, self._error(instance, lane.status))
@@ -91,3 +91,7 @@ class Many(KernelMemory):
         except KernelError as error:
             return error
         return None
+
+
+def _pointer(array: Any) -> Any:
+    return None if array is None else ctypes.cast(array, _DOUBLES)

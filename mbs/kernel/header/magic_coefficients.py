@@ -180,4 +180,4 @@ MAGIC_COEFFICIENTS = {
     "QSY7": 0.0,
     "QSY8": 0.0,
 }
-"""Coefficients in the order of the element, with their values where a tyre property file has none."""
+"""Coefficients in the order of the element, with their values if a tyre property file has none."""

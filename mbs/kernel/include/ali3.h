@@ -138,7 +138,7 @@ enum {
 };
 
 typedef enum {
-  ALI3_PREDICTOR_PARABOLA = 0, /* through the accelerations and multipliers of past steps where they are smooth */
+  ALI3_PREDICTOR_PARABOLA = 0, /* through the accelerations and multipliers of past steps if they are smooth */
   ALI3_PREDICTOR_ACCELERATION = 1, /* the present ones stay: the paper's */
   ALI3_PREDICTOR_COUNT
 } ali3_predictor;
@@ -172,16 +172,16 @@ typedef struct {
   /* what says whether the run is right, see ali3_energy_balance; the first three of methods with an energy balance */
   double energy; /* kinetic and potential energy of the state, J */
   double work; /* what inputs and forces without a potential gave and took: sum over the steps, J */
-  double kinetic_peak; /* largest kinetic energy, at least that of 1e-6 m/s, J */
+  double kinetic_peak; /* largest kinetic energy, at least the one at 1e-6 m/s, J */
   /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, length of the path of the velocity (over the
    * largest: radians that the motion has turned), sum of the errors of v + h a over the steps, of methods of order
    * above two the larger of what start and end of a step give */
   double speed_peak, velocity_path, predictor_path;
   double velocity_squares, predictor_squares; /* sums of the squares of what the steps add to both paths */
-  double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s; where
+  double fastest_rate; /* if a step was refused as too stiff: largest rate of change of the motion there, 1/s; if
                           what is geared turns too far, its rate, rad/s */
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
-  double energy_floor; /* what gravity does over tolerance_r, J: a smaller energy_error tells nothing */
+  double energy_floor; /* work of gravity along tolerance_r, J: a smaller energy_error tells nothing */
   /* Systems on which nothing acts but forces with a potential, whose energy stays: states that were looked at, set to 0
    * where it may jump; the energy of the first, means of their number of steps and of their energy, J, and sums of the
    * squares and products of what they are off these */
@@ -195,7 +195,7 @@ typedef struct {
   int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest;
                            without roads of springs beyond a stop */
   int64_t divisions; /* of steps where such a force changes quickly, a stop is met or left, or at breaks of inputs */
-  double change_rate; /* of such a force in the last part of a step, over that from which parts are halved, 1/s */
+  double change_rate; /* change of such a force in the last part of a step relative to its limit, by its length, 1/s */
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
@@ -205,8 +205,8 @@ typedef struct {
 } ali3_report;
 
 enum { ALI3_BRANCH_NONE = 0, ALI3_BRANCH_LEFT, ALI3_BRANCH_JUMP }; /* ali3_report.branch_kind */
-/* ali3_report.balance. The energy balance is open where ali3_energy_balance is above ALI3_WRONG_ERROR, by more than what
- * the tolerance of the residual leaves open. It decides that the run is wrong where the method says so and no row is
+/* ali3_report.balance. The energy balance is open if ali3_energy_balance is above ALI3_WRONG_ERROR, by more than what
+ * the tolerance of the residual leaves open. It decides that the run is wrong if the method says so and no row is
  * driven: a drive takes up what the rows err, and one whose rate jumps adds energy instantly. A run whose balance is
  * kept may be wrong too. */
 enum { ALI3_BALANCE_KEPT = 0, ALI3_BALANCE_OPEN, ALI3_BALANCE_WRONG };
@@ -235,8 +235,8 @@ ALI3_API ali3_status ali3_system_load_with(const void *bytes, size_t size, const
 ALI3_API void ali3_system_free(ali3_system *s);
 /* A hash of all of a System that generated code depends on. */
 ALI3_API uint32_t ali3_system_structure(const ali3_system *s);
-/* Code that was generated for the structure of this System does its work from now on, with the same bits; before its
- * first instance. Code of another is refused with a sentence without its full stop. It stays the caller's. */
+/* Code that was generated for the structure of this System replaces its loops, with the same bits; to be called before
+ * its first instance. Code of another is refused with a sentence without its full stop. It stays the caller's. */
 ALI3_API ali3_status ali3_system_attach(ali3_system *s, const ali3_generated *generated, char *message,
                                         size_t message_size);
 ALI3_API ali3_sizes ali3_system_sizes(const ali3_system *s);
@@ -245,13 +245,13 @@ ALI3_API int32_t ali3_road_count(const ali3_system *s);
 ALI3_API size_t ali3_instance_size(const ali3_system *s); /* bytes of an instance */
 ALI3_API ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out);
 ALI3_API void ali3_instance_free(ali3_instance *in);
-/* A file (roads/road_file.h, path in UTF-8) in place of a road of the System, for the next ali3_initialise; NULL or an
+/* A file (roads/road_file.h, path in UTF-8) instead of a road of the System, for the next ali3_initialise; NULL or an
  * empty path: the road of the System again. The file is opened, checked and gets the memory it needs: what is not near
  * is read when a step comes there. The friction factor of the road goes on. ALI3_BAD_ROAD leaves the road as it was and
  * a sentence without its full stop in the message, which may be NULL. Files stay over ali3_reset. */
 ALI3_API ali3_status ali3_set_road(ali3_instance *in, int32_t road, const char *path, char *message,
                                    size_t message_size);
-/* After ALI3_ROAD_LOST: what is wrong with which part of a file, in words without a full stop; else "". */
+/* After ALI3_ROAD_LOST: what is wrong with which part of a file, in words without a full stop; otherwise "". */
 ALI3_API const char *ali3_road_lost(const ali3_instance *in);
 /* Heights at n places of the surface of a road that is a grid, of nx x ny values z (y fastest) from the point grid[0],
  * grid[1] on, every grid[2] in x and grid[3] in y. The places are pairs of x and y. */
@@ -259,28 +259,28 @@ ALI3_API void ali3_grid_heights(int32_t nx, int32_t ny, const double grid[4], co
                                 const double *places, double *heights);
 /* Whether a vector is a normal that a road at a port can have: of length 1 within a tenth, and pointing up. */
 ALI3_API int ali3_is_road_normal(const double n[3]);
-/* The first wheel whose centre is half a radius below a road that is a grid, where its contact is lost, as a sentence without its full
- * stop; ALI3_OK and "" if there is none, else ALI3_WHEEL_IN_ROAD. *element: its number, or -1. */
+/* The first wheel whose centre is half a radius below a road that is a grid, where its contact is lost, as a sentence
+ * without its full stop; ALI3_OK and "" if there is none, otherwise ALI3_WHEEL_IN_ROAD. *element: its number, or -1. */
 ALI3_API ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size);
 
-/* The coordinate that is farthest beyond its table, by more than a spacing: a body is none along a tangent there. ALI3_OK
- * if there is none, else ALI3_BEYOND_TABLE. *column: its number, or -1; its value and both ends of the table. Both may be
- * NULL. */
+/* The coordinate that is farthest beyond its table, by more than a spacing: a body is none along a tangent there.
+ * ALI3_OK if there is none, otherwise ALI3_BEYOND_TABLE. *column: its number, or -1; its value and both ends of the
+ * table. Both may be NULL. */
 ALI3_API ali3_status ali3_beyond_table(const ali3_instance *in, int32_t *column, double value_and_ends[3]);
-/* A sentence on a wheel whose rim was pressed into the road, else "". *element: its number, or -1; may be NULL. */
+/* A sentence on a wheel whose rim was pressed into the road, otherwise "". *element: its number, or -1; may be NULL. */
 ALI3_API ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text, size_t size);
 ALI3_API ali3_status ali3_reset(ali3_instance *in); /* back to q0, qd0, y0, default inputs, parameters and settings */
 ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
 ALI3_API ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings);
-/* The value from the present time on, clamped to its range; it is held until it is set again. */
+/* The value, clamped to its range; it is held until it is set again. */
 ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value);
 /* Inputs as a function of time: writes those at time t to `input` (nu), which comes with the present ones, so that some
  * may be left as they are; returns other than 0 to refuse. Steps then ask at every time at which their method looks at
- * inputs, halves of a step too: with after = 1 at the start of a step, where the value behind a jump counts, else with
- * 0. Numbers are clamped to their ranges; what is refused or not finite ends the step with ALI3_BAD_ARGUMENT. NULL: the
- * values of ali3_set_input or ali3_run, as before. The function is no part of a saved
- * state; ali3_reset takes it away. */
+ * inputs, halves of a step too: with after = 1 at the start of a step, where the value behind a jump counts, otherwise
+ * with 0. Numbers are clamped to their ranges; what is refused or not finite ends the step with ALI3_BAD_ARGUMENT.
+ * NULL: the values of ali3_set_input or ali3_run, as before. The function is not part of a saved state; ali3_reset
+ * removes it. */
 typedef int32_t ali3_input_function(void *context, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context);
 /* Times (n, ascending, the caller's) at which it jumps: until a function is set, steps have parts that end there. */
@@ -300,7 +300,7 @@ typedef struct {
 } ali3_input_tables;
 ALI3_API int32_t ali3_input_of_tables(void *tables, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value);
-/* Range and what it writes to are checked. A tunable one holds from the next step on; a fixed one can be set until
+/* Range and what it writes to are checked. A tunable one takes effect at the next step; a fixed one can be set until
  * ali3_initialise and again after ali3_reset, ali3_set_pose or ali3_set_q. ali3_try_parameter: whether the value could
  * be set before a start; nothing changes. */
 ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value);
@@ -315,16 +315,15 @@ ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double
  * */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
-/* Where the file starts in static equilibrium and parameters of elements or guides are not those of the file: that
- * equilibrium first, at the place of the drawing, then the pose. Coordinates given by ali3_set_q stay as they are.
- * Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
- * multipliers. */
+/* If the file starts in static equilibrium and parameters of elements or guides differ from the file: that equilibrium
+ * first, at the place of the drawing, then the pose. Coordinates given by ali3_set_q stay as they are. Position problem
+ * (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* After ali3_initialise of a scene that a pose may place: the place along the ground and the velocity of the heaviest
- * point, the heading and the yaw rate of the heaviest direction, in a car those of its chassis, are held for the duration
- * (s) by steps of at most h, with the present inputs, or those of the input function before this time, while all else
+ * point, the heading and the yaw rate of the heaviest direction, in a car of its chassis, are held for the duration (s)
+ * by steps of at most h, with the present inputs, or those of the input function before this time, while all else
  * settles; then the run begins, at the same time and with books at zero. After a failure the scene must be reset.
- * ALI3_BAD_ARGUMENT, too, where no body has a direction. */
+ * ALI3_BAD_ARGUMENT, too, if no body has a direction. */
 #define ALI3_LONGEST_SETTLING 10.0
 ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
 /* The parts that steps are made in from now on, their iterations, and for each step of ali3_settle ALI3_SETTLING_WORK, as
@@ -342,7 +341,7 @@ ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, con
  * much the last start was raised for that and how far the part that is highest above its place of rest has to sink;
  * empty up to 1 mm, and after ali3_settle. */
 ALI3_API ali3_status ali3_start_text(const ali3_instance *in, char *text, size_t size);
-/* What is no force in the System: 1e-6 of the largest force of gravity on a coordinate, N. */
+/* Forces that count as none: 1e-6 of the largest force of gravity on a coordinate, N. */
 ALI3_API double ali3_no_force(const ali3_instance *in);
 /* After ALI3_WRONG_METHOD: what the method of the settings takes no System with, in words; "" if it takes all. */
 ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
@@ -370,27 +369,27 @@ typedef struct {
   int32_t status; /* ALI3_OK, or why this lane stopped; the others go on */
 } ali3_lane;
 ALI3_API int32_t ali3_widest_lanes(void); /* 2, 4 or 8: the most that this processor has instructions for */
-ALI3_API size_t ali3_many_size(const ali3_system *s, int32_t width); /* bytes beside those of the instances */
+ALI3_API size_t ali3_many_size(const ali3_system *s, int32_t width); /* bytes beside the instances */
 ALI3_API ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out); /* at most the widest */
 ALI3_API void ali3_many_free(ali3_many *many);
 /* n, at most the width, instances make n_steps of h. */
 ALI3_API ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h, int64_t n_steps,
                                    int64_t every);
 /* Steps of any length by step doubling, so that their errors add up to the tolerance over the span (error per unit
- * step). Errors of positions are in parts of `length`, those of velocities in parts of length * rate or of the present
- * speed. What is given comes first; the counts start at 0 and go on from call to call. */
+ * step). Errors of positions are relative to `length`, errors of velocities to length * rate or to the present speed.
+ * What is given comes first; the counts start at 0 and go on from call to call. */
 typedef struct {
   double tolerance, length, span, rate; /* 1, m, s, 1/s: the least rate of the motion */
   double longest; /* of steps, s */
   double h; /* next step to try, s; 0: chosen */
-  double last; /* error of the last step over what it might be, for the controller; 0: none */
+  double last; /* error of the last step relative to its limit, for the controller; 0: none */
   double usual; /* mean of the last some hundred steps, s */
   double smallest, largest; /* accepted steps, s */
   double error_sum; /* of the estimates of accepted steps */
   double forced_error; /* the part of it of steps as short as they may be that erred more than they might */
   int64_t accepted, rejected, failed, forced; /* steps; failed: did not converge */
-  int64_t over_share; /* steps that erred more than their share and no more than a fixed one */
-  int64_t side_steps; /* made for a record where no polynomial through the steps served */
+  int64_t over_share; /* steps with an error above their part of the tolerance and below a fixed limit */
+  int64_t side_steps; /* made for a record when no polynomial through the steps was accurate enough */
 } ali3_control;
 typedef struct {
   int64_t n;
@@ -402,17 +401,16 @@ typedef struct {
  * record that are written. A step that fails as short as it may be ends the call; the state before it is kept. */
 ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const double *scale, double t_end,
                                       int64_t most_steps, const ali3_record *record, int64_t *done);
-/* Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs. */
+/* Accelerations and multipliers of the present inputs and guides, without the history: after a jump of these. */
 ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
 /* The same of n sensors by their numbers. */
 ALI3_API ali3_status ali3_some_sensors(ali3_instance *in, int32_t n, const int32_t *number, double *out);
-/* The System with ports that another run follows, ALI3_BAD_ARGUMENT where it does not belong to the other's: takes over
- * its state, accelerations and multipliers and finds the forces at the ports, for ali3_sensors. `without` stays as it
- * is. */
+/* The System with ports that another run follows, ALI3_BAD_ARGUMENT if it does not belong to the other System: takes
+ * over its state, accelerations and multipliers and finds the forces at the ports, for ali3_sensors. `without` stays as
+ * it is. */
 ALI3_API ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without);
-/* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] =
- * 0). */
+/* First time derivatives of the sensors; known[i] = 0 if sensor i depends on forces or accelerations (rates[i] = 0). */
 ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* A row that is open by less, m, is not why something failed. */
@@ -420,7 +418,8 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* Farthest and fastest start, m and m/s or rad/s, and its yaw, rad: coordinates have 16 digits. */
 #define ALI3_FARTHEST 1e8
 #define ALI3_FASTEST 1e6
-/* |energy_error| over the energy that was in the motion: largest kinetic energy and work, at least energy_floor. */
+/* |energy_error| relative to the energy that was in the motion: largest kinetic energy and work, at least energy_floor.
+ * */
 ALI3_API double ali3_energy_balance(const ali3_report *report);
 /* Two motions of a System with longer and shorter steps, compared by numbers that they show, each in a unit. What rests
  * judges nothing: its size is 0. Rates, and forces of motors, are judged where no place moves by itself. */
@@ -452,21 +451,21 @@ typedef struct { /* of one of them; zero before the first sample */
 ALI3_API void ali3_compare(const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one,
                            const double *other, ali3_compared *seen);
 /* What a difference of each is held against, the largest range or force in its unit; 0: it does not count. `length`: of
- * the model, m; `energy`, J: forces that do less over the length, or moments over a radian, are none; `guided`: places
- * that are the same in both motions do not move by themselves. */
+ * the model, m; `energy`, J: forces that do less work along the length, or moments along a radian, do not count;
+ * `guided`: places that are the same in both motions do not move by themselves. */
 ALI3_API void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length,
                                   double energy, int32_t guided, double *size);
-/* The largest difference, or the largest of the last sample, over its size; *worst: whose, -1: none. */
+/* The largest difference, or the largest of the last sample, relative to its size; *worst: whose, -1: none. */
 ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *size, int32_t latest,
                                     int32_t *worst);
 #define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
-#define ALI3_RESOLVED 0.5 /* missed share of changes of velocity, h w/2 of a vibration of w: steps resolve up to it */
+#define ALI3_RESOLVED 0.5 /* missed fraction of changes of velocity, h w/2 of a vibration of w: largest resolved */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
 #define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
-/* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */
+/* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty if there is none. */
 ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);
 
@@ -478,13 +477,13 @@ enum { /* report of the solver; the integer of sensors of type 13 */
        ALI3_SOLVER_HALVINGS, /* since the start */
        ALI3_SOLVER_STATUS, /* as ali3_run_status */
        ALI3_SOLVER_ENERGY_ERROR, /* J, since the start */
-       ALI3_SOLVER_ENERGY_BALANCE, /* the same as a share of the motion, see ali3_energy_balance */
+       ALI3_SOLVER_ENERGY_BALANCE, /* the same relative to the motion, see ali3_energy_balance */
        ALI3_SOLVER_CAPPED, /* steps since the start that ended at settings.step_iterations, or stayed whole for it */
        ALI3_SOLVER_COUNT
 };
 ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
-/* What the steps of the last ali3_step or ali3_run left that ended at settings.step_iterations, the largest, m; 0 where
- * none did. No part of a saved state. */
+/* What the steps of the last ali3_step or ali3_run left that ended at settings.step_iterations, the largest, m; 0 if
+ * none did. Not part of a saved state. */
 ALI3_API double ali3_capped_residual(const ali3_instance *in);
 
 /* Flat, versioned, pointer-free, checksummed; bound to the System and the files of its roads by CRC. Holds all that
@@ -494,16 +493,16 @@ ALI3_API ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_
 ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size);
 /* A copy in memory of what inputs, parameters and steps change, for steps that are taken back: a block of
  * ali3_snapshot_size bytes, aligned as by malloc, which must be restored to the instance it was taken of. Settings are
- * not in it: where the method is another one now, call ali3_set_settings after it. */
+ * not in it: if the method is another one now, call ali3_set_settings after it. */
 ALI3_API size_t ali3_snapshot_size(const ali3_system *s);
 ALI3_API void ali3_snapshot_take(const ali3_instance *in, void *snapshot);
 ALI3_API void ali3_snapshot_restore(ali3_instance *in, const void *snapshot);
 /* Whether one that was stored elsewhere may be restored: ALI3_OK or ALI3_BAD_STATE; the instance stays as it is. */
 ALI3_API ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot);
-/* Per force element (ne) 1 where it touches a road in the present position, else 0. */
+/* Per force element (ne) 1 if it touches a road in the present position, otherwise 0. */
 ALI3_API void ali3_contacts(const ali3_instance *in, unsigned char *touching);
 /* Per force element (ne) a number of the smooth piece of its law that holds in the present state with the present
- * inputs: where it changes, a stop is met or left, friction sticks or slips, a limit is reached. */
+ * inputs: when it changes, a stop is met or left, friction sticks or slips, a limit is reached. */
 ALI3_API void ali3_law_pieces(ali3_instance *in, uint32_t *piece);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
@@ -518,7 +517,7 @@ ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const dou
 /* The tangent (23) as a dense symmetric nq x nq matrix at the present state for step h with multipliers lam (NULL:
  * present). */
 ALI3_API ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense);
-/* M(q), dense nq x nq; it depends on q only where bodies are flexible. */
+/* M(q), dense nq x nq; it depends on q only if bodies are flexible. */
 ALI3_API ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense);
 /* One element step in isolation: slots y_old -> y_new over h at (q, qd); force (nq) may be NULL. */
 ALI3_API ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old,

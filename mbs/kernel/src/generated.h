@@ -1,7 +1,7 @@
 /* Code that `mbs.compiler.generated` writes for the algebra of one System. It depends on the structure of the System
  * only and reads all numbers from its arguments, so that all instances of all Systems of that structure share it; it
  * has no memory of its own and has the order of sums of the kernel, so that results are the same bits. For a function
- * that is NULL the kernel uses its loops. Arrays may be read and, where the kernel does so, written one number beyond
+ * that is NULL the kernel uses its loops. Arrays may be read and, if the kernel does so, written one number beyond
  * their end, as by `ali3_three`. */
 #ifndef ALI3_GENERATED_H
 #define ALI3_GENERATED_H

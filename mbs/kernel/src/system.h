@@ -103,11 +103,11 @@ struct ali3_system {
   /* not 0: the coordinates of the row are points and directions, in triples of consecutive ones */
   unsigned char *row_triples;
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
-                           with the same ones, those of modes; they stand by columns. Else the end of the row */
-  int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
-                        side; else the end of its terms */
+                           with the same ones, as modes have; they stand by columns. Otherwise the end of the row */
+  int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which the
+                        coordinates lie side by side; otherwise the end of its terms */
   int32_t *front_row_ptr, *front_row; /* nf + 1; nc: rows front by front */
-  int32_t *row_alike; /* as front_row: rows from this one on with the same stretch in the same front; 0: no stretch */
+  int32_t *row_alike; /* as front_row: number of rows here with the same stretch in the same front; 0: no stretch */
   ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
   int32_t *quad_pos; /* as quad: its place in front storage */
   double *quad_second; /* as quad: the second derivative of the term, h or, of a square, 2 h */
@@ -122,16 +122,15 @@ struct ali3_system {
   double *front_mass; /* M in front storage, the initial value of every tangent */
   double *mass_floor; /* nq: M_ii, or a typical mass for massless coordinates */
   double *mass_floor_inverse; /* nq */
-  double *mass_missing; /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
+  double *mass_missing; /* nq: mass_floor - M_ii if M_ii is zero, otherwise 0 */
   int32_t
       *mass_stretch; /* nq: entries of mass_ptr between which the columns of a row are neighbours, or twice its end */
   /* A triple are three signals or rows of mass_ptr that are components of a point or a direction: entry by entry of the
    * first the columns of the others are one and two further, and the values are the same. */
-  int32_t *
-      mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns; 0: it is the first of a triple */
+  int32_t *mass_alike; /* nq: number of rows of mass_ptr here with the same columns; 0: first row of a triple */
   int32_t *four, *alone; /* elements evaluated four at a time (elements/element_fours.h), and the others */
   unsigned char *el_in_four; /* ne: 1: evaluated four at a time */
-  int32_t *el_beside; /* ne: first signal of an element with consecutive signals, else -1 */
+  int32_t *el_beside; /* ne: first signal of an element with consecutive signals, otherwise -1 */
   unsigned char *active_triple,
       *el_triple; /* n_active, as el_sig: 1: it is the first of a triple that follows in turn */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
@@ -145,7 +144,7 @@ struct ali3_system {
   double *el_entry_value;
   int32_t *el_coordinate_ptr; /* ne+1 */
   int32_t *el_coordinate_loc; /* local index in the front, ascending */
-  int32_t *el_apart; /* ne: index of the coordinate from which on the coordinates of the element are consecutive */
+  int32_t *el_apart; /* ne: index from which the coordinates of the element are consecutive */
   int32_t *active_signal; /* signals that elements use */
   int32_t *flex_square; /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
   ali3_tabled *tabled;
@@ -158,8 +157,8 @@ struct ali3_system {
   int32_t *el_entry_dependent; /* per entry: index of the dependent in its item, -1: a coordinate */
   ali3_tree *tree; /* NULL: the System has none */
   ali3_generated generated; /* initially none */
-  int32_t n_input_work; /* n_work if inputs may change the potentials of elements, else 0 */
-  int32_t n_guide_work; /* 1 if the work of guides is sensed, else 0 */
+  int32_t n_input_work; /* n_work if inputs may change the potentials of elements, otherwise 0 */
+  int32_t n_guide_work; /* 1 if the work of guides is sensed, otherwise 0 */
   int32_t n_work, n_work_force; /* number of elements with sensed work, number of their signals */
   /* ne: index of the element in work_element, or -1; elements with sensed work; n_work + 1: offsets of their signals */
   int32_t *work_of, *work_element, *work_ptr;
@@ -168,8 +167,8 @@ struct ali3_system {
 };
 
 /* Items of a triad in mode_triad (9 signals, kind, ring), and most triads of a loop. */
-enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 };
+enum { ALI3_TRIAD_ITEMS = 11, ALI3_MAX_TRIADS = 15 };
 
-/* The larger one of the System as loaded and that of instances with other axes. */
+/* The larger one of the System as loaded and the System of instances with other axes. */
 static inline const ali3_system *ali3_widest_system(const ali3_system *s) { return s->turned != NULL ? s->turned : s; }
 #endif

@@ -1,12 +1,12 @@
 /* The arrays of a System file, in one list. From it come their place in `ali3_system`, what the loader checks of each
  * (check_arrays.c), `ARRAYS` in Python and the tables of docs/system_file.md; the last two are written by
- * `python mbs/kernel/read_headers.py`. What is no length and no range of one array is checked in check_*.c. */
+ * `python mbs/kernel/read_headers.py`. What is neither a length nor a range of one array is checked in check_*.c. */
 #ifndef ALI3_SYSTEM_ARRAYS_H
 #define ALI3_SYSTEM_ARRAYS_H
 #include <stdint.h>
 
 /* clang-format off */
-/* Numbers of things: X(name, array that has so many items, times this, words). */
+/* Sizes: X(name, array whose length is the size times the third argument, third argument, words). */
 #define ALI3_SYSTEM_SIZES(X) \
   X(nq, q0, 1, "coordinates") \
   X(nc, row_const, 1, "rows (constraint equations)") \
@@ -56,8 +56,8 @@
 /* X(items, name, presence, length, values, words)
  *
  * presence: MUST, or MAY: a file may lack it, and its length is 0 then.
- * length: sizes of the list above; ANY; OR_NONE(n): n or 0; IF_ANY(k, n): n where there are k, else 0; ANY_IF(k): any
- * where there are k, else 0; RELATED_LENGTH: depends on values of others, see check_*.c.
+ * length: sizes of the list above; ANY; OR_NONE(n): n or 0; IF_ANY(k, n): n if there are k, otherwise 0; ANY_IF(k): any
+ * if there are k, otherwise 0; RELATED_LENGTH: depends on values of others, see check_*.c.
  * values: BELOW(n): 0 to n - 1; WITHIN(low, high): low to high; OFFSETS(array): from 0 to the length of that array,
  * none below the one before; ASCENDING: the same to any; RELATED: depends on values of others, see check_*.c; FINITE;
  * OR_INFINITE; TEXT. */
@@ -75,7 +75,7 @@
   X(INTEGERS, mass_col, MUST, n_mass, BELOW(nq), "its columns, ascending in a row") \
   X(REALS, mass_val, MUST, n_mass, FINITE, "its entries") \
   X(INTEGERS, mass_pos, MUST, n_mass, RELATED, \
-    "index into front storage of entry (row, col) when row >= col, else -1") \
+    "index into front storage of entry (row, col) when row >= col, otherwise -1") \
   X(REALS, gravity_force, MUST, nq, FINITE, \
     "constant generalised force of gravity; potential = gravity_const - gravity_force . q") \
   X(REALS, gravity_const, MUST, 1, FINITE, "J") \
@@ -132,13 +132,13 @@
   X(INTEGERS, front_idx, MUST, n_front, RELATED, "these, ascending, pivots first") \
   X(INTEGERS, front_parent, MUST, nf, WITHIN(-1, nf - 1), "parent front, which is larger, or -1") \
   X(INTEGERS, front_map, MUST, n_front, RELATED, \
-    "of the coordinates that are no pivots the local index in the parent front; of pivots -1") \
+    "of the coordinates that are not pivots the local index in the parent front; of pivots -1") \
   X(INTEGERS, front_off, MUST, nf + 1, ASCENDING, \
     "offset of the front's dense m x m block, column major, lower triangle used: entry (i, j), i >= j, at off + " \
     "j*m + i") \
   /* Signals and force elements */ \
   X(INTEGERS, sig_ptr, MUST, nsig + 1, OFFSETS(sig_col), "affine signals u = sum val*q[col] + const") \
-  X(INTEGERS, sig_col, MUST, n_entry, RELATED, "coordinate, or from nq on a dependent of a table") \
+  X(INTEGERS, sig_col, MUST, n_entry, RELATED, "coordinate, or a dependent of a table if not below nq") \
   X(REALS, sig_val, MUST, n_entry, FINITE, "val") \
   X(REALS, sig_const, MUST, nsig, FINITE, "const") \
   X(INTEGERS, el_type, MUST, ne, RELATED, \
@@ -166,11 +166,11 @@
     "an earlier guide") \
   X(INTEGERS, guide_input, MUST, ng, RELATED, \
     "input of types 1 and 2; earlier guide of type 3, which is not of type 3") \
-  X(INTEGERS, guide_second, MAY, OR_NONE(ng), RELATED, "second input of type 2; may be missing where there is none") \
+  X(INTEGERS, guide_second, MAY, OR_NONE(ng), RELATED, "second input of type 2; may be missing if there is none") \
   X(INTEGERS, guide_real_ptr, MUST, ng + 1, OFFSETS(guide_real), "reals of a guide") \
   X(REALS, guide_real, MUST, ANY, FINITE, \
     "type 0: [n, b_0..b_n, then n*6 coefficients c0..c5 of (t-b_k)^j], clamped outside with zero rates; type 1: " \
-    "s'' = w^2 (u*gain - s) - 2 w s', [w, gain, s0]; type 2: clamp(u*gain + u_2*gain_2, low, high) in place of " \
+    "s'' = w^2 (u*gain - s) - 2 w s', [w, gain, s0]; type 2: clamp(u*gain + u_2*gain_2, low, high) instead of " \
     "u*gain, [w, gain, s0, gain_2, low, high]; type 3: n values of the other guide, n values and n slopes, a " \
     "cubic between two points and straight beyond the ends") \
   X(INTEGERS, road_type, MUST, nr, RELATED, "see `mbs/kernel/src/elements/road.h`") \
@@ -190,7 +190,7 @@
   X(REALS, par_scale, MUST, n_write, FINITE, "scale") \
   X(REALS, par_offset, MAY, OR_NONE(n_write), FINITE, "offset, by default 0") \
   X(INTEGERS, par_inverse, MAY, OR_NONE(n_write), BELOW(2), \
-    "1: scale/value is written in place of value*scale; by default 0") \
+    "1: scale/value is written instead of value*scale; by default 0") \
   X(INTEGERS, par_fixed, MAY, OR_NONE(np), BELOW(2), \
     "1: the parameter can be set before the start only; by default 0") \
   /* Masses that parameters write */ \
@@ -265,7 +265,7 @@
   X(REALS, pose_z, MUST, n_pose, FINITE, "factor of z") \
   X(REALS, pose_speed, MUST, n_pose, FINITE, "carries the wheel spins per m/s") \
   X(INTEGERS, pose_partner, MAY, OR_NONE(n_pose), WITHIN(-nsig, nsig), \
-    "of an x component minus, of a y component plus (the signal of the other one + 1), else 0: how a pose turns a" \
+    "of an x component minus, of a y component plus (the signal of the other one + 1), or 0: how a pose turns a" \
     " scene that starts elsewhere than at `q0`") \
   X(INTEGERS, static_start, MAY, OR_NONE(1), WITHIN(1, 1), \
     "[1]: `q0` is a static equilibrium, to be found again where parameters of elements, guides or payloads differ") \
@@ -328,7 +328,7 @@
     "from its perpendicular; bit 1: n is z and the arms lie in the plane), number of its ring in the loop") \
   X(INTEGERS, mode_cell_ptr, MAY, n_mode_ptr, OFFSETS(mode_cell), \
     "modes of a loop; a loop without modes is watched for jumps only") \
-  X(INTEGERS, mode_cell, MAY, ANY, BELOW(1 << 2 * ALI3_MOST_TRIADS), \
+  X(INTEGERS, mode_cell, MAY, ANY, BELOW(1 << 2 * ALI3_MAX_TRIADS), \
     "modes as pairs (signs, mask): bits 2k and 2k+1 say that sine and cosine of the angle of triad k are positive") \
   X(INTEGERS, mode_name_ptr, MAY, IF_ANY(n_mode_ptr, n_triad + 1), OFFSETS(mode_name), \
     "name of the joint of each triad") \

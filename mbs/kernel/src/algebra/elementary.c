@@ -15,6 +15,7 @@ static const double LN2_1 = 0.6931471804855391, LN2_2 = 7.440617110012397e-11, O
 static const double HALF_PI = 1.5707963267948966;
 static const double MAX_ARGUMENT = 1048576.0;
 
+/* c[0] + c[1] x + ... with n coefficients. */
 static double polynomial(const double *c, int n, double x) {
   double sum = c[n - 1];
   for (int i = n - 2; i >= 0; i--) sum = sum * x + c[i];
@@ -29,6 +30,7 @@ static double sine_near(double r, double low) {
   return r + (r * z * polynomial(c, COUNT(c), z) + low * (1.0 - 0.5 * z));
 }
 
+/* cos(r + low) for |r| <= pi/4, `low` below its last place. */
 static double cosine_near(double r, double low) {
   static const double c[] = {1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,         -1.0 / 3628800.0,
                              1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0};
@@ -46,6 +48,7 @@ static int reduce(double x, double *r, double *low) {
   return (int)((int64_t)k & 3);
 }
 
+/* sin(x + quarters pi/2) */
 static double sine_of(double x, int quarters) {
   double r, low;
   if (!(x - x == 0.0)) return x - x; /* NaN */

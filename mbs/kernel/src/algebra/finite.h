@@ -6,8 +6,8 @@
 
 #include "number_pairs.h"
 
-/* The sum of 0 times all numbers is 0 if they are finite, else NaN. Four independent products hide the latency of the
- * multiplication. */
+/* The sum of 0 times all numbers is 0 if they are finite, otherwise NaN. Four independent products hide the latency of
+ * the multiplication. */
 static inline __attribute__((always_inline)) bool ali3_finite_inlined(const double *v, int64_t n) {
   ali3_four a = {0}, b = {0}, c = {0}, d = {0};
   int64_t i = 0;

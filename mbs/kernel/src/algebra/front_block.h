@@ -44,8 +44,8 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
   if (p < n_pivot) ali3_add_multiple(x + p + 1, block + p * n + p + 1, -x[p], n - p - 1);
 }
 
-/* Gathers the unknowns of a front from b, `width` for each coordinate: first those of its pivots, then the others. If
- * there are only pivots they are contiguous in b and not copied. */
+/* Gathers the unknowns of a front from b, `width` for each coordinate: first its pivots, then the others. If there are
+ * only pivots they are contiguous in b and not copied. */
 ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t width, real *b) {
   const ali3_system *S = in->system;
   const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
@@ -57,7 +57,7 @@ ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t wid
   return x;
 }
 
-/* Scatters the unknowns of a front to b: all, or those of its pivots. */
+/* Scatters the unknowns of a front to b: all, or its pivots only. */
 ALI3_INLINED void ali3_front_put_back(const ali3_instance *in, int32_t f, int32_t width, const real *x, bool all,
                                       real *restrict b) {
   const ali3_system *S = in->system;

@@ -39,7 +39,8 @@ ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels
   }
 }
 
-/* target -= f[0] c + f[1] c1 + ... of fewer columns than a panel, of length n, in this order, from entry `from` on. */
+/* target -= f[0] c + f[1] c1 + ... of fewer columns than a panel, of length n, in this order, beginning with entry
+ * `from`. */
 ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_t n, const real *f, int32_t count,
                            int64_t from) {
   const real *restrict c1 = c + n, *restrict c2 = c1 + n;
@@ -73,7 +74,7 @@ ALI3_INLINED ali3_status factorise_panel(ali3_instance *in, real *block, int32_t
   return ALI3_OK;
 }
 
-/* Scales the columns of pivots to those of L, with 1/D on the diagonal. */
+/* Scales the columns of pivots to columns of L, with 1/D on the diagonal. */
 ALI3_INLINED void scale_panel(real *block, int32_t start, int32_t count, int32_t n, const real *inverse) {
   for (int32_t p = 0; p < count; p++) {
     real *column = block + (int64_t)(start + p) * n;
@@ -98,7 +99,7 @@ ALI3_INLINED ali3_status eliminate_few(ali3_instance *in, real *block, int32_t f
   return ALI3_OK;
 }
 
-/* Factorises the triangle of a panel to that of L with 1/D; factor[p][k]: L_pk of its unscaled columns. */
+/* Factorises the triangle of a panel to the triangle of L with 1/D; factor[p][k]: L_pk of its unscaled columns. */
 ALI3_INLINED ali3_status factorise_triangle(ali3_instance *in, int32_t pivot, real *panel, int64_t n,
                                             real factor[PANEL][PANEL]) {
   for (int32_t p = 0; p < PANEL; p++) {
@@ -133,7 +134,7 @@ ALI3_INLINED group *factorise_whole_panel(ali3_instance *in, int32_t pivot, real
   return packed;
 }
 
-/* Eliminates whole panels of pivots from `start` on; a later column is loaded once for all of them. */
+/* Eliminates whole panels of pivots, the first at `start`; a later column is loaded once for all of them. */
 ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t panels,
                                           int32_t n) {
   real *panel = block + (int64_t)start * n;
@@ -151,6 +152,7 @@ ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_
   return ALI3_OK;
 }
 
+/* Eliminates the n_pivot pivots of a front of n coordinates, panel by panel. */
 ALI3_INLINED ali3_status eliminate(ali3_instance *in, real *block, int32_t first, int32_t n_pivot, int32_t n) {
   ali3_status status = ALI3_OK;
   int32_t p = 0;
@@ -195,6 +197,7 @@ ALI3_INLINED void assemble(const real *block, const int32_t *map, int32_t n_pivo
 }
 
 #ifndef ALI3_WIDTH
+/* Factorises by generated code. */
 static ali3_status factorise_generated(ali3_instance *in, double *F) {
   double pivot;
   const int32_t bad = in->system->generated.factorise(F, in->mass.floor, &in->report.negative_pivots, &pivot);

@@ -28,7 +28,7 @@
 #define ALI3_BY_FOURS
 #endif
 
-/* Whether n ascending indices are consecutive, as those of modes mostly are. */
+/* Whether n ascending indices are consecutive, as indices of modes mostly are. */
 static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
 
 /* First entry of a column of a front, of length n, to compute for the entries from `from` on: a multiple of four
@@ -120,8 +120,8 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 }
 
 #ifndef ALI3_WIDTH
-/* x y in four sums from the end on: the first entries, which back substitution has found last, enter the last
- * additions. */
+/* x y in four sums, from the end to the start: the first entries, which back substitution has found last, enter the
+ * last additions. */
 static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
   ali3_four sum = {0};
   int64_t i = n;
@@ -150,7 +150,7 @@ static inline double ali3_sum_product_from_far(const double *restrict x, const d
 }
 
 #else
-/* The same sums for lanes, in the order of those of one instance. */
+/* The same sums for lanes, in the same order as for one instance. */
 #define ALI3_FROM_FAR(name, declared, term)                                                                            \
   static inline real name declared {                                                                                   \
     real sum[4] = {0};                                                                                                 \

@@ -59,7 +59,7 @@ static inline real ali3_floor(real x) {
 #endif
 }
 
-/* Counters of the report are those of the lanes at work. */
+/* Counters of the report belong to the lanes at work. */
 /* Lanes do not report the pieces of laws. */
 #define ALI3_PIECE(piece, c, bits) ((void)(piece), (void)(c), (void)(bits))
 #define ALI3_AT_WORK(in, lanes) (*(in)->at_work = (lanes))

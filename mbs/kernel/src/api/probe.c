@@ -55,7 +55,7 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
                                 .y_new = in->element.y,
                                 .out = in->element.out,
                                 .potential = in->element.potential};
-  ali3_roads_forgive(in);
+  ali3_roads_clear_read_errors(in);
   ali3_forces(in, &call);
   copy(phi, in->step.Phi, z->nc);
   copy(jacobian_values, in->tangent.J, z->nnz_rows);
@@ -109,7 +109,7 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
                                 .out = in->element.out,
                                 .potential = in->element.potential};
   ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
-  ali3_roads_forgive(in);
+  ali3_roads_clear_read_errors(in);
   ali3_forces(in, &call);
   ali3_mass_to_fronts(in, in->tangent.F);
   ali3_rows_square(in, in->tangent.J, c * ali3_penalty(in, h), in->tangent.F);
@@ -136,7 +136,7 @@ ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *
                                 .y_new = in->element.y,
                                 .out = in->element.out,
                                 .potential = in->element.potential};
-  ali3_roads_forgive(in);
+  ali3_roads_clear_read_errors(in);
   ali3_forces(in, &call);
   copy(y_new, in->element.y, z->ny);
   copy(force, in->step.Q, z->nq);

@@ -4,6 +4,7 @@
 #include "../instance.h"
 #include "../method.h"
 
+/* ALI3_BALANCE_* of the run so far. */
 static int32_t balance_of(const ali3_instance *in) {
   const ali3_report *r = &in->report;
   if (!(ali3_energy_balance(r) > ALI3_WRONG_ERROR) || !(fabs(r->energy_error) > r->energy_floor))

@@ -51,7 +51,7 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
     if (!ali3_inertia_possible(in->parameters.inertia_real + k)) return ALI3_BAD_INERTIA;
   in->report = empty;
   in->start.unsettled = 0.0;
-  ali3_roads_forgive(in);
+  ali3_roads_clear_read_errors(in);
   ali3_vectors_copy(in, &in->kept.start, &in->now);
   ali3_status status = ali3_roads_normals(in);
   if (status == ALI3_OK) status = ali3_start_in_equilibrium(in, t0);
@@ -69,7 +69,7 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
   const ali3_report empty = {0};
   if (in == NULL || !(t0 - t0 == 0.0) || !(tolerance > 0.0) || max_iterations < 1) return ALI3_BAD_ARGUMENT;
   in->report = empty;
-  ali3_roads_forgive(in);
+  ali3_roads_clear_read_errors(in);
   ali3_vectors_copy(in, &in->kept.start, &in->now);
   ali3_start_on_road(in);
   return finish_start(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);

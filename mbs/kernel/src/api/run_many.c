@@ -88,8 +88,7 @@ static bool begin_lane(ali3_lane_group *g, int32_t l, const ali3_whole_step *ste
   if (ali3_parted(in, step->asked.t, h)) return false;
   in->parting.changed = -1.0;
   ali3_events_begin(in, step->asked.depth);
-  if (ali3_divides_ahead(in, &step->asked) || fastest_turn(in) * h > MOST_TURN || !continues_method(in, h))
-    return false;
+  if (ali3_divides_ahead(in, &step->asked) || fastest_turn(in) * h > MAX_TURN || !continues_method(in, h)) return false;
   if (ali3_inputs_begin(in, step->asked.t, h) != ALI3_OK) return false;
   ali3_vectors_copy_unwritten(in, to, from);
   if (ali3_input_jump(in, h) != ALI3_OK) return false;
@@ -193,9 +192,9 @@ ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h,
   if (group_status != ALI3_OK) return group_status;
   const ali3_system *S = many->group.system;
   const bool separate = many->separate || !is_supported(S, &many->group.settings);
-  bool active[ALI3_MOST_LANES];
-  ali3_whole_step step[ALI3_MOST_LANES];
-  ali3_status status[ALI3_MOST_LANES];
+  bool active[ALI3_MAX_LANES];
+  ali3_whole_step step[ALI3_MAX_LANES];
+  ali3_status status[ALI3_MAX_LANES];
   for (int32_t l = 0; l < n; l++) {
     lane[l].status = (int32_t)ali3_check_method(lane[l].instance);
     lane[l].done = lane[l].alone = 0;

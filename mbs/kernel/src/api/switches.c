@@ -10,6 +10,7 @@
 #include "../start/initialise.h"
 #include "../state/vectors.h"
 
+/* Switches rows on or off; after the start rows hold their present values. */
 static void set_switch(ali3_instance *in, int32_t number, bool on) {
   const ali3_system *S = in->system;
   in->now.on[number] = 1.0;

@@ -3,7 +3,7 @@
  * the slower one, by x/sqrt(1 + x^2) of the difference of their rates over LOCKING_RATE.
  * The rates of the wheels are absolute about the axis f x g; f, g are orthonormal on the frame. The reals are followed
  * by the total ratio of each gear, the highest gear last.
- * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step, then those of
+ * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step, then the states of
  * selector.h. Reverse is one gear, with the torque of a first gear of its ratio, reversed.
  * A requested shift begins with the step of the request, once the last shift has ended. The clutch is a friction clutch
  * after the converter, whose torque is at most 1 - pedal times the largest one of the drive in its gear; it slips above
@@ -27,12 +27,15 @@ enum { STATES = 4 };
  * IN_GEAR on the gear, 0 for none, the number of gears + 1 for reverse; slipping clutch. */
 enum { TURNS = 1, CONVERTS = 2, BY_POWER = 4, LIMITED = 8, CUT_OFF = 16, IN_GEAR = 32, SLIPS = 1 << 16 };
 
+/* Gear, 1 to `gears`, of a state. */
 static int gear_of(double slot, int gears) { return slot >= gears ? gears : slot >= 1.0 ? (int)slot : 1; }
 
+/* Rotation rate of the carrier about the axle, rad/s. */
 static double frame_rate(const ali3_element_args *a) {
   return 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
 }
 
+/* Mean rate of both wheels relative to the carrier, rad/s. */
 static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
 
 /* Requested gear, 0 for none. */
@@ -42,6 +45,7 @@ static int requested_gear(const ali3_element_args *a) {
              : 0;
 }
 
+/* Throttle, 0 to 1. */
 static double throttle_input(const ali3_element_args *a) {
   return ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
 }
@@ -85,8 +89,8 @@ static const double *selector_reals(const ali3_element_args *a) { return a->real
 
 static double selector_input(const ali3_element_args *a) { return a->input[a->integer[SELECTOR]]; }
 
-/* Share of the torque of a gear that its clutch transmits, 1 if it does not slip. */
-static double clutch_share(ali3_element_args *a, double ratio, double wheel_torque) {
+/* Fraction of the torque of a gear that its clutch transmits, 1 if it does not slip. */
+static double clutch_fraction(ali3_element_args *a, double ratio, double wheel_torque) {
   const double *p = a->real, pedal = a->nint > CLUTCH ? ali3_clamp(a->input[a->integer[CLUTCH]], 0.0, 1.0) : 0.0;
   if (!(pedal > 0.0)) return 1.0;
   const double limit =
@@ -96,27 +100,27 @@ static double clutch_share(ali3_element_args *a, double ratio, double wheel_torq
   return limit / fabs(wheel_torque);
 }
 
-/* Wheel torque in the direction of the selector, by the share that is engaged; without torque the engine runs up to its
- * limit speed. The torque of a slipping clutch does not depend on the speed. */
+/* Wheel torque in the direction of the selector, by the fraction that is engaged; without torque the engine runs up to
+ * its limit speed. The torque of a slipping clutch does not depend on the speed. */
 static double selector_torque(ali3_element_args *a, double ratio, double *slope, double *speed, double *engine,
                               int *direction) {
   const double *p = a->real, *q = selector_reals(a), throttle = throttle_input(a), W = wheel_rate(a);
-  double share;
+  double engaged;
   *direction =
-      ali3_selector_step(a->y_old + STATES, a->y_new + STATES, selector_input(a), a->h / q[ENGAGE_TIME], &share);
+      ali3_selector_step(a->y_old + STATES, a->y_new + STATES, selector_input(a), a->h / q[ENGAGE_TIME], &engaged);
   const double unloaded = p[IDLE_SPEED] + throttle * (p[LIMIT_SPEED] - p[IDLE_SPEED]);
   *slope = *engine = 0.0;
   *speed = unloaded;
   if (*direction == 0) return 0.0;
   const double sign = *direction, geared = sign < 0.0 ? q[REVERSE_RATIO] : ratio;
   const double wheel_torque = torque(p, geared, throttle, sign * W, slope, speed, engine, &a->piece);
-  const double transmitted = clutch_share(a, geared, wheel_torque);
+  const double transmitted = clutch_fraction(a, geared, wheel_torque);
   if (transmitted < 1.0) *slope = 0.0;
-  share *= transmitted;
-  *slope *= share;
-  *engine *= share;
-  *speed = share * *speed + (1.0 - share) * unloaded;
-  return sign * share * wheel_torque;
+  engaged *= transmitted;
+  *slope *= engaged;
+  *engine *= engaged;
+  *speed = engaged * *speed + (1.0 - engaged) * unloaded;
+  return sign * engaged * wheel_torque;
 }
 
 /* Transfers torque up to `limit` from the faster wheel to the slower one. */
@@ -167,7 +171,7 @@ static void shift_rates(const double *p, int gear, double throttle, double *up, 
   *down = (p[DOWN_CLOSED] + throttle * (p[DOWN_OPEN] - p[DOWN_CLOSED])) / p[AUTOMATIC_DRIVE_REALS + gear - 1];
 }
 
-/* Selects the gear for the speed from `gear` on, without a shift. */
+/* Selects the gear for the speed without a shift; the search begins at `gear`. */
 static void choose_gear(ali3_element_args *a, int gear, double rate) {
   const double *p = a->real, throttle = throttle_input(a);
   double up, down;

@@ -2,15 +2,15 @@
 /* Numbers of a drive. Written by `python -m mbs.elements.fields_in_c` from AutomaticDrive. */
 /* Signals: left (1), right (1), f (3), g (3). */
 /* Outputs: engine_speed (rad/s), speed of the engine; gear (1), gear engaged; wheel_torque (N m), torque on each
- * of the two wheels, the mean where the differential locks; engine_torque (N m), torque of the engine; left_power
- * (W), power on the left wheel; right_power (W), power on the right wheel; left_torque (N m), torque on the left
- * wheel; right_torque (N m), torque on the right wheel */
+ * of the two wheels, the mean if the differential locks; engine_torque (N m), torque of the engine; left_power (W),
+ * power on the left wheel; right_power (W), power on the right wheel; left_torque (N m), torque on the left wheel;
+ * right_torque (N m), torque on the right wheel */
 #ifndef ALI3_AUTOMATIC_DRIVE_FIELDS_H
 #define ALI3_AUTOMATIC_DRIVE_FIELDS_H
 #include "element.h"
 
 enum {
-  /* Torque of the engine, N m; full torque is the lesser of it and of the power over the speed. */
+  /* Torque of the engine, N m; full torque is the lesser of it and of power / speed. */
   MAX_TORQUE,
   /* Power of the engine, W. */
   MAX_POWER,
@@ -18,17 +18,17 @@ enum {
   EFFICIENCY,
   /* Torque ratio of the converter at stall. */
   STALL_FACTOR,
-  /* Speed ratio of the converter from which on its torque ratio is 1. */
+  /* Speed ratio of the converter above which its torque ratio is 1. */
   COUPLING_RATIO,
   /* Engine speed at rest with closed throttle, rad/s. */
   IDLE_SPEED,
   /* Engine speed at rest with open throttle, rad/s. */
   STALL_SPEED,
-  /* Engine speed where the limiter sets in, rad/s. */
+  /* Engine speed at which the limiter sets in, rad/s. */
   LIMIT_SPEED,
   /* Torque per driven wheel at rest with closed throttle, the selector in drive, N m; 0: neutral. */
   CREEP_TORQUE,
-  /* Wheel speed where the creep torque has faded, rad/s. */
+  /* Wheel speed at which the creep torque has faded, rad/s. */
   CREEP_SPEED,
   /* Torque of the engine at its limit speed with closed throttle, N m. */
   DRAG_TORQUE,

@@ -1,10 +1,10 @@
 /* Brake: elastoplastic friction torque between the spin of a wheel and its carrier.
  * f and g are orthonormal on the carrier with f x g along the axis, the rate Omega of the spin is absolute. Inputs are
- * from 0 to 1; with the integer BY_SIZE that of the pedal has no upper limit, as a torque or a pressure. States:
+ * from 0 to 1; with the integer BY_SIZE the pedal has no upper limit, as a torque or a pressure. States:
  * wind-up z rad, z' rad/s.
  *
- * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else tau
- * is at the bound and z' = (tau - k z)/c. With z = a + h z'/2 (trapezoidal rule) and D = c + h k/2:
+ * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, otherwise
+ * tau is at the bound and z' = (tau - k z)/c. With z = a + h z'/2 (trapezoidal rule) and D = c + h k/2:
  *   tau = clamp(k a + D w), z' = (tau - k a)/D.
  * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and a sticking brake returns to its position: it does not
  * creep. */

@@ -14,11 +14,11 @@ real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *
   const real hard_depth = x - law->end, K = law->hard_stiffness, w = law->onset;
   const truth no_hard_end = is_open | ali3_not((K > 0.0) & (hard_depth > 0.0)), in_onset = hard_depth < w;
   if (ali3_any(ali3_not(no_hard_end))) {
-    const real share = hard_depth / w, beyond = hard_depth - 0.5 * w;
-    force = ali3_add_unless(no_hard_end, force, ali3_where(in_onset, 0.5 * K * hard_depth * share, K * beyond));
-    *slope = ali3_add_unless(no_hard_end, *slope, ali3_where(in_onset, K * share, K));
+    const real fraction = hard_depth / w, beyond = hard_depth - 0.5 * w;
+    force = ali3_add_unless(no_hard_end, force, ali3_where(in_onset, 0.5 * K * hard_depth * fraction, K * beyond));
+    *slope = ali3_add_unless(no_hard_end, *slope, ali3_where(in_onset, K * fraction, K));
     *energy = ali3_add_unless(no_hard_end, *energy,
-                              ali3_where(in_onset, K * hard_depth * hard_depth * share / 6.0,
+                              ali3_where(in_onset, K * hard_depth * hard_depth * fraction / 6.0,
                                          K * (0.5 * hard_depth * (hard_depth - w) + w * w / 6.0)));
   }
   return ali3_where(is_open, none, force);

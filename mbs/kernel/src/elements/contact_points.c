@@ -1,8 +1,8 @@
 /* Points of a body that touch a road: normal force with a smooth onset and loss, friction that sticks at rest.
  *
- * The axes of the body need not be orthonormal, so that those of a flexible body may be averages. The reals are
- * followed by the lowest and highest x, y, z of the points, then x, y, z of each. States per point: deflections z1, z2
- * of the stick spring in the plane of contact and their rates.
+ * The axes of the body need not be orthonormal, so that axes of a flexible body may be averages. The reals are followed
+ * by the lowest and highest x, y, z of the points, then x, y, z of each. States per point: deflections z1, z2 of the
+ * stick spring in the plane of contact and their rates.
  *
  * Normal force: contact_law.h over the depth, with the stiffness K beginning as a parabola over the onset. Friction as
  * in the brake: a spring and damper (k, c) in series with a slider, here in two directions. With z = a + h z'/2 and D =
@@ -162,7 +162,7 @@ static void friction_force(ali3_element_args *a, const double local[3], const no
     along[j] = (trial[0] * row[0][j] + trial[1] * row[1][j]) / trial_size;
     across[j] = (trial[0] * row[1][j] - trial[1] * row[0][j]) / trial_size;
   }
-  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_SHARE * D * scale, along);
+  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_FRACTION * D * scale, along);
   ali3_add_outer(a->S, SIGNALS, a->wC * D * scale, across);
 }
 

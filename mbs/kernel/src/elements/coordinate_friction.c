@@ -1,8 +1,8 @@
 /* Coulomb friction on one signal, elastoplastic: a spring and a damper in series with a slider, as in brake.c.
  * States: deflection z, z'.
  *
- * tau = k z + c z', z' = u' while |tau| is below the bound, else tau is at the bound and z' = (tau - k z)/c. Trapezoidal
- * rule for z, in closed form: see brake.c. */
+ * tau = k z + c z', z' = u' while |tau| is below the bound, otherwise tau is at the bound and z' = (tau - k z)/c.
+ * Trapezoidal rule for z, in closed form: see brake.c. */
 #include "coordinate_friction_fields.h"
 #include "element.h"
 #include "element_math.h"

@@ -10,6 +10,7 @@ typedef struct {
   double a, b, c, d; /* ((a s + b) s + c) s + d */
 } cubic;
 
+/* Value of the cubic at s. */
 static double evaluate(const cubic *p, double s) { return ((p->a * s + p->b) * s + p->c) * s + p->d; }
 
 /* Root of the cubic between `from` and `to`, where it is monotone and changes its sign. */

@@ -27,6 +27,7 @@ static int32_t piece_number(const ali3_cubic_table *t, double x) {
   return low;
 }
 
+/* Coefficients of a piece; 0 and n are straight lines outside the table. */
 static piece piece_of(const ali3_cubic_table *t, int32_t number) {
   const int32_t i = number > 0 ? number - 1 : 0;
   piece p = {t->x[i], t->y[i], t->slope[i], 0.0, 0.0, t->integral != NULL ? t->integral[i] : 0.0};
@@ -37,6 +38,7 @@ static piece piece_of(const ali3_cubic_table *t, int32_t number) {
   return p;
 }
 
+/* Value of a piece at x. */
 static double value_at(const piece *p, double x) {
   const double d = x - p->start;
   return p->y + d * (p->m + d * (p->c + d * p->e));

@@ -6,8 +6,8 @@
 #include "element.h"
 
 /* r = -wK (change of element forces since the iterate, whose signals have the rates in->element.ud_at) - B' S times the
- * change of their signals to those of q and qd, where S are the tangents in F. Changes of signals are computed from
- * rates, as differences of large positions lose digits. */
+ * change of their signals to the changes of q and qd, where S are the tangents in F. Changes of signals are computed
+ * from rates, as differences of large positions lose digits. */
 ALI3_PER_WIDTH void ali3_elements_defect(ali3_instance *in, double h, truth lanes, const real *q, const real *qd,
                                          real *r);
 

@@ -33,6 +33,7 @@ typedef struct {
 
 static int is_inclined(const profile *p) { return !(fabs(p->up[0]) + fabs(p->up[1]) < TOLERANCE); }
 
+/* Distance along `up` from the centre to a height, m. */
 static double distance_up(const profile *p, double height) { return (height - p->centre[2]) / p->up[2]; }
 
 /* Position at the distance s ahead. The plane of an inclined disc meets the surface beside it, so that it is
@@ -45,6 +46,7 @@ static void position_at(const profile *p, double s, double position[2]) {
   }
 }
 
+/* Squared distance of the centre to the surface at the distance s ahead, m^2. */
 static double distance2_at(const profile *p, double s) {
   double position[2];
   position_at(p, s, position);
@@ -52,6 +54,7 @@ static double distance2_at(const profile *p, double s) {
   return s * s + w * w;
 }
 
+/* Surface at the distance s ahead, with the derivative of the squared distance. */
 static surface_point evaluate_at(const profile *p, double s) {
   surface_point n = {.s = s};
   position_at(p, s, n.position);
@@ -105,11 +108,12 @@ static surface_point find_minimum(const profile *p, surface_point low, surface_p
   return here;
 }
 
+/* Distance between grid lines in the direction `ahead`, m. */
 static double spacing_along(const ali3_grid *g, const double ahead[3]) {
   return 1.0 / (fabs(ahead[0]) / g->dx + fabs(ahead[1]) / g->dy);
 }
 
-/* Whether second differences of heights under the disc exceed BEND_LIMIT over its radius. */
+/* Whether second differences of heights under the disc exceed BEND_LIMIT / radius. */
 static int is_bent(const profile *p, double radius) {
   const double step = fmax(spacing_along(p->grid, p->ahead), 2.0 * radius / (MAX_SAMPLES - 4));
   const int half = (int)(radius / step) + 1;
@@ -124,6 +128,7 @@ static int is_bent(const profile *p, double radius) {
   return 0;
 }
 
+/* Contact with the tangent plane of the surface, found in three passes. */
 static int tangent_planes(const profile *p, const double axis[3], double radius, ali3_contact *out) {
   double x = p->centre[0], y = p->centre[1];
   for (int pass = 0; pass < 3; pass++) {

@@ -1,12 +1,12 @@
 /* Electric motor with a fixed ratio and an open differential: equal torques on two wheels, reaction on the frame that
  * carries the motor.
- * f and g are orthonormal on the frame, the rates of both wheels absolute about the axis f x g. Integers: throttle input
- * (0..1), and a selector input (-1, 0, 1) or none. States: none, with a selector those of selector.h.
+ * f and g are orthonormal on the frame, the rates of both wheels absolute about the axis f x g. Integers: throttle
+ * input (0..1), and a selector input (-1, 0, 1) or none. States: none, with a selector as in selector.h.
  *
- * In the direction engaged the torque is throttle times min(max torque, max power / speed), which fades beyond the limit
- * speed, minus (1 - throttle) times the regeneration torque, which has the sign of the speed and fades to zero around
- * standstill. Gears and motor have losses in both directions of the power. The inertia of the rotor is part of the
- * spins, not of this element. */
+ * In the direction engaged the torque is throttle times min(max torque, max power / speed), which fades beyond the
+ * limit speed, minus (1 - throttle) times the regeneration torque, which has the sign of the speed and fades to zero
+ * around standstill. Gears and motor have losses in both directions of the power. The inertia of the rotor is part of
+ * the spins, not of this element. */
 #include "../algebra/small_vectors.h"
 #include "electric_drive_fields.h"
 #include "element.h"
@@ -15,7 +15,7 @@
 #define LIMITER_WIDTH 0.05 /* width of the limiter, relative to the limit speed */
 /* Bits of the active smooth pieces of the law. */
 enum { BY_POWER = 1, LIMITED = 2, CUT_OFF = 4, TAKES_BY_POWER = 8, DRIVES = 16, DIRECTIONS = 32 };
-#define BARELY 1e-3 /* share of GEAR_FADE below which the loss of the gears is negligible */
+#define BARELY 1e-3 /* fraction of GEAR_FADE below which the loss of the gears is negligible */
 #define GEAR_FADE 5.0 /* rad/s of the motor, below which the loss of the gears, a friction, fades */
 
 typedef struct {
@@ -30,7 +30,7 @@ static torque envelope(double largest, double power, double speed) {
   return (torque){power / w, -power / w / speed, BY_POWER};
 }
 
-/* Torque of the motor over its speed, both positive in the direction engaged. */
+/* Torque of the motor against its speed, both positive in the direction engaged. */
 static torque motor(const double *p, double throttle, double speed, int reverse) {
   const double limit = reverse ? p[REVERSE_SPEED] : p[LIMIT_SPEED], width = LIMITER_WIDTH * limit;
   torque full = envelope(p[MAX_TORQUE] * (reverse ? p[REVERSE_TORQUE] : 1.0), p[MAX_POWER], speed);
@@ -70,14 +70,14 @@ static double selector_of(const ali3_element_args *a) { return a->input[a->integ
 
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real;
-  double share = 1.0;
+  double engaged = 1.0;
   const int direction =
-      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_of(a), a->h / p[ENGAGE_TIME], &share) : 1;
+      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_of(a), a->h / p[ENGAGE_TIME], &engaged) : 1;
   const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
   torque m = {0.0, 0.0, 0u};
   if (direction != 0) {
     m = motor(p, throttle, direction * speed, direction < 0);
-    m = (torque){direction * share * m.value, share * m.slope, m.piece};
+    m = (torque){direction * engaged * m.value, engaged * m.slope, m.piece};
   }
   const torque wheels = geared(p[GEAR_EFFICIENCY], m, speed);
   const double total = p[RATIO] * wheels.value, slope = p[RATIO] * p[RATIO] * wheels.slope;

@@ -75,8 +75,8 @@ typedef struct ali3_element_type {
   ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
   /* Of springs with end stops, whose first outputs are length and force: whether the length is beyond a stop. */
   bool (*stops)(const double *real, const double *out);
-  /* Of the same springs: share of a step of size h at which the first stop with a kink is met or left, from the outputs at
-   * the start and the end of the step; 1: none is. */
+  /* Of the same springs: fraction of a step of size h at which the first stop with a kink is met or left, from the
+   * outputs at the start and the end of the step; 1: none is. */
   double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);
   bool conservative; /* a potential, or a force of inputs alone: composed steps of order four accept it */
   /* Whether a conservative element dissipates energy with these data. */
@@ -86,7 +86,7 @@ typedef struct ali3_element_type {
   ali3_start_verdict (*start)(const ali3_element_args *a, double raised);
   const char *start_words;
   /* Depth of the element in its road with the scene raised by `raised`, m; < 0: above it. From u, real, integer and
-   * roads; *part: share of the depth by which the scene can be raised without passing depth 0. */
+   * roads; *part: fraction of the depth by which the scene can be raised without passing depth 0. */
   double (*depth)(const ali3_element_args *a, double raised, double *part);
   /* Sizes without the items that its integers count; -1: any. nint is the number of required integers, of all in
    * `integers`. With an optional one, or if there are none, nreal_more reals and nstate_more states may follow. */

@@ -7,9 +7,10 @@
 
 /* Friction saturates, and Newton's method with its exact, zero tangent may alternate between both signs. The secant of
  * friction over rate majorises it: with any tangent above half the secant each iteration is a descent. This is the
- * least share used. */
-#define ALI3_SECANT_SHARE 0.55
+ * least fraction used. */
+#define ALI3_SECANT_FRACTION 0.55
 
+/* Value of an optional input; index -1: none. */
 static inline real ali3_input_or_zero(const real *input, int32_t index) {
   return index >= 0 ? input[index] : ali3_same(0.0);
 }
@@ -18,7 +19,7 @@ static inline real ali3_input_or_zero(const real *input, int32_t index) {
 static inline real ali3_slider_slope(truth sticks, real D, real trial, real bound, real reach) {
   const real size = ali3_abs(trial), none = {0};
   const truth stays = (reach > 0.0) & (size - bound > D * reach);
-  return ali3_where(sticks, D, ali3_where(stays, none, ALI3_SECANT_SHARE * D * (bound / size)));
+  return ali3_where(sticks, D, ali3_where(stays, none, ALI3_SECANT_FRACTION * D * (bound / size)));
 }
 
 /* Pieces of the law of a slider: it sticks, or slips in one direction; none without friction. */

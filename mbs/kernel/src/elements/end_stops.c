@@ -48,7 +48,7 @@ static void add_mean(const ali3_contact_law *law, double sign, double x0, double
   double slope = 0.0, energy = 0.0, loss_slope;
   const double mean = ali3_contact_mean(law, x0, x1), factor = ali3_contact_loss(law, sign * rate, &loss_slope);
   const double end = ali3_contact_force(law, x1, &slope, &energy);
-  /* twice d(mean)/d(x1): the element's length is that of the middle */
+  /* twice d(mean)/d(x1): the element's length is the one of the middle */
   if (fabs(x1 - x0) > 1e-6 * (fabs(x0) + fabs(x1))) slope = 2.0 * (end - mean) / (x1 - x0);
   t->elastic += sign * mean * factor;
   t->stiffness += slope * factor;

@@ -87,7 +87,7 @@ static void store_work_forces(ali3_instance *in) {
   }
 }
 
-/* Evaluates the signals that elements use, including those of dependents. */
+/* Evaluates the signals that elements use, dependents included. */
 static void evaluate_signals(ali3_instance *in, const double *q, const double *qd) {
   if (in->system->n_tabled > 0) {
     ali3_tabled_prepare(in, q);

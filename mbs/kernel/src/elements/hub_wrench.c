@@ -1,4 +1,4 @@
-/* Force and moment on the hub of a wheel by inputs in earth axes, in place of a tyre. The moment about the axis acts on
+/* Force and moment on the hub of a wheel by inputs in earth axes, instead of a tyre. The moment about the axis acts on
  * the spin (signal 6), the force (signals 0 to 2) and the rest of the moment (3 to 5) on the carrier. */
 #include "element.h"
 #include "element_math.h"

@@ -4,11 +4,11 @@
 #define ALI3_LANE_ROAD_H
 #include "../algebra/real.h"
 
-enum { ALI3_MOST_LANES = 8 };
+enum { ALI3_MAX_LANES = 8 };
 
 typedef struct ali3_lane_road {
   int32_t type; /* ALI3_ROAD_COUNT if the lanes have roads of several types */
-  const struct ali3_road *lane[ALI3_MOST_LANES]; /* NULL: no road, no contact */
+  const struct ali3_road *lane[ALI3_MAX_LANES]; /* NULL: no road, no contact */
   real *numbers, *friction_factor; /* as written by ali3_road_numbers */
 } ali3_lane_road;
 

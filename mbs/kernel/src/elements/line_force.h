@@ -4,7 +4,7 @@
 #include "../algebra/small_vectors.h"
 #include "element.h"
 
-#define ALI3_SHORTEST 1e-12 /* m; below it there is no direction and no force */
+#define ALI3_MIN_LENGTH 1e-12 /* m; below it there is no direction and no force */
 
 typedef struct {
   real length, rate;
@@ -18,7 +18,7 @@ static inline ali3_line ali3_line_at(const ali3_element_args *a) {
   real square = {0};
   for (int32_t i = 0; i < n; i++) square += a->u[i] * a->u[i];
   ali3_line line = {.length = ali3_sqrt(square)};
-  const truth directed = line.length > ALI3_SHORTEST;
+  const truth directed = line.length > ALI3_MIN_LENGTH;
   for (int32_t i = 0; i < n; i++) {
     line.dir[i] = ali3_where(directed, a->u[i] / line.length, line.dir[i]);
     line.rate = ali3_add_unless(ali3_not(directed), line.rate, line.dir[i] * a->ud[i]);
@@ -40,7 +40,7 @@ static inline ali3_line ali3_line_between(const ali3_element_args *a) {
   }
   ali3_line line = {.start = sqrt(square0), .end = sqrt(square1)};
   line.length = 0.5 * (line.start + line.end);
-  if (line.length <= ALI3_SHORTEST) return line;
+  if (line.length <= ALI3_MIN_LENGTH) return line;
   line.rate = along / line.length;
   for (int32_t i = 0; i < n; i++) line.dir[i] = a->u[i] / line.length;
   return line;
@@ -52,7 +52,7 @@ static inline void ali3_line_force(ali3_element_args *a, const ali3_line *line, 
                                    real damping) {
   const int32_t n = a->nsig;
   const real length = line->length, rate = line->rate, *dir = line->dir;
-  const truth apart = length > ALI3_SHORTEST;
+  const truth apart = length > ALI3_MIN_LENGTH;
   for (int32_t i = 0; i < n; i++) a->f[i] = -tension * dir[i];
   if (!a->S) return;
   const real along = a->wK * stiffness + a->wC * damping;

@@ -1,6 +1,6 @@
 /* Magic Formula tyre characteristics, steady: PAC2002 and MF-Tyre 5.2 (H. B. Pacejka, Tire and Vehicle Dynamics, 2nd
- * ed., 2006, section 4.3.2), MF-Tyre 6.1 and 6.2 (the same, 3rd ed., 2012, section 4.3.2, numbers of equations below; I. J.
- * M. Besselink, A. J. C. Schmeitz, H. B. Pacejka, Vehicle System Dynamics 48(S1), 2010, 337-352). No turn slip. */
+ * ed., 2006, section 4.3.2), MF-Tyre 6.1 and 6.2 (the same, 3rd ed., 2012, section 4.3.2, with the equations 4.E...; I.
+ * J. M. Besselink, A. J. C. Schmeitz, H. B. Pacejka, Vehicle System Dynamics 48(S1), 2010, 337-352). No turn slip. */
 #ifndef ALI3_MAGIC_FORMULA_H
 #define ALI3_MAGIC_FORMULA_H
 #include <stdint.h>
@@ -45,7 +45,7 @@ typedef struct {
   const double *c; /* coefficients by ALI3_MF_... */
   int32_t version, combined;
   double nominal_load, radius; /* N, m: FNOMIN, UNLOADED_RADIUS */
-  double load, camber, pressure; /* N, > 0; rad, axes of the file; pressure over the nominal one */
+  double load, camber, pressure; /* N, > 0; rad, axes of the file; pressure / nominal pressure - 1 */
   double friction[2]; /* factors on the peaks of the forces, beside LMUX and LMUY */
   double stiffness[2]; /* factors on the slip stiffnesses, beside LKX and LKY */
   double moving; /* factor on shifts, camber thrust and moments: 0 at rest to 1 */
@@ -55,9 +55,9 @@ typedef struct {
 
 typedef struct {
   double F[2]; /* N, axes of the file: along, lateral */
-  double J[2][2]; /* derivatives of F by longitudinal slip and tangent of the slip angle */
-  double secant[2], secant_slope[2][2]; /* |F| per slip without shifts, and its derivatives */
-  double peak[2]; /* N: largest |F| of each direction alone */
+  double J[2][2]; /* derivatives of F with respect to longitudinal slip and tan(slip angle) */
+  double secant[2], secant_slope[2][2]; /* |F| / slip without shifts, and its derivatives */
+  double peak[2]; /* N: largest |F| of each direction at pure slip */
   double cornering; /* cornering stiffness, N per unit of tan(slip angle), > 0 */
   double carcass[2]; /* carcass stiffness, N/m */
   double trail, arm; /* lever of the lateral and of the longitudinal force, m */
@@ -68,11 +68,11 @@ typedef struct {
  * file. */
 void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, ali3_magic_force *out);
 
-/* Mx, My and Mz at the acting forces F in place of the steady ones. */
+/* Mx, My and Mz at the acting forces F instead of the steady ones. */
 void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_magic_force *out);
 
 /* Effective rolling radius, m, at a free radius (m, including growth by speed), stiffness at the nominal load (N/m) and
- * deflection (m). `harder`: local stiffness over that stiffness. */
+ * deflection (m). `stiffness_ratio`: local stiffness / that stiffness. */
 double ali3_magic_rolling_radius(const ali3_magic_state *s, double free_radius, double stiffness, double deflection,
-                                 double harder);
+                                 double stiffness_ratio);
 #endif

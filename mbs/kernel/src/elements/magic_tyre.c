@@ -1,17 +1,17 @@
 /* Tyre on a road with the Magic Formula: radial spring of a disc, steady forces of magic_formula.h, first-order carcass
  * deflections by the same equations at standstill, rolling, sliding and in the air.
  *
- * Signals and states are those of tyre.c. PRESSURE is the pressure over the nominal one, less 1; ANGLE_RANGE limits the
- * tangent of the slip angle; the coefficients follow the numbers. The bore torque decreases to 0 at ALI3_TYRE_ROLLS,
- * above which the formula includes the moments about the normal.
+ * Signals and states are as in tyre.c. PRESSURE is the pressure divided by the nominal pressure, minus 1; ANGLE_RANGE
+ * limits the tangent of the slip angle; the coefficients follow the numbers. The bore torque decreases to 0 at
+ * ALI3_TYRE_ROLLS, above which the formula includes the moments about the normal.
  *
  * Slips are velocities divided by the speed of travel; below ALI3_TYRE_ROLLS the sliding speed is included in it, so
  * that the force of a wheel that slides sideways from rest is opposite to its slip velocity. The carcass follows, per
  * direction, F = F_steady(v) - g x' = c x + d x' with the secant slip damping g without shifts; in tyre.c F_steady = -g
- * v. Its relaxation length is g w/c. c depends on the load by the file; d is that of a standing tyre and decreases with
- * the square of the speed, so that it does not lengthen the relaxation. Shifts, camber thrust and moments about the
- * normal and about the direction of travel increase with the speed of travel up to ALI3_TYRE_ROLLS, as a standing tyre
- * is a spring. The lever of F about the axle is the effective radius, as in tyre.c.
+ * v. Its relaxation length is g w/c. c depends on the load by the file; d is the damping of a standing tyre and
+ * decreases with the square of the speed, so that it does not lengthen the relaxation. Shifts, camber thrust and
+ * moments about the normal and about the direction of travel increase with the speed of travel up to ALI3_TYRE_ROLLS,
+ * as a standing tyre is a spring. The lever of F about the axle is the effective radius, as in tyre.c.
  *
  * The tangent neglects the terms that tyre.c neglects, and the moments. */
 #include "../algebra/elementary.h"
@@ -23,7 +23,7 @@
 #include "tyre_contact.h"
 
 enum { COEFFICIENTS = MAGIC_TYRE_REALS };
-enum { SLIP, CAMBER, FORCE }; /* indices of the signs that convert ISO axes to those of the file */
+enum { SLIP, CAMBER, FORCE }; /* indices of the signs that convert ISO axes to axes of the file */
 enum { OVERTURNING = ALI3_TYRE_OUTPUTS, RESISTANCE };
 
 typedef struct {
@@ -31,8 +31,8 @@ typedef struct {
   double stiffness[2]; /* of the carcass, N/m */
 } reaction;
 
-/* Scales F, its derivatives and the safe share down to the ellipse of the peaks, or to that through the steady force if
- * it is larger. */
+/* Scales F, its derivatives and the safe part of the secant down to the ellipse of the peaks, or to the ellipse through
+ * the steady force if it is larger. */
 static uint32_t limit(const double peak[2], const double steady[2], double F[2], double J[2][2], double safe[2]) {
   const double demand = ali3_hypot(F[0] / peak[0], F[1] / peak[1]),
                bound = fmax(ali3_hypot(steady[0] / peak[0], steady[1] / peak[1]), 1.0);
@@ -95,7 +95,7 @@ static ali3_magic_force steady(ali3_element_args *a, const ali3_tyre_patch *cont
   return f;
 }
 
-/* One step of the carcass: forces, new states and damping matrix (symmetric part, not below the safe share of the
+/* One step of the carcass: forces, new states and damping matrix (symmetric part, not below the safe part of the
  * secant). */
 static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
                         double inclination, ali3_tyre_bore *bore) {
@@ -115,7 +115,7 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
     const double theta = ali3_theta(a->h, c / (d[i] + g[i])), b = a->h * theta;
     offset[i] = c * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c;
-    safe[i] = ALI3_SECANT_SHARE * D[i] * (g[i] / (g[i] + D[i]));
+    safe[i] = ALI3_SECANT_FRACTION * D[i] * (g[i] / (g[i] + D[i]));
     r.F[i] = D[i] / (g[i] + D[i]) * f.F[i] + g[i] / (g[i] + D[i]) * offset[i];
     const double by_g = D[i] / (g[i] + D[i]) * ((offset[i] - f.F[i]) / (g[i] + D[i]));
     for (int j = 0; j < 2; j++) J[i][j] = D[i] / (g[i] + D[i]) * f.J[i][j] + by_g * g_by[i][j];

@@ -45,7 +45,7 @@ enum {
   LKX,
   /* Factor on LKY of the file, the cornering stiffness. */
   LKY,
-  /* Inflation pressure over the nominal one, less 1, a ratio. */
+  /* Inflation pressure divided by the nominal pressure, minus 1, a ratio. */
   PRESSURE,
   /* Damping over stiffness of the carcass at rest, s. */
   SETTLING,
@@ -63,7 +63,7 @@ enum {
   MAGIC_TYRE_REALS
 };
 enum {
-  /* Torque against turning on the spot; it fades out up to 1 m/s, from where the formula has the moments. */
+  /* Torque against turning on the spot; it fades out up to 1 m/s, above which the formula has the moments. */
   BORE = MAGIC_TYRE_REALS + 178,
 };
 enum {

@@ -17,7 +17,7 @@ static int plane(const real *p, const real centre[3], const real axis[3], real r
   return 1;
 }
 
-/* Contact with the line x = edge[0], z = edge[2]. False where the wheel plane is nearly parallel to it. */
+/* Contact with the line x = edge[0], z = edge[2]. False if the wheel plane is nearly parallel to it. */
 static truth edge_line(const real centre[3], const real axis[3], real radius, const real edge[3], ali3_contact *out) {
   const real none = {0};
   real offset[3] = {edge[0] - centre[0], none, edge[2] - centre[2]};

@@ -11,6 +11,7 @@
 
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
 
+/* Reads the number of points of a grid; 0: its numbers are invalid. */
 static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   const double a = p[GRID_NX], b = p[GRID_NY];
   if (!(a >= 2.0 && a <= 1e6 && b >= 2.0 && b <= 1e6 && GRID_DATA + 2.0 * a * b <= (double)nreal)) return 0;
@@ -20,11 +21,12 @@ static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   return 1;
 }
 
-/* Type of a road: that of its file, otherwise its own. */
+/* Type of a road: from its file, otherwise its own. */
 static int32_t type_of(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_kind(road->file) : road->type;
 }
 
+/* Numbers of a road: of its file, otherwise its own. */
 static const double *reals_of(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_reals(road->file) : road->real;
 }
@@ -87,6 +89,7 @@ int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBER
   return type;
 }
 
+/* Distance of a point from the plane through q with unit normal n, m, and its gradient. */
 static void plane_clearance(const double n[3], const double q[3], const double point[3], ali3_clearance *out) {
   out->distance = 0.0;
   for (int i = 0; i < 3; i++) {

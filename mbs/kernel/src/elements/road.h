@@ -31,14 +31,14 @@ typedef struct {
   real point[3]; /* nearest point of the road in the wheel plane, m, earth axes */
   real normal[3]; /* unit normal of the road (of the contact line at an edge), upwards */
   real down[3]; /* unit, in the wheel plane, towards the road: point = centre + (radius - penetration) down */
-  /* -normal . down = sine of the angle between wheel axis and normal; limited from below where the wheel is nearly flat
-   * on the road */
+  /* -normal . down = sine of the angle between wheel axis and normal; limited from below if the wheel is nearly flat on
+   * the road */
   real cosine;
   real friction;
-  real leaning; /* d(cosine)/d(sine between axis and normal): 1, less where the wheel is nearly flat on the road */
-  /* 0 to 1: share of the load borne by the other contact, on a grid, where only the deepest bears; else 0 */
+  real leaning; /* d(cosine)/d(sine between axis and normal): 1, less if the wheel is nearly flat on the road */
+  /* 0 to 1: fraction of the load borne by the other contact, on a grid, where only the deepest bears; otherwise 0 */
   real yielded;
-  real switching; /* derivative of that share by the difference of both penetrations, 1/m; 0: both bear */
+  real switching; /* derivative of that fraction by the difference of both penetrations, 1/m; 0: both bear */
 } ali3_contact;
 
 /* Stands for an absent contact: farther than any road. */
@@ -53,7 +53,7 @@ ALI3_PER_WIDTH int ali3_road_contacts(const ali3_road *road, const real centre[3
 
 enum { ALI3_ROAD_INPUTS = 7 }; /* inputs of one contact of a road at a port */
 
-/* Returns the type of a road; writes the numbers of a plane or a kerb, else 0, and the factor on the friction. */
+/* Returns the type of a road; writes the numbers of a plane or a kerb, otherwise 0, and the factor on the friction. */
 enum { ALI3_ROAD_NUMBERS = 5 };
 int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBERS], double *friction_factor);
 

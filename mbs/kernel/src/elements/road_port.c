@@ -19,19 +19,22 @@ int ali3_is_road_normal(const double n[3]) {
   return fabs(size - 1.0) <= OFF_UNIT && n[2] >= UPRIGHT * size;
 }
 
+/* Inputs of answer k of a road at a port. */
 static const double *answer(const ali3_road *road, int32_t k) {
   return *road->input + (int64_t)road->real[PORT_FIRST + k];
 }
 
+/* Number of answers. */
 static int32_t answers(const ali3_road *road) { return (int32_t)road->real[PORT_ANSWERS]; }
 
-/* A unit normal; upwards where the inputs give none, which no step accepts. */
+/* A unit normal; upwards if the inputs give none, which no step accepts. */
 static void normal_of(const double *given, double n[3]) {
   const bool good = ali3_is_road_normal(given) != 0;
   const double size = good ? ali3_norm(given) : 1.0;
   for (int i = 0; i < 3; i++) n[i] = good ? given[i] / size : (i == 2);
 }
 
+/* Slopes dz/dx, dz/dy of the plane of an answer. */
 static void slope_of(const double *given, double by[2]) {
   double n[3];
   normal_of(given + PORT_NORMAL, n);
@@ -56,8 +59,8 @@ static void slope_of_all(const ali3_road *road, double by[2]) {
   by[1] = (xx * yz - xy * xz) / size;
 }
 
-/* Slope of an answer beside its wheel: its own, which fades to that of the plane of all answers the steeper it is against
- * this plane, since an edge under a wheel ends beside it. */
+/* Slope of an answer beside its wheel: its own, which fades to the slope of the plane of all answers the steeper it is
+ * against this plane, since an edge under a wheel ends beside it. */
 static void slope_beside(const double *given, const double all[2], double by[2]) {
   slope_of(given, by);
   const double away[2] = {by[0] - all[0], by[1] - all[1]};

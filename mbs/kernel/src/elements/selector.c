@@ -5,7 +5,7 @@
 
 int ali3_selector_position(double value) { return value > 0.5 ? 1 : value < -0.5 ? -1 : 0; }
 
-int ali3_selector_step(const double *y_old, double *y_new, double input, double fraction, double *share) {
+int ali3_selector_step(const double *y_old, double *y_new, double input, double fraction, double *factor) {
   const int direction = ali3_selector_position(y_old[ALI3_SELECTOR_DIRECTION]);
   const int unchanged = ali3_selector_position(input) == direction;
   double engaged = ali3_clamp(y_old[ALI3_SELECTOR_ENGAGED], 0.0, 1.0);
@@ -16,7 +16,7 @@ int ali3_selector_step(const double *y_old, double *y_new, double input, double 
     y_new[ALI3_SELECTOR_ENGAGED] = engaged;
   }
   const double x = ali3_clamp(engaged, 0.0, 1.0);
-  *share = direction == 0 ? 0.0 : x * x * (3.0 - 2.0 * x);
+  *factor = direction == 0 ? 0.0 : x * x * (3.0 - 2.0 * x);
   return direction;
 }
 

@@ -69,6 +69,7 @@ typedef struct {
   real *block;
 } place;
 
+/* Place of element e in its front. */
 static inline place place_of(const ali3_system *S, int32_t e, real *F) {
   const int32_t front = S->el_front[e], first = S->el_coordinate_ptr[e];
   place p = {.n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e],

@@ -31,7 +31,7 @@ static void discrete(ali3_element_args *a) {
   const double k = p[STIFFNESS] * p[STIFFNESS_FACTOR];
   const double c = p[DAMPING] * p[DAMPING_FACTOR];
   const ali3_line line = ali3_line_between(a);
-  if (line.length <= ALI3_SHORTEST) return;
+  if (line.length <= ALI3_MIN_LENGTH) return;
   ali3_tension t = {.elastic = k * (line.length - p[FREE_LENGTH]), .stiffness = k, .damping = c};
   ali3_end_stops_between(p + STOPS, has_progressive_stops(a->nreal), line.start, line.end, line.rate, &t);
   ali3_line_force(a, &line, t.elastic + c * line.rate, t.stiffness, t.damping);
@@ -46,7 +46,7 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
 
 static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
 
-/* The onset of progressive stops has no kink and is no event. */
+/* The onset of progressive stops has no kink and is not an event. */
 static double event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
   if (has_progressive_stops(nreal)) return 1.0;
   return ali3_end_stops_event(real + STOPS, (double[]){from[0], to[0]}, (double[]){from[2], to[2]}, h);

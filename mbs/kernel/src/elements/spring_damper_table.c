@@ -79,7 +79,7 @@ static void evaluate(ali3_element_args *a) {
 static void discrete(ali3_element_args *a) {
   const double *p = a->real;
   const ali3_line line = ali3_line_between(a);
-  if (line.length <= ALI3_SHORTEST) return;
+  if (line.length <= ALI3_MIN_LENGTH) return;
   ali3_tension t = {0};
   add_mean_spring(a, line.start - p[FREE_LENGTH], line.end - p[FREE_LENGTH], &t);
   const double damper_tension = damper(a, line.rate, &t);

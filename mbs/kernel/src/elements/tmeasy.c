@@ -6,8 +6,10 @@ static real force_per_load(const real pair[2], real q) {
   return 2.0 * pair[0] - 0.5 * pair[1] - (pair[0] - 0.5 * pair[1]) * q;
 }
 
+/* Value at the load factor q, linear between 1 and 2 times the nominal load. */
 static real linear(const real pair[2], real q) { return pair[0] + (pair[1] - pair[0]) * (q - 1.0); }
 
+/* A friction ratio that is large enough to divide by. */
 static real positive_friction(real ratio) { return ali3_where(ratio > 1e-6, ratio, ali3_same(1e-6)); }
 
 ali3_tmeasy ali3_tmeasy_at(const real pairs[10], real q, real friction_ratio) {
@@ -80,6 +82,7 @@ static point fall(const ali3_tmeasy *t, real s) {
   return p;
 }
 
+/* Force characteristic at slip s: rising part, then falling part. */
 static point curve(const ali3_tmeasy *t, real s) {
   const truth rises = s < t->max_slip;
   if (!ali3_any(ali3_not(rises))) return rise(t, s);
@@ -96,21 +99,22 @@ static point curve(const ali3_tmeasy *t, real s) {
 
 real ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const real n[2], real gradient[2]) {
   const real s2 = n[0] * n[0] + n[1] * n[1], s = ali3_sqrt(s2), none = {0};
-  const real share = ali3_where(s2 > 0.0, n[0] * n[0] / s2, ali3_same(0.5));
+  const real weight = ali3_where(s2 > 0.0, n[0] * n[0] / s2, ali3_same(0.5));
   const ali3_tmeasy *a = &t->square, *b = &t->spread;
-  const ali3_tmeasy current = {ali3_sqrt(a->slope + b->slope * share), ali3_sqrt(a->max_force + b->max_force * share),
-                               ali3_sqrt(a->max_slip + b->max_slip * share),
-                               ali3_sqrt(a->slide_force + b->slide_force * share),
-                               ali3_sqrt(a->slide_slip + b->slide_slip * share)};
+  const ali3_tmeasy current = {ali3_sqrt(a->slope + b->slope * weight), ali3_sqrt(a->max_force + b->max_force * weight),
+                               ali3_sqrt(a->max_slip + b->max_slip * weight),
+                               ali3_sqrt(a->slide_force + b->slide_force * weight),
+                               ali3_sqrt(a->slide_slip + b->slide_slip * weight)};
   const point p = curve(&current, s);
   const truth slips = s > 0.0;
   gradient[0] = gradient[1] = none;
   if (!ali3_any(slips)) return p.secant;
-  const real by_share =
+  const real by_weight =
       0.5 * (p.by.slope * b->slope / current.slope + p.by.max_force * b->max_force / current.max_force +
              p.by.max_slip * b->max_slip / current.max_slip + p.by.slide_force * b->slide_force / current.slide_force +
              p.by.slide_slip * b->slide_slip / current.slide_slip);
-  const real by_angle = 2.0 * by_share * (n[0] * n[1] / s2) / s2; /* gradient of the share by n: (n1, -n0) times this */
+  /* gradient of the weight by n: (n1, -n0) times this */
+  const real by_angle = 2.0 * by_weight * (n[0] * n[1] / s2) / s2;
   gradient[0] = ali3_where(slips, p.by_s * n[0] / s + by_angle * n[1], none);
   gradient[1] = ali3_where(slips, p.by_s * n[1] / s - by_angle * n[0], none);
   return p.secant;

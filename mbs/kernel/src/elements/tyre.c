@@ -19,7 +19,7 @@
  * direction.
  *
  * Camber acts as a lateral slip: v_s = v_y + camber_slip sin(gamma) r |Omega|, nothing at rest. That part of the force
- * has no trail. F acts on Omega by the same share, so that camber thrust takes its work from the spin.
+ * has no trail. F acts on Omega by the same factor, so that camber thrust takes its work from the spin.
  *
  * The tangent leaves out the coupling of load and horizontal force and the turning of the frames. */
 #include "../algebra/elementary.h"
@@ -31,7 +31,7 @@
 #include "tyre_fields.h"
 
 /* Radial return of F to the largest force of its direction, in TMeasy hypot(Fxm cos, Fym sin); adapts J and the safe
- * share. */
+ * part of the secant. */
 static void limit(ali3_element_args *a, truth loaded, const real max_force[2], real F[2], real J[2][2], real safe[2]) {
   const real weight[2] = {max_force[0] * max_force[0], max_force[1] * max_force[1]};
   const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(max_force[0] * F[0], max_force[1] * F[1]);
@@ -49,16 +49,18 @@ static void limit(ali3_element_args *a, truth loaded, const real max_force[2], r
   for (int i = 0; i < 2; i++) F[i] = ali3_where(exceeds, F[i] / scale, F[i]);
 }
 
+/* Load relative to the nominal load, limited. */
 static real load_factor(const real *p, const ali3_tyre_patch *contact) {
   return ali3_clamp(contact->load / p[TYRE_NOMINAL_LOAD], ali3_same(0.0), p[TYRE_MAX_LOAD_FACTOR]);
 }
 
+/* Friction of the road relative to the friction of the measured tyre. */
 static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
   return contact->friction * p[TYRE_FRICTION_FACTOR] / p[TYRE_REFERENCE_FRICTION];
 }
 
 /* One step of the carcass with slip velocity v and transport speed w, m/s: force F, new states, and damping matrix C =
- * -dF/dv (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
+ * -dF/dv (symmetric part, not below the safe part of the secant) as xx, xy, yy. */
 static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2], real C[3],
                     real g[2], ali3_tyre_bore *bore) {
   const real *p = a->real, *c = p + TYRE_CARCASS_STIFFNESS, *d = p + TYRE_CARCASS_DAMPING, q = load_factor(p, contact);
@@ -77,7 +79,7 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
     offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c[i];
     max_force[i] = q * t.max_force[i];
-    safe[i] = ALI3_SECANT_SHARE * D[i] * (g[i] / (g[i] + D[i]));
+    safe[i] = ALI3_SECANT_FRACTION * D[i] * (g[i] / (g[i] + D[i]));
     F[i] = g[i] / (g[i] + D[i]) * (offset[i] - D[i] * v[i]);
     const real by_g = D[i] / (g[i] + D[i]) * ((offset[i] - D[i] * v[i]) / (g[i] + D[i]));
     for (int j = 0; j < 2; j++)
@@ -119,10 +121,10 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
 }
 
 /* Trail divided by contact length at the lateral slip s, behind the middle of the patch in the direction of rolling:
- * the tread deflects from its leading edge on, which in reverse is the other edge. */
-static real trail_share(const real *p, const ali3_tyre_patch *contact, real s, real omega) {
-  const real share = ali3_tmeasy_trail(p + TYRE_TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
-  return ali3_where(omega < 0.0, -share, share);
+ * the tread deflects from its leading edge, which in reverse is the other edge. */
+static real relative_trail(const real *p, const ali3_tyre_patch *contact, real s, real omega) {
+  const real trail = ali3_tmeasy_trail(p + TYRE_TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
+  return ali3_where(omega < 0.0, -trail, trail);
 }
 
 static void evaluate(ali3_element_args *a) {
@@ -165,7 +167,7 @@ static void evaluate(ali3_element_args *a) {
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
 
   const real trail_force = has_camber_slip ? F[1] + g[1] * camber_velocity : F[1];
-  real moment = -moving * length * trail_share(p, &contact, ali3_abs(m.v[1]) / w, omega) * trail_force;
+  real moment = -moving * length * relative_trail(p, &contact, ali3_abs(m.v[1]) / w, omega) * trail_force;
   if (has_bore) moment += bore.moment;
   const real resist = p[TYRE_ROLLING_RESISTANCE] * contact.load * p[TYRE_RADIUS], roll = ali3_tanh(omega);
   real twist[3];

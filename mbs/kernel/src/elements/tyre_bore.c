@@ -30,9 +30,9 @@ real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyr
   const truth slides = grips & (demand > 1.0);
   const real remaining = ali3_where(slides, 1.0 / demand, one);
   ALI3_PIECE(&a->piece, slides, ALI3_TYRE_AT_LIMIT);
-  /* factor on the derivative, not below the safe share of the secant */
+  /* factor on the derivative, not below the safe part of the secant */
   const real factor = (use * remaining) * (use * remaining);
-  b->C *= remaining * ali3_where(slides & (factor < ALI3_SECANT_SHARE), ali3_same(ALI3_SECANT_SHARE),
+  b->C *= remaining * ali3_where(slides & (factor < ALI3_SECANT_FRACTION), ali3_same(ALI3_SECANT_FRACTION),
                                  ali3_where(slides, factor, one));
   b->moment *= remaining;
   real *new = a->y_new + ALI3_BORE_STATES;

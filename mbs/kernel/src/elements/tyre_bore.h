@@ -9,10 +9,10 @@
  * share friction: (utilisation by F)^2 + (T/(R F_y max))^2 <= 1, otherwise both are scaled by the same factor. So a
  * tyre loses longitudinal and lateral grip while its wheel is steered at standstill.
  *
- * s is the slip velocity times the fourth power of F over its steady value: while the carcass deflects and the patch
- * sticks, the moment of a parked wheel must not decay.
+ * s is the slip velocity times the fourth power of F / (steady F): while the carcass deflects and the patch sticks, the
+ * moment of a parked wheel must not decay.
  *
- * States: psi and its rate, after those of the carcass. The tangent neglects the coupling of T and F. */
+ * States: psi and its rate, after the states of the carcass. The tangent neglects the coupling of T and F. */
 #ifndef ALI3_TYRE_BORE_H
 #define ALI3_TYRE_BORE_H
 #include "element.h"

@@ -6,7 +6,7 @@
 
 #define ALI3_TYRE_SLOW                                                                                                 \
   1e-5 /* m/s, added to the reference speed of the slips; small, so that a parked car creeps by micrometres only */
-#define ALI3_TYRE_ROLLS 1.0 /* m/s: speed from which effective radius and trail are those of a rolling tyre */
+#define ALI3_TYRE_ROLLS 1.0 /* m/s: speed above which effective radius and trail are as of a rolling tyre */
 #define ALI3_TYRE_HUB                                                                                                  \
   0.1 /* of the radius: least distance of the patch from the centre of a wheel that is deeper in the road */
 #define ALI3_TYRE_NO_LOAD 1e-9 /* N */
@@ -35,7 +35,7 @@ typedef struct {
   real load, friction; /* sums or load-weighted means of the contacts */
   real normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
   real
-      /* m: depth if the road is nearer to the wheel's centre than ALI3_TYRE_HUB allows the patch to be; else 0 */
+      /* m: depth if the road is nearer to the wheel's centre than ALI3_TYRE_HUB allows the patch to be; otherwise 0 */
       beyond;
   real near_normal[3], near_rho[3]; /* normal and patch of the nearest contact, also in the air */
 } ali3_tyre_patch;
@@ -58,7 +58,7 @@ ALI3_PER_WIDTH ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real
 /* Axes of the patch; velocities and rows are set by ali3_tyre_velocities. */
 ALI3_PER_WIDTH ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const real e[3]);
 
-/* Weight of rolling at a speed, m/s: 0 at rest, 1 from ALI3_TYRE_ROLLS on, with a continuous slope. */
+/* Weight of rolling at a speed, m/s: 0 at rest, 1 above ALI3_TYRE_ROLLS, with a continuous slope. */
 ALI3_PER_WIDTH real ali3_tyre_moving(real speed);
 
 /* Sets m->travel, m->v and m->row; ratio: slip radius over loaded radius. */

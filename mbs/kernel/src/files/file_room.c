@@ -18,6 +18,7 @@ struct ali3_file {
 
 static ali3_file *first;
 
+/* Frees a file without users. */
 static void release(ali3_file *file) {
   if (--file->users > 0) return;
   free(file->path);
@@ -35,7 +36,7 @@ static ali3_file **link_to(const char *path) {
 int32_t ali3_file_add(const char *path, void *bytes, size_t size) {
   ali3_file *file = NULL;
   char *copy = NULL;
-  if (path != NULL && path[0] != 0 && strlen(path) < ALI3_MOST_PATH && (bytes != NULL || size == 0)) {
+  if (path != NULL && path[0] != 0 && strlen(path) < ALI3_MAX_PATH && (bytes != NULL || size == 0)) {
     file = malloc(sizeof *file);
     copy = malloc(strlen(path) + 1);
   }

@@ -28,7 +28,7 @@ static int wide_path(const char *path, wchar_t *wide) {
                              : *p >= 0xe0 && *p < 0xf0 ? 2
                              : *p < 0xf5               ? 3
                                                        : -1;
-    if (continuation < 0 || (*p >= 0x80 && *p < 0xc2) || n + 3 > ALI3_MOST_PATH) return 0;
+    if (continuation < 0 || (*p >= 0x80 && *p < 0xc2) || n + 3 > ALI3_MAX_PATH) return 0;
     uint32_t code = continuation == 0 ? *p : *p & (0x3fu >> continuation);
     p++;
     for (int k = 0; k < continuation; k++, p++) {
@@ -46,7 +46,7 @@ static int wide_path(const char *path, wchar_t *wide) {
 }
 
 static FILE *open_path(const char *path) {
-  wchar_t wide[ALI3_MOST_PATH];
+  wchar_t wide[ALI3_MAX_PATH];
   if (wide_path(path, wide)) return _wfopen(wide, L"rb");
   errno = EINVAL;
   return NULL;
@@ -74,6 +74,7 @@ static int read_kind(FILE *file, file_kind *kind) { return fstat(fileno(file), k
 static int seek(FILE *file, int64_t from) { return fseeko(file, (off_t)from, SEEK_SET); }
 #endif
 
+/* Words for a value of errno. */
 static const char *reason(int error) {
   switch (error) {
   case ENOENT:

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { ALI3_MOST_PATH = 4096 }; /* bytes of a path including its terminator */
+enum { ALI3_MAX_PATH = 4096 }; /* bytes of a path including its terminator */
 
 typedef struct ali3_file ali3_file;
 

@@ -34,15 +34,15 @@ typedef struct {
   double *val, *front, *floor, *floor_inverse, *missing, *gravity;
 } ali3_own_masses;
 
-/* Masses and gravity: those of the System, or `own` where parameters change them. */
+/* Masses and gravity: of the System, or `own` if parameters change them. */
 typedef struct {
   const double *val, *front; /* nnz_mass; front_size, the start of every tangent: the mass matrix */
-  const double *floor, *floor_inverse; /* nq: M_ii, or a typical mass where there is none */
+  const double *floor, *floor_inverse; /* nq: M_ii, or a typical mass if there is none */
   const double *missing; /* nq: what `floor` adds to M_ii */
   const double *gravity; /* nq, N */
   double gravity_const; /* J: energy of gravity without its linear part */
   bool isotropic; /* see ali3_mass_isotropic */
-  ali3_own_masses own; /* with payloads and armatures; empty where there are none */
+  ali3_own_masses own; /* with payloads and armatures; empty if there are none */
 } ali3_masses;
 
 /* Copy of the System with the wheel axes that parameters set: with coefficients and moments of mass of its own. */
@@ -68,7 +68,7 @@ typedef struct {
   double *q; /* nq: coordinates of the start */
   double *pose_0, *pose_cos, *pose_sin; /* nq: q = pose_0 + cos(yaw) pose_cos + sin(yaw) pose_sin + translation */
   double pose[ALI3_POSE]; /* the pose set last */
-  bool moved; /* `q` differs from that of the file */
+  bool moved; /* `q` differs from the file */
   bool to_lift; /* the height of the road at the next start is unknown, so that the scene must be lifted onto it */
   double lift; /* m: height by which the start was raised */
   double uneven; /* m: largest height of a contact above its height at rest */

@@ -28,7 +28,7 @@ typedef struct {
   ali3_tabled_base_work *base;
   ali3_tabled_parameter_work *parameter;
   double *square;              /* of one group of elements */
-  double *extended[3], *force; /* q, qd, qdd and forces, each followed by those of dependents */
+  double *extended[3], *force; /* q, qd, qdd and forces, each followed by the values of dependents */
 } ali3_tabled_memory;
 
 /* Elements whose work sensors read, see ../state/work.c. */

@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
   double *mean;    /* mean rates */
   double *jump;    /* 2 ng: smallest jumps of rate and acceleration of guides of time that divide a step */
-  double *follows; /* 1 where a filtered guide moves in the step, else 0 */
+  double *follows; /* 1 if a filtered guide moves in the step, otherwise 0 */
 } ali3_guide_work;
 
 /* radau.c, one for each of ALI3_RADAU stages; empty with element states or filtered guides. */
@@ -33,7 +33,7 @@ typedef struct {
   double *sine, *cosine; /* at in->now */
   double *sine_before, *sine_after, *sine_few; /* before the step, after it, after it in parts */
   double *left;               /* loops that left their modes */
-  bool known, near;           /* `sine` is that of in->now; branches may be close in the step */
+  bool known, near;           /* `sine` belongs to in->now; branches may be close in the step */
   ali3_report report_before;  /* report before a step that may be repeated */
 } ali3_branches;
 #endif

@@ -39,7 +39,7 @@ typedef struct {
 
 /* Division of a step, see ../methods/contact_event.c and abrupt_force.c. */
 typedef struct {
-  double event; /* share of the present part at which a stop is met or left */
+  double event; /* fraction of the present part at which a stop is met or left */
   int32_t events_left; /* number of further divisions of the present step at events; negative: none are located */
   double changed; /* largest change of a judged force in the step, by ali3_divides; negative: not computed */
 } ali3_parting;

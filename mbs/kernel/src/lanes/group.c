@@ -112,6 +112,7 @@ static void allocate_tabled(ali3_lane_group *g, ali3_pool *pool) {
   g->tabled.force = lane_items(g, pool, extended);
 }
 
+/* Whether the law of an element type exists for lanes. */
 static bool has_law(const ali3_element_type *type) {
 #define ALI3_IS(name) || type == &ali3_##name
   return false ALI3_LAWS(ALI3_IS);
@@ -179,10 +180,10 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
   allocate(g, &pool);
 }
 
-/* Copies a vector of each instance to the group; unused lanes get that of the first. */
+/* Copies a vector of each instance to the group; unused lanes get the vector of the first. */
 #define PUT(g, to, n, in, from)                                                                                        \
   do {                                                                                                                 \
-    const double *vector[ALI3_MOST_LANES];                                                                             \
+    const double *vector[ALI3_MAX_LANES];                                                                              \
     for (int32_t l = 0; l < (g)->width; l++) {                                                                         \
       const ali3_instance *in = (g)->lane[l < (g)->used ? l : 0];                                                      \
       vector[l] = from;                                                                                                \
@@ -193,7 +194,7 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
 /* Copies a vector to the instances of the lanes in group->good. */
 #define TAKE(g, in, to, from, n)                                                                                       \
   do {                                                                                                                 \
-    double *vector[ALI3_MOST_LANES];                                                                                   \
+    double *vector[ALI3_MAX_LANES];                                                                                    \
     for (int32_t l = 0; l < (g)->width; l++) {                                                                         \
       ali3_instance *in = (g)->lane[l < (g)->used ? l : 0];                                                            \
       vector[l] = (g)->good[l] ? (to) : (g)->discarded;                                                                \
@@ -201,7 +202,7 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
     (g)->code->collect(vector, from, n);                                                                               \
   } while (0)
 
-/* End of the run of elements from e on that are all evaluated in vectors, or all one by one. */
+/* End of the run of elements that begins at e, all evaluated in vectors or all one by one. */
 static int32_t end_of_run(const ali3_lane_group *g, int32_t e) {
   int32_t end = e + 1;
   while (end < g->system->size.ne && g->by_law[end] == g->by_law[e]) end++;

@@ -13,7 +13,7 @@ typedef truth ali3_mask; /* all bits of a lane or none; also counters */
 typedef int64_t ali3_mask;
 #endif
 
-/* Vectors of a state, as those of ali3_vectors, for all lanes. */
+/* Vectors of a state, as in ali3_vectors, for all lanes. */
 typedef struct {
   real *q, *qd, *qdd, *lam;
   real *s, *sd, *sdd; /* guides */
@@ -37,15 +37,15 @@ struct ali3_lane_group {
   const ali3_system *system;
   const ali3_lane_code *code;
   int32_t width, used; /* number of lanes, and of lanes with an instance */
-  ali3_instance *lane[ALI3_MOST_LANES];
-  ali3_settings settings; /* those of all lanes */
+  ali3_instance *lane[ALI3_MAX_LANES];
+  ali3_settings settings; /* the same for all lanes */
   ali3_rule rule;
   double h, alpha;
   ali3_lane_vectors now, next;
   struct {
     real *val, *floor, *floor_inverse, *gravity, *gravity_const;
     bool isotropic;
-  } mass; /* this and the following members are those of an instance, for all lanes */
+  } mass; /* this and the following members are as in an instance, for all lanes */
   struct {
     real *D, *d0, *r, *x, *w, *hat, *Q, *stage, *shifted, *Phi, *Phit, *gamma, *mu, *lam, *drive;
   } step;
@@ -54,7 +54,7 @@ struct ali3_lane_group {
   } mixing;
   struct {
     real *J, *J_made, *F, *local;
-    real *F_new; /* tangent of lanes that need a new one while others reuse theirs */
+    real *F_new; /* tangent of lanes that need a new one while others reuse the old one */
   } tangent;
   struct {
     real *u, *ud, *force, *S, *SB, *S_made, *ud_at;

@@ -3,6 +3,7 @@
 #include "../elements/forces.h"
 #include "group.h"
 
+/* Arguments of the elements of lane l in the present step. */
 static ali3_force_call step_call(const ali3_lane_group *g, int32_t l) {
   const ali3_instance *in = g->lane[l];
   const ali3_vectors *to = &in->next;
@@ -17,6 +18,7 @@ static ali3_force_call step_call(const ali3_lane_group *g, int32_t l) {
   return call;
 }
 
+/* Signals and rates of element e in lane l. */
 static void gather_signals(const ali3_lane_group *g, int32_t e, int32_t l, double *u, double *ud) {
   const ali3_system *S = g->system;
   for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {

@@ -12,8 +12,9 @@
 #include "../methods/projection.h"
 #include "../rows/turning.h"
 
+/* Lanes in which all n numbers are finite. */
 static truth all_finite(const real *v, int32_t n) {
-  real sum = {0}; /* v - v is 0 for finite v, else NaN */
+  real sum = {0}; /* v - v is 0 for finite v, otherwise NaN */
   for (int32_t i = 0; i < n; i++) sum += v[i] - v[i];
   return sum == 0.0;
 }
@@ -124,7 +125,7 @@ static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
 }
 
 /* Largest of n values |x| factor, infinite if one is NaN; *worst: index of the first largest one, unchanged if it is 0.
- * The factors are those of lanes or common to all. */
+ * Factors differ by lane or are common to all. */
 static inline real largest_size(const real *x, const real *of_lanes, const double *of_all, int32_t n, truth *worst) {
   enum { CHAINS = 4 }; /* independent chains of comparisons hide their latency */
   real largest[CHAINS] = {0};
@@ -159,6 +160,7 @@ static truth update_residual(ali3_lane_group *in) {
   return (*in->residual < 1e300) & (*in->violation < 1e300);
 }
 
+/* Lanes in which all rows hold within the tolerance. */
 static truth rows_are_closed(const ali3_lane_group *in) {
   const ali3_system *S = in->system;
   truth open = {0};
@@ -167,7 +169,7 @@ static truth rows_are_closed(const ali3_lane_group *in) {
   return ~open;
 }
 
-/* Assembles and factorises the tangent (23) of the present iterate for some lanes; the others keep theirs. */
+/* Assembles and factorises the tangent (23) of the present iterate for some lanes; the others keep the earlier one. */
 static void tangent(ali3_lane_group *in, truth lanes, bool first) {
   const ali3_system *S = in->system;
   real *F = first ? in->tangent.F : in->tangent.F_new;

@@ -7,7 +7,7 @@
 #include "../elements/element.h"
 
 static const double ABRUPT = 0.1; /* change of a force in a step, of the largest force */
-/* 1/s: change of a force in a part that is halved, of the largest force, over the requested step, where it is less than
+/* 1/s: change of a force in a part that is halved, of the largest force, over the requested step, if it is less than
  * ABRUPT. So parts decrease with the step: of stops below 2 ms, of contacts below 20 ms. Measured in docs/theory.md. */
 static const double STOP_RATE = 50.0, CONTACT_RATE = 5.0;
 enum { MAX_DEPTH = 2 }; /* depth to which a step is halved at such a change */
@@ -48,7 +48,7 @@ bool ali3_leaves_parts(ali3_instance *in, const ali3_request *request, int32_t i
   return true;
 }
 
-/* Change of a force over the largest one above which parts of the present step are halved. */
+/* Change of a force relative to the largest one above which parts of the present step are halved. */
 static double change_limit(const ali3_instance *in, double rate) {
   return fmin(rate * in->inputs.whole_length, ABRUPT);
 }

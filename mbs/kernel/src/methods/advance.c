@@ -1,5 +1,4 @@
-/* A step by the method of the settings, in parts where it does not converge, a force changes abruptly or inputs
- * jump. */
+/* A step by the method of the settings, in parts if it does not converge, a force changes abruptly or inputs jump. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -38,8 +37,8 @@ static ali3_status method_step(ali3_instance *in, const ali3_request *request) {
 
 enum { MAX_ITERATIONS = 1000 }; /* of a step including its parts */
 
-/* Makes a part of a step: in halves where it does not converge or a force changes abruptly, and divided where a stop is
- * met or left. With a limit of iterations only the latter divide it. */
+/* Makes a part of a step: in halves if it does not converge or a force changes abruptly, and divided when a stop is met
+ * or left. With a limit of iterations only the latter divide it. */
 static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   const ali3_method *method = ali3_method_of(in);
   const bool limited = in->settings.step_iterations > 0;
@@ -62,12 +61,12 @@ static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   ali3_back_up(in);
   const int64_t made = in->report.iterations;
   const bool at_event = in->parting.event < 1.0;
-  const double share = at_event ? in->parting.event : 0.5;
+  const double fraction = at_event ? in->parting.event : 0.5;
   ali3_request first = *part, second = *part;
-  first.t = part->t - (1.0 - share) * part->h;
-  first.h = share * part->h;
+  first.t = part->t - (1.0 - fraction) * part->h;
+  first.h = fraction * part->h;
   first.iterations_end = made + (part->iterations_end - made) / 2;
-  second.h = (1.0 - share) * part->h;
+  second.h = (1.0 - fraction) * part->h;
   if (!at_event) first.depth = second.depth = part->depth - 1;
   const ali3_status first_status = advance_part(in, &first);
   return first_status == ALI3_OK ? advance_part(in, &second) : first_status;
@@ -91,8 +90,8 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
   return ALI3_OK;
 }
 
-/* End of the next part of a step of h to time t: the next jump of an input or a guide, else t. `*guide`: time of the
- * jump if it is one of a guide, else infinity. */
+/* End of the next part of a step of h to time t: the next jump of an input or a guide, otherwise t. `*guide`: time of
+ * the jump if it is one of a guide, otherwise infinity. */
 static double part_end(const ali3_instance *in, double t, double h, double *guide) {
   const double inputs = ali3_inputs_until(in, t), near = AT_END * h;
   const double piece_end =

@@ -18,11 +18,11 @@ static const double KEPT_VIOLATION = 2e-5, KEPT_RESIDUAL = 0.3;
 
 /* If the residual decreases, rates of signals change by less than REACH residuals times 2/h afterwards (`reach` of
  * ../elements/element.h); used in Systems with expensive iterations. With an eighth of it some steps did not converge;
- * after MOST_SETTLING iterations sliders use their secants again. */
+ * after MAX_SETTLING iterations sliders use their secants again. */
 static const double REACH = 4.0;
-enum { MOST_SETTLING = 12 };
+enum { MAX_SETTLING = 12 };
 static inline bool ali3_settles(const ali3_system *S, int32_t iterations) {
-  return ali3_defect_corrected(S) && iterations <= MOST_SETTLING;
+  return ali3_defect_corrected(S) && iterations <= MAX_SETTLING;
 }
 
 /* Round-off of positions, m, that projections may leave in rates: its effect on accelerations and multipliers is small

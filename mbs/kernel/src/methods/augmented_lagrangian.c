@@ -126,7 +126,7 @@ static ali3_status tangent(ali3_instance *in, double alpha) {
   return ali3_factorise(in, in->tangent.F);
 }
 
-/* One Newton correction (21) and the multiplier update. `reused`: the tangent is that of an earlier iterate, and
+/* One Newton correction (21) and the multiplier update. `reused`: the tangent belongs to an earlier iterate, and
  * in->step.x has the reported residual. `accelerated`: the correction is combined with the one before it. The penalty
  * uses the Phi_q of the tangent, as it would amplify the part of a later Phi_q outside its range. */
 ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool reused,
@@ -164,7 +164,7 @@ static ali3_status accept_capped(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* Newton's iteration. With a limit for the whole step, a part of the step has its share of it, but not more than
+/* Newton's iteration. With a limit for the whole step, a part of the step has its part of it, but not more than
  * without. */
 ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, double alpha) {
   const double h = request->h;
@@ -233,11 +233,11 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   ali3_vectors *from = &in->now, *to = &in->next;
   const bool generalised_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
   const double turn_rate = in->settings.project ? fastest_turn(in) : 0.0;
-  if (turn_rate * h > MOST_TURN && in->settings.step_iterations == 0) {
+  if (turn_rate * h > MAX_TURN && in->settings.step_iterations == 0) {
     in->report.fastest_rate = turn_rate;
     return ALI3_TURNS_TOO_FAR;
   }
-  in->bound.capped |= turn_rate * h > MOST_TURN;
+  in->bound.capped |= turn_rate * h > MAX_TURN;
   ali3_status status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
   ali3_guides_step(in, from, to, request->t, h);
@@ -249,7 +249,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   const double c = in->rule.c;
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
-  /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
+  /* derivatives of a step follow the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
   status = ali3_newton(in, request, alpha);
   if (status != ALI3_OK && from_past) { /* near a singular position extrapolated multipliers may prevent convergence */

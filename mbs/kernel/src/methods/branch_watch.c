@@ -4,7 +4,7 @@
  * Jump: where all arms of a ring are nearly aligned, branches of the solution are close to each other. A step there in
  * which a triad changes its sign is repeated in 4 parts, up to the part in which it has changed, and, if they do not
  * change it, in 8: if both agree with each other but not with the step, the step has jumped to another branch. On a
- * smooth branch all three agree. The state and the work arrays after the check are those of the undivided step. */
+ * smooth branch all three agree. The state and the work arrays after the check belong to the undivided step. */
 #include <math.h>
 #include <string.h>
 
@@ -20,19 +20,21 @@
 #include "steps.h"
 
 static const double ALIGNED_SINE = 0.25; /* squared sine of the angles of a ring below which branches may be close */
-static const double DIFFERENT = 0.5; /* a larger share of the change of a sine is a difference between branches */
+static const double DIFFERENT = 0.5; /* a larger fraction of the change of a sine is a difference between branches */
 static const double MAX_TURN = 0.2; /* largest change of a sine in a controlled step near other branches */
-static const double SAFETY = 0.65, DIFFERENT_SHARE = 0.25; /* factors of the step after a large turn, after a jump */
+static const double SAFETY = 0.65, AFTER_JUMP = 0.25; /* factors of the step after a large turn, after a jump */
 enum { FEW = 4, MANY = 8, SAMPLES = 8 };
 
 enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
 
+/* Root of |x| with the sign of x. */
 static double signed_root(double signed_square) {
   return signed_square < 0.0 ? -sqrt(-signed_square) : sqrt(signed_square);
 }
 
 static bool has_modes(const ali3_instance *in) { return in->system->n_mode_triad > 0; }
 
+/* Whether triads j and k belong to the same ring. */
 static bool same_ring(const ali3_instance *in, int32_t j, int32_t k) {
   const int32_t *ring = in->system->mode_triad + RING;
   return ring[ITEMS * j] == ring[ITEMS * k];
@@ -50,6 +52,7 @@ static bool is_aligned(const ali3_instance *in, const double *sine, int32_t k, i
   return n > 1;
 }
 
+/* Stores for each loop whether it has left its assembly mode. */
 static void update_modes(ali3_instance *in) {
   ali3_mode_angles(in, in->now.q);
   for (int64_t loop = 0; loop < ali3_loop_count(in->system); loop++)
@@ -187,7 +190,7 @@ static void report_left_modes(ali3_instance *in, double t) {
 
 /* Largest change of a sine in an aligned ring of which a triad changes its sign in the controlled step, 0: there is
  * none. Signs at samples within the step are interpolated, as folded arms may turn little while another joint of the
- * ring changes its branch. *sample: the sample, from 1 on, at which the sign changes. */
+ * ring changes its branch. *sample: number of the sample, the first is 1, at which the sign changes. */
 static double ring_turn(ali3_instance *in, double h, int *sample) {
   const ali3_system *S = in->system;
   const size_t size = (size_t)ali3_triad_count(S) * sizeof(double);
@@ -219,16 +222,16 @@ static double ring_turn(ali3_instance *in, double h, int *sample) {
 
 /* Checks the accepted controlled step of in->kept.origin, in->kept.centre and in->now for a jump between close
  * branches: it turns a ring too far, or MANY shorter steps end elsewhere; the step and its halves may have jumped in
- * the same way. Returns the share of the step that may be made, 1: all. */
-double ali3_branch_share(ali3_instance *in, const ali3_measure *measure, double t, double h) {
+ * the same way. Returns the fraction of the step that may be made, 1: all. */
+double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, double t, double h) {
   const int32_t nq = in->system->size.nq;
   int sample = 0;
   if (!has_modes(in)) return 1.0;
   const double turn = ring_turn(in, h, &sample);
   if (turn == 0.0) return 1.0;
   if (turn > MAX_TURN) {
-    const double share = SAFETY * MAX_TURN / turn;
-    return share * SAMPLES > sample ? share : fmax(share, (sample - 1.0) / SAMPLES);
+    const double fraction = SAFETY * MAX_TURN / turn;
+    return fraction * SAMPLES > sample ? fraction : fmax(fraction, (sample - 1.0) / SAMPLES);
   }
   const ali3_report whole = in->report;
   ali3_vectors_copy(in, &in->kept.coarse, &in->now);
@@ -246,10 +249,10 @@ double ali3_branch_share(ali3_instance *in, const ali3_measure *measure, double 
   in->bound.iterations_before = whole.iterations;
   ali3_balance_restore(&in->report, &whole);
   in->clock.now = t + h;
-  return jumped ? DIFFERENT_SHARE : 1.0;
+  return jumped ? AFTER_JUMP : 1.0;
 }
 
-/* After a controlled step, which ali3_branch_share has checked for jumps. */
+/* After a controlled step, which ali3_branch_fraction has checked for jumps. */
 void ali3_branch_look(ali3_instance *in, double t) {
   if (has_modes(in)) report_left_modes(in, t);
 }

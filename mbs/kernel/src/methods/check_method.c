@@ -4,6 +4,7 @@
 #include "../instance.h"
 #include "../system/state_coordinates.h"
 
+/* Whether element e has a potential and no loss with its present numbers. */
 static bool is_conservative(const ali3_instance *in, int32_t e) {
   const ali3_element_type *type = in->system->el_kind[e];
   const int32_t first = in->system->el_real_ptr[e], n = in->system->el_real_ptr[e + 1] - first;

@@ -17,14 +17,14 @@ static void before(ali3_instance *in, const ali3_request *request) {
 
 static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const double t = request->t, h = request->h;
-  const double share[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
+  const double fraction[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
   int32_t iterations = 0, most_iterations = in->report.max_iterations;
   double end_time = -1.0; /* time after the end of the step, in steps */
   ali3_vectors_copy(in, &in->kept.whole, &in->now);
   for (int stage = 0; stage < STAGES; stage++) {
-    end_time = stage == STAGES - 1 ? 0.0 : end_time + share[stage];
+    end_time = stage == STAGES - 1 ? 0.0 : end_time + fraction[stage];
     const ali3_status status =
-        ali3_energy_momentum(in, t + end_time * h, share[stage] * h, 1.0 + end_time - 0.5 * share[stage],
+        ali3_energy_momentum(in, t + end_time * h, fraction[stage] * h, 1.0 + end_time - 0.5 * fraction[stage],
                              stage == STAGES - 1 && request->reading != ALI3_READ_NOTHING);
     if (status != ALI3_OK) {
       ali3_vectors_copy(in, &in->now, &in->kept.whole);

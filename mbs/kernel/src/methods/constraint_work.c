@@ -7,7 +7,7 @@
  *   work of rows:   h R' lam0 - (Phi_q1 D)'(lam1 - lam0)/2
  *   work of drives: w'(lam0 + lam) + h (lam - lam0)'(Phi_t1 - Phi_t0)/12, w = h R/2
  *
- * The work of drives is no error: it is the integral of lam' Phi_t for linear lam and quadratic Phi_t. There lam is
+ * The work of drives is not an error: it is the integral of lam' Phi_t for linear lam and quadratic Phi_t. There lam is
  * that after (25), as in sensors: it differs from lam1 by a term of order h where the rate of a guide has a kink, and
  * (24) changes the energy by another; each alone is an error of first order, their sum is not.
  *
@@ -36,7 +36,7 @@ static void drive_weights(ali3_instance *in, double h) {
   }
 }
 
-/* Whether the work of drives is that of their rows: filtered guides move, or there is no projection. */
+/* Whether the work of drives is the work of their rows: filtered guides move, or there is no projection. */
 static truth work_by_rows(const ali3_instance *in) {
   truth uses_rows = {0};
   for (int32_t g = 0; g < in->system->size.ng; g++) uses_rows |= in->guide.follows[g] != 0.0;

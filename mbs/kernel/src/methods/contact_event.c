@@ -34,14 +34,14 @@ static double first_event(const ali3_instance *in, double h) {
 
 bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
   if (in->parting.events_left < 0) return false;
-  const double h = request->h, share = first_event(in, h), near = ALI3_AT_END * in->inputs.whole_length;
-  if (!(share * h > near && (1.0 - share) * h > near)) return false;
+  const double h = request->h, fraction = first_event(in, h), near = ALI3_AT_END * in->inputs.whole_length;
+  if (!(fraction * h > near && (1.0 - fraction) * h > near)) return false;
   if (in->parting.events_left == 0) {
     in->report.abrupt_steps++; /* an event that is not located is reported */
     return false;
   }
   if (!ali3_leaves_parts(in, request, in->report.last_iterations)) return false;
   in->parting.events_left--;
-  in->parting.event = share;
+  in->parting.event = fraction;
   return true;
 }

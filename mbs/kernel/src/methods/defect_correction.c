@@ -15,7 +15,7 @@ enum { MAX_CORRECTIONS = 2 }; /* of a Newton correction */
 /* m: after a larger first correction the rows are open and another iteration follows in any case */
 static const double LARGE_CORRECTION = 3e-5;
 static const double SMALL_CORRECTION = 10.0; /* in tolerances: a smaller correction has no relevant defect */
-static const double CONTRACTION = 0.5; /* largest ratio of successive changes of d; else forces are too nonlinear */
+static const double CONTRACTION = 0.5; /* largest ratio of successive changes of d; otherwise too nonlinear */
 
 /* Writes the negative change of d to `change` and d to `last`; returns the size of the change, m. */
 static real defect(ali3_instance *in, double h, truth lanes, real *last, real *change) {
@@ -35,7 +35,7 @@ static real defect(ali3_instance *in, double h, truth lanes, real *last, real *c
   return largest;
 }
 
-/* in->step.x has the Newton correction; forces and signals are those of the present iterate. */
+/* in->step.x has the Newton correction; forces and signals belong to the present iterate. */
 void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, truth lanes) {
   const int32_t nq = in->system->size.nq;
   const double tolerance = in->system->fine * in->settings.tolerance_r;

@@ -1,7 +1,7 @@
-/* The state at any time of a controlled step. Positions, velocities and accelerations at its start, centre and end give
- * a polynomial of degree eight (Hermite interpolation); accelerations, multipliers and outputs of elements follow from
- * the equations of index one. Where their accelerations show an error above the tolerance, and with element states or
- * filtered guides, a step of the method is made to that time and discarded afterwards. */
+/* Dense output: the state at any time within a controlled step. Positions, velocities and accelerations at its start,
+ * centre and end give a polynomial of degree eight (Hermite interpolation); accelerations, multipliers and outputs of
+ * elements follow from the equations of index one. If these accelerations show an error above the tolerance, or with
+ * element states or filtered guides, a step of the method is made to that time and discarded. */
 #include <math.h>
 #include <string.h>
 
@@ -17,9 +17,9 @@
 #include "energy_balance.h"
 #include "error_control.h"
 
-enum { NODES = 3, DATA = 3 * NODES };
+enum { NODES = 3, TERMS = 3 * NODES };
 /* Hermite basis of a step, x = -1 to 1: contribution of q, dq/dx, d2q/dx2 at x = -1, 0, 1 to the coefficient of x^k. */
-static const double basis[DATA][DATA] = {
+static const double basis[TERMS][TERMS] = {
     {0.0, 0.0, 0.0, -35.0 / 16, 3.0, 21.0 / 8, -4.0, -15.0 / 16, 1.5},
     {0.0, 0.0, 0.0, -11.0 / 16, 13.0 / 16, 9.0 / 8, -11.0 / 8, -7.0 / 16, 9.0 / 16},
     {0.0, 0.0, 0.0, -1.0 / 16, 1.0 / 16, 1.0 / 8, -1.0 / 8, -1.0 / 16, 1.0 / 16},
@@ -30,56 +30,61 @@ static const double basis[DATA][DATA] = {
     {0.0, 0.0, 0.0, -11.0 / 16, -13.0 / 16, 9.0 / 8, 11.0 / 8, -7.0 / 16, -9.0 / 16},
     {0.0, 0.0, 0.0, 1.0 / 16, 1.0 / 16, -1.0 / 8, -1.0 / 8, 1.0 / 16, 1.0 / 16},
 };
-/* Bounds of the error of positions over h^2, and of velocities over h, times the defect of the accelerations. */
+/* Error bounds: positions POSITION_FACTOR h^2, velocities VELOCITY_FACTOR h, times the defect of the accelerations. */
 static const double POSITION_FACTOR = 0.01, VELOCITY_FACTOR = 0.05;
-static const double END_SHARE = 1e-6; /* of a step: nearer to its end the state of its end is used */
-static const double MIN_SHARE = 1e-3; /* of a step: in a shorter one forces would be dominated by round-off */
+static const double END_FRACTION = 1e-6; /* of the step; closer to its end the end state is used */
+static const double MIN_FRACTION = 1e-3; /* of the step; in a shorter one round-off would dominate the forces */
 
-/* Weights of the nine vectors in the polynomial (order 0) or its first or second derivative by x. */
-static void weights(double x, int order, double weight[DATA]) {
-  for (int j = 0; j < DATA; j++) {
+/* Factor of the derivative of x^k: k (k - 1) ... with `order` factors, order 0 to 2. */
+static double falling_factorial(int k, int order) {
+  if (order == 0) return 1.0;
+  return order == 1 ? k : (double)k * (k - 1);
+}
+
+/* Weights of the nine vectors in the polynomial (order 0) or its first or second derivative with respect to x. */
+static void evaluate_basis(double x, int order, double weight[TERMS]) {
+  for (int j = 0; j < TERMS; j++) {
     double sum = 0.0;
-    for (int k = DATA - 1; k >= order; k--) {
-      const double factor = order == 0 ? 1.0 : (order == 1 ? k : (double)k * (k - 1));
-      sum = sum * x + factor * basis[j][k];
-    }
+    for (int k = TERMS - 1; k >= order; k--) sum = sum * x + falling_factorial(k, order) * basis[j][k];
     weight[j] = sum;
   }
 }
 
-/* q, qd and qdd of *to at x, -1 to 1, of the step of h that in->kept.origin, in->kept.centre and in->now hold. */
-void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to) {
+/* q, qd and qdd of *result at x, -1 to 1, of the step of h that in->kept.origin, in->kept.centre and in->now hold. */
+void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *result) {
   const ali3_vectors *node[NODES] = {&in->kept.origin, &in->kept.centre, &in->now};
-  const double unit[3] = {1.0, 0.5 * h, 0.25 * h * h};
-  double *result[3] = {to->q, to->qd, to->qdd}, weight[DATA];
+  const double scale[3] = {1.0, 0.5 * h, 0.25 * h * h}; /* of a derivative with respect to x */
+  double *out[3] = {result->q, result->qd, result->qdd}, weight[TERMS];
   for (int order = 0; order < 3; order++) {
-    weights(x, order, weight);
+    evaluate_basis(x, order, weight);
     for (int32_t i = 0; i < in->system->size.nq; i++) {
       double sum = 0.0;
       for (int n = 0; n < NODES; n++)
-        sum += weight[3 * n] * node[n]->q[i] + unit[1] * weight[3 * n + 1] * node[n]->qd[i] +
-               unit[2] * weight[3 * n + 2] * node[n]->qdd[i];
-      result[order][i] = sum / unit[order];
+        sum += weight[3 * n] * node[n]->q[i] + scale[1] * weight[3 * n + 1] * node[n]->qd[i] +
+               scale[2] * weight[3 * n + 2] * node[n]->qdd[i];
+      out[order][i] = sum / scale[order];
     }
   }
 }
 
-/* Computes in->next from the polynomial and the equations of index one; false: the error exceeds the tolerance. */
-static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, double t, double h, double when) {
+/* Computes in->next from the polynomial and the equations of index one; false: the equations failed, or the error
+ * exceeds the tolerance. */
+static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, double t, double h, double time) {
   const int32_t nq = in->system->size.nq;
-  const double x = 2.0 * (when - t) / h - 1.0;
-  ali3_vectors *at = &in->next;
-  ali3_vectors_copy(in, at, x < 0.0 ? &in->kept.centre : &in->now);
-  ali3_interpolate(in, h, x, at);
-  memcpy(in->step.D, at->qdd, (size_t)nq * sizeof(double));
-  ali3_guides_time(in, at, when);
-  in->clock.now = when;
-  ali3_status status = ali3_inputs_begin(in, when, 0.0);
-  if (status == ALI3_OK) status = ali3_index_one(in, at);
-  in->report.iterations--; /* not an evaluation of the motion */
+  const double x = 2.0 * (time - t) / h - 1.0;
+  ali3_vectors *state = &in->next;
+  ali3_vectors_copy(in, state, x < 0.0 ? &in->kept.centre : &in->now);
+  ali3_interpolate(in, h, x, state);
+  /* scratch: D interpolated accelerations, w and r errors of positions and velocities */
+  memcpy(in->step.D, state->qdd, (size_t)nq * sizeof(double));
+  ali3_guides_time(in, state, time);
+  in->clock.now = time;
+  ali3_status status = ali3_inputs_begin(in, time, 0.0);
+  if (status == ALI3_OK) status = ali3_index_one(in, state);
+  in->report.iterations--; /* undoes the count of ali3_index_one, as output is not an iteration */
   if (status != ALI3_OK) return false;
   for (int32_t i = 0; i < nq; i++) {
-    const double defect = at->qdd[i] - in->step.D[i];
+    const double defect = state->qdd[i] - in->step.D[i];
     in->step.w[i] = POSITION_FACTOR * h * h * defect;
     in->step.r[i] = VELOCITY_FACTOR * h * defect;
   }
@@ -87,58 +92,58 @@ static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, 
          measure->control->tolerance;
 }
 
-/* Computes in->next close to the start from the polynomial, with the forces and states of the start; with element
- * states or filtered guides. */
-static void evaluate_near_start(ali3_instance *in, double t, double h, double when) {
+/* Only with element states or filtered guides: computes in->next close to the start from the polynomial, with the
+ * forces and states of the start. */
+static void evaluate_near_start(ali3_instance *in, double t, double h, double time) {
   ali3_vectors_copy(in, &in->next, &in->kept.origin);
-  ali3_interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
-  ali3_guides_time(in, &in->next, when);
-  ali3_work_beside(in, when - t);
+  ali3_interpolate(in, h, 2.0 * (time - t) / h - 1.0, &in->next);
+  ali3_guides_time(in, &in->next, time);
+  ali3_work_beside(in, time - t);
 }
 
 /* Computes in->next by a step of the method from the start or the centre; in->now is saved in in->kept.coarse
  * meanwhile. */
-static ali3_status repeat_step(ali3_instance *in, double t, double h, double when) {
+static ali3_status step_to_time(ali3_instance *in, double t, double h, double time) {
   const ali3_report before = in->report;
-  const double middle = t + 0.5 * h;
-  const bool second = when > middle + MIN_SHARE * h;
-  const double from = second ? middle : t;
+  const double centre = t + 0.5 * h;
+  const bool second = time > centre + MIN_FRACTION * h;
+  const double start = second ? centre : t;
   ali3_vectors_copy(in, &in->kept.coarse, &in->now);
   ali3_vectors_copy(in, &in->now, second ? &in->kept.centre : &in->kept.origin);
-  const ali3_status status = ali3_trial_step(in, from, when - from, ALI3_READ_ALL);
+  const ali3_status status = ali3_trial_step(in, start, time - start, ALI3_READ_ALL);
   if (status == ALI3_OK) ali3_vectors_copy(in, &in->next, &in->now);
   ali3_vectors_copy(in, &in->now, &in->kept.coarse);
   ali3_balance_restore(&in->report, &before);
   return status;
 }
 
-static void record(ali3_instance *in, double *out, double *positions) {
+static void write_outputs(ali3_instance *in, double *out, double *positions) {
   if (out != NULL) ali3_sensors_evaluate(in, out);
   if (positions != NULL) memcpy(positions, in->now.q, (size_t)in->system->size.nq * sizeof(double));
 }
 
-/* Sensors (ns) and coordinates (nq) at time `when` of the step from t that in->kept.origin, in->kept.centre, in->now
+/* Sensors (ns) and coordinates (nq) at `time` of the step from t that in->kept.origin, in->kept.centre, in->now
  * hold. */
-ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
+ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double time,
                               double *out, double *positions) {
   const bool relative = ali3_method_of(in)->relative;
-  const bool at_end = when >= t + h - END_SHARE * h;
+  const bool at_end = time >= t + h - END_FRACTION * h;
   const bool has_work = in->system->n_work + in->system->n_guide_work > 0; /* work is known at the ends of steps */
   const bool smooth = ali3_states_are_coordinates(in->system) && (at_end || !has_work);
   if (at_end && !relative) {
-    record(in, out, positions);
+    write_outputs(in, out, positions);
     return ALI3_OK;
   }
-  if (!smooth && when < t + MIN_SHARE * h) {
-    evaluate_near_start(in, t, h, when);
-  } else if (!smooth || !evaluate_polynomial(in, measure, t, h, at_end ? t + h : when)) {
-    const ali3_status status = repeat_step(in, t, h, when);
-    measure->control->side_steps++;
+  if (!smooth && time < t + MIN_FRACTION * h) {
+    evaluate_near_start(in, t, h, time);
+  } else if (!smooth || !evaluate_polynomial(in, measure, t, h, at_end ? t + h : time)) {
+    const ali3_status status = step_to_time(in, t, h, time);
+    measure->control->side_steps++; /* a step made only for output */
     if (status != ALI3_OK) return status;
   }
   const ali3_vectors end = in->now;
-  in->now = in->next;
-  record(in, out, positions);
+  in->now = in->next; /* which sensors read */
+  write_outputs(in, out, positions);
   in->next = in->now;
   in->now = end;
   memcpy(in->inputs.set, end.used, (size_t)in->system->size.nu * sizeof(double));

@@ -27,6 +27,7 @@ static double potential(const ali3_instance *in, const ali3_vectors *v, const do
   return gravity + elastic;
 }
 
+/* Records the energies of a state, J. */
 static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
   if (kinetic > r->kinetic_peak) r->kinetic_peak = kinetic;
   r->energy = energy;
@@ -59,7 +60,7 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
 }
 
 /* Adds a step to in->next with its kinetic energy and energy error, J, to the balance; the remaining change of energy
- * is work. `weight`: energy of gravity, J, known for Systems without flexible and tabled bodies, else NULL. */
+ * is work. `weight`: energy of gravity, J, known for Systems without flexible and tabled bodies, otherwise NULL. */
 void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight) {
   ali3_report *r = &in->report;
   const double energy = kinetic + potential(in, &in->next, weight);

@@ -36,9 +36,9 @@ static const double SLOW_RATIO = 0.1;      /* ratio of two errors above which th
 static const double REFACTORISE_ERROR = 10.0; /* tolerances: also if two more iterations are predicted to end above */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
 static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 50.0; /* of the tolerance; s^-1 */
-static const double EPS_SHARE = 1e-3; /* of eps_rel */
-/* Limits of the correction relative to accelerations: share of the error of the method, round-off. */
-static const double SHARE = 1e-2, ROUND_OFF = 1e-12;
+static const double EPS_FACTOR = 1e-3; /* of eps_rel */
+/* Limits of the correction relative to accelerations: fraction of the error of the method, round-off. */
+static const double ERROR_FRACTION = 1e-2, ROUND_OFF = 1e-12;
 static const double SIGN_CHANGE = 1e5, MAX_RAISE = 100.0; /* of penalties */
 /* Factors of the penalty; the last attempt is not stopped when it diverges. */
 static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0};
@@ -47,7 +47,7 @@ static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0};
  * nearly redundant at singular positions do not converge, with much smaller ones round-off of rows that turn far in a
  * step causes forces. */
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h) {
-  return 0.5 * h * h * ali3_penalty(in, h) / EPS_SHARE;
+  return 0.5 * h * h * ali3_penalty(in, h) / EPS_FACTOR;
 }
 
 /* The penalty of this step. The lever a of a row that vanishes at a singular position has opposite signs at the ends of
@@ -66,7 +66,7 @@ static double raised_penalty(const ali3_instance *in, double h) {
     }
     if (square > turn) turn = square;
   }
-  const double most_refinements = MAX_RAISE * 0.5 / (in->settings.eps_rel * EPS_SHARE);
+  const double most_refinements = MAX_RAISE * 0.5 / (in->settings.eps_rel * EPS_FACTOR);
   return fmax(weight, fmin(most_refinements, SIGN_CHANGE / turn));
 }
 
@@ -198,7 +198,7 @@ static double relative_correction(const ali3_instance *in) {
   return size > 0.0 ? sqrt(change / size) : 0.0;
 }
 
-/* Limit of relative_correction for a sub-step of order four: a share of the error of the method, the fourth power of
+/* Limit of relative_correction for a sub-step of order four: a fraction of the error of the method, the fourth power of
  * the change of accelerations between sub-steps. A tolerance in metres would spoil the order at small steps. */
 static double correction_limit(const ali3_instance *in, double h) {
   const ali3_vectors *v = &in->now;
@@ -213,7 +213,7 @@ static double correction_limit(const ali3_instance *in, double h) {
   }
   if (!(size > 0.0)) return ROUND_OFF;
   const double turn = h / (time[0] - time[1]), square = change / size * turn * turn;
-  return fmax(ROUND_OFF, SHARE * square * square);
+  return fmax(ROUND_OFF, ERROR_FRACTION * square * square);
 }
 
 /* Newton's iteration. It continues below the tolerances while that is cheap, as energy errors follow from residuals. A
@@ -288,8 +288,8 @@ static bool carries_projected(const ali3_instance *in) {
 }
 
 /* Makes a step from in->now to in->next; in->now changes only if it succeeds. t: time at its end, s; h, s, may be
- * negative; `share`: its middle as a share of the step of ali3_inputs_begin. */
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool reported) {
+ * negative; `middle`: its middle as a fraction of the step of ali3_inputs_begin. */
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double middle, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   double weight = 0.0;
@@ -297,7 +297,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
-  ali3_status status = ali3_inputs_at(in, share);
+  ali3_status status = ali3_inputs_at(in, middle);
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   if (!has_same_rows(in, from, false)) {

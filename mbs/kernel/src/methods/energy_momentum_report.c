@@ -16,7 +16,7 @@
 
 enum { MAX_SWEEPS = 3 };
 static const double VELOCITY_TOLERANCE = 1e-11, ROUND_OFF = 1e-11;
-static const double LEAST_RATIO = 0.5, MOST_RATIO = 2.0; /* of kinetic energies that may be made equal */
+static const double MIN_RATIO = 0.5, MAX_RATIO = 2.0; /* of kinetic energies that may be made equal */
 
 static const double SAME_STEP = 1e-6; /* relative difference of two steps that counts as none */
 
@@ -28,7 +28,7 @@ static void scale(ali3_instance *in, const ali3_vectors *v) {
       ali3_mass_product(in, v->own, v->own, in->step.x) / ali3_mass_product(in, v->qd, v->qd, in->step.x);
   for (int32_t k = 0; k < in->system->size.nc; k++)
     if (in->step.Phit[k] != 0.0) return;
-  if (!(ratio > LEAST_RATIO && ratio < MOST_RATIO)) return;
+  if (!(ratio > MIN_RATIO && ratio < MAX_RATIO)) return;
   const double factor = sqrt(ratio);
   for (int32_t i = 0; i < nq; i++) v->qd[i] *= factor;
 }
@@ -79,7 +79,7 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
     ali3_forces(in, &call);
     status = ali3_index_one_solve(in, in->step.Q, in->step.gamma, ROUND_OFF, v->qdd, v->lam);
   }
-  in->report.factorizations = factorizations; /* those of steps are counted */
+  in->report.factorizations = factorizations; /* factorizations of steps are counted */
   in->report.solves = solves;
   return status;
 }

@@ -6,10 +6,10 @@
 #include "energy_balance.h"
 #include "energy_watch.h"
 
-/* Largest energy errors over the kinetic energy: of a requested step, and of a part that can be halved again. A part
- * that cannot has the limit of a requested step, as otherwise a series of short steps would pass where a long one
+/* Largest energy errors relative to the kinetic energy: of a requested step, and of a part that can be halved again. A
+ * part that cannot has the limit of a requested step, as otherwise a series of short steps would pass where a long one
  * fails. */
-static const double MAX_SHARE = 0.1, MAX_SHARE_OF_PART = 0.02;
+static const double MAX_RATIO = 0.1, MAX_RATIO_OF_PART = 0.02;
 static const double MAX_ENERGY = 1e100; /* J */
 
 /* Whether this is a part of a requested step that can be halved again. */
@@ -26,7 +26,7 @@ ali3_status ali3_energy_judge(ali3_instance *in, const ali3_request *request, do
                worse = fmax(fabs(error), predicted);
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
   const bool driven = in->system->n_gterm_row > 0; /* a jump of the rate of a guide adds energy */
-  const bool resolved = driven || worse <= (halves_left(in, request) ? MAX_SHARE_OF_PART : MAX_SHARE) * size;
+  const bool resolved = driven || worse <= (halves_left(in, request) ? MAX_RATIO_OF_PART : MAX_RATIO) * size;
   if (!resolved && in->settings.step_iterations == 0) return ALI3_UNRESOLVED;
   in->bound.capped |= !resolved; /* not halved: the balance and the count of capped steps report it */
   ali3_balance_energy(in, error, end, weight);

@@ -1,6 +1,6 @@
-/* Step sizes from the error: the error of each step may be its share of the tolerance (error per unit step), so that
- * the errors of a run add up to the tolerance. Where a shorter step does not reduce the error in proportion (a kink of
- * a force, a velocity jump at a singular position) its error may be a fixed share, and where the error does not
+/* Step sizes from the error: the error of each step may be its part of the tolerance (error per unit step), so that the
+ * errors of a run add up to the tolerance. Where a shorter step does not reduce the error in proportion (a kink of a
+ * force, a velocity jump at a singular position) its error may be a fixed fraction, and where the error does not
  * decrease at all the step is accepted and counted. Proportional-integral controller of Gustafsson 1991 (Hairer,
  * Wanner, "Solving Ordinary Differential Equations II", second edition, IV.2). */
 #include <math.h>
@@ -18,32 +18,34 @@
 #include "energy_balance.h"
 #include "error_control.h"
 
-static const double MIN_SHARE = 1e-3; /* of the tolerance */
+static const double MIN_FRACTION = 1e-3; /* of the tolerance */
 static const double TARGET = 0.4; /* of the allowed error of a step */
 static const double PROPORTIONAL = 0.4, INTEGRAL = 0.7;
-static const double AFTER_OVER_SHARE = 1.5; /* factor of the step after one accepted above its share */
-static const double SHRINK = 0.15, GROW = 4.0, MOST_OF_REJECTED = 0.9, AFTER_FAILURE = 0.25;
+static const double AFTER_OVER_SHARE = 1.5; /* factor of the step after one accepted above its part */
+static const double SHRINK = 0.15, GROW = 4.0, MAX_AFTER_REJECTION = 0.9, AFTER_FAILURE = 0.25;
 /* Shortest steps, relative to the time scale of the motion: for the error, as round-off of index three grows in shorter
  * ones, and for convergence. */
-static const double SHORTEST[] = {
+static const double MIN_STEP[] = {
     [ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_COLLOCATION] = 1e-6, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
-static const double SHORTEST_TRIED[] = {
+static const double MIN_TRIAL_STEP[] = {
     [ALI3_ROUND_OFF_INDEX_3] = 1e-6, [ALI3_ROUND_OFF_COLLOCATION] = 1e-7, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
-/* Ratios of the errors of two trials: at a kink, over the ratio of their steps; at a jump of velocity. */
+/* Ratios of the errors of two trials: at a kink, divided by the ratio of their steps; at a jump of velocity. */
 static const double KINK_RATIO = 0.5, KICK_RATIO = 0.7;
-enum { MAX_KICKS = 2 };                         /* in one step */
+enum { MAX_KICKS = 2 }; /* in one step */
 static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
-static const double FIRST_STEP = 1e-3;       /* first step over the span, if none is given */
+static const double FIRST_STEP = 1e-3; /* first step / span, if none is given */
 static const double ROAD_LENGTHS = 0.05; /* largest path in a step, in lengths: bumps within a step are missed */
 static const double MIN_ERROR = 1e-4; /* of the allowed error of a step: smaller errors are round-off */
 
+/* Whether the settings of the control are finite and in range. */
 static bool valid(const ali3_control *c) {
   return c != NULL && c->tolerance > 0.0 && c->tolerance < 1e300 && c->length > 0.0 && c->length < 1e300 &&
          c->span > 0.0 && c->span < 1e300 && c->rate > 0.0 && c->rate < 1e300 && c->longest > 0.0 && c->h >= 0.0 &&
          c->longest < 1e300 && c->h < 1e300;
 }
 
+/* Sets the time at which the next step starts, s. */
 static void set_time(ali3_instance *in, double t) {
   in->clock.base = t;
   in->clock.h = 0.0;
@@ -94,8 +96,10 @@ static double factor(double relative_error, double last_error, int32_t order) {
   return fmin(GROW, fmax(SHRINK, f));
 }
 
-static double shortest(const ali3_instance *in, const ali3_measure *measure, double t, const double *share) {
-  return fmax(share[ali3_method_of(in)->round_off] * fmin(measure->control->span, 1.0 / ali3_rate(in, measure, false)),
+/* Shortest step, s: in a shorter one round-off would dominate. */
+static double min_step(const ali3_instance *in, const ali3_measure *measure, double t, const double *fraction) {
+  return fmax(fraction[ali3_method_of(in)->round_off] *
+                  fmin(measure->control->span, 1.0 / ali3_rate(in, measure, false)),
               ROUND_OFF * fabs(t));
 }
 
@@ -108,11 +112,11 @@ typedef struct {
 
 enum { REJECT = 0, ACCEPT, OVER_SHARE, FORCE };
 
-/* Verdict on a step of h by its error: REJECT, ACCEPT, OVER_SHARE (accepted, though above its share), FORCE (accepted
+/* Verdict on a step of h by its error: REJECT, ACCEPT, OVER_SHARE (accepted, though above its part), FORCE (accepted
  * above the tolerance). Much shorter steps than usual occur at singular positions, where with index three shorter ones
  * gain little and end in round-off. */
 static int judge_error(const ali3_control *c, step_trials *trials, double h, double error, bool is_shortest) {
-  const bool small = error <= c->tolerance * MIN_SHARE;
+  const bool small = error <= c->tolerance * MIN_FRACTION;
   if (error <= c->tolerance * h / c->span) return ACCEPT;
   if (small && h < UNUSUAL * c->usual) return OVER_SHARE;
   if (trials->force || is_shortest) return small ? OVER_SHARE : FORCE;
@@ -170,8 +174,7 @@ static double longest_step(const ali3_instance *in, const ali3_measure *measure)
 static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measure, double t, double end, double *h) {
   ali3_control *c = measure->control;
   const int32_t order = ali3_method_order(in);
-  const double is_shortest = shortest(in, measure, t, SHORTEST),
-               shortest_trial = shortest(in, measure, t, SHORTEST_TRIED);
+  const double min_h = min_step(in, measure, t, MIN_STEP), min_trial_h = min_step(in, measure, t, MIN_TRIAL_STEP);
   const double longest_h = longest_step(in, measure);
   step_trials trials = {0};
   for (;;) {
@@ -184,32 +187,32 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     if (status != ALI3_OK) {
       in->report.failures++;
       c->failed++;
-      if (tried <= 1.5 * shortest_trial) return status;
-      c->h = fmax(AFTER_FAILURE * tried, shortest_trial);
+      if (tried <= 1.5 * min_trial_h) return status;
+      c->h = fmax(AFTER_FAILURE * tried, min_trial_h);
       c->last = 0.0;
       trials.rejected = true;
       continue;
     }
     const double relative_error = error * c->span / (c->tolerance * tried);
-    const int verdict = judge_error(c, &trials, tried, error, tried <= 1.5 * is_shortest);
-    const double share =
-        verdict == ACCEPT && tried > 1.5 * is_shortest ? ali3_branch_share(in, measure, t, tried) : 1.0;
-    if (share < 1.0) {
+    const int verdict = judge_error(c, &trials, tried, error, tried <= 1.5 * min_h);
+    const double fraction =
+        verdict == ACCEPT && tried > 1.5 * min_h ? ali3_branch_fraction(in, measure, t, tried) : 1.0;
+    if (fraction < 1.0) {
       trials.rejected = true;
       c->rejected++;
-      c->h = fmax(is_shortest, share * tried);
+      c->h = fmax(min_h, fraction * tried);
       undo_step(in, &end_before);
       continue;
     }
     if (verdict != REJECT) {
-      c->h = verdict == ACCEPT ? fmax(is_shortest, next_step(c, wanted, tried, relative_error, trials.rejected, order))
+      c->h = verdict == ACCEPT ? fmax(min_h, next_step(c, wanted, tried, relative_error, trials.rejected, order))
                                : AFTER_OVER_SHARE * tried;
       record_accepted(c, tried, error, verdict == ACCEPT ? relative_error : 1.0, verdict);
       return ALI3_OK;
     }
     c->rejected++;
     c->h = trials.force ? trials.first
-                        : fmax(is_shortest, tried * fmin(MOST_OF_REJECTED, factor(relative_error, 0.0, order)));
+                        : fmax(min_h, tried * fmin(MAX_AFTER_REJECTION, factor(relative_error, 0.0, order)));
     trials.rejected = true;
     undo_step(in, &end_before);
   }
@@ -264,7 +267,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   ali3_status status = ali3_check_method(in);
   if (status != ALI3_OK) return status;
   const ali3_measure measure = {control, scale};
-  ali3_roads_forgive(in);
+  ali3_roads_clear_read_errors(in);
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST_STEP * control->span);
   if (inputs_have_jumped(in)) status = ali3_refresh(in);
   if (status == ALI3_OK) status = ali3_inputs_aim(in, 0.0, NULL);

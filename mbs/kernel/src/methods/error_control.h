@@ -18,7 +18,7 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all);
 
 /* branch_watch.c */
-double ali3_branch_share(ali3_instance *in, const ali3_measure *measure, double t, double h);
+double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, double t, double h);
 
 /* dense_output.c */
 void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to);

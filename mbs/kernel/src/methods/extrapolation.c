@@ -4,8 +4,8 @@
 #include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 
-static const double SMOOTH_RATIO = 0.25; /* largest prediction error over the last change of the accelerations */
-static const double MAX_RATIO = 2.0;     /* longest next step over the last one */
+static const double SMOOTH_RATIO = 0.25; /* largest prediction error relative to the last change of the accelerations */
+static const double MAX_RATIO = 2.0; /* longest next step relative to the last one */
 static const double CONTROLLED_MAX_RATIO = 4.5; /* of controlled steps: the last was a half, and steps grow */
 
 /* Lagrange weights (n) by which values at n times extrapolate to time t. */

@@ -21,6 +21,7 @@ typedef struct {
   double am, af, beta, gamma;
 } ali3_alpha;
 
+/* Coefficients by spectral radius at infinite frequency (Chung and Hulbert). */
 static ali3_alpha coefficients(double rho) {
   const double am = (2.0 * rho - 1.0) / (rho + 1.0), af = rho / (rho + 1.0), gamma = 0.5 + af - am;
   const ali3_alpha x = {.am = am, .af = af, .beta = 0.25 * (gamma + 0.5) * (gamma + 0.5), .gamma = gamma};
@@ -40,6 +41,7 @@ static bool is_first_damped(const ali3_instance *in, double h) {
   return ali3_damped_start(in, h) && in->report.steps == 0;
 }
 
+/* Spectral radius at infinite frequency of the next step. */
 static double spectral_radius(const ali3_instance *in, double h) {
   return ali3_damped_start(in, h) ? 0.0 : in->settings.rho_infinity;
 }

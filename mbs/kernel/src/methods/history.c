@@ -99,11 +99,11 @@ void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
     memcpy(v, in->next.own, (size_t)nq * sizeof *v);
     return;
   }
-  const double share = 0.5 * h / (0.5 * h + half);
+  const double weight = 0.5 * h / (0.5 * h + half);
   double projection = 0.0, square = 0.0;
   for (int32_t i = 0; i < nq; i++) {
     const double last = from->own[i] - half * from->past_a[i];
-    const double linear = share * (in->discrete.rate[i] - last), m = in->mass.floor[i];
+    const double linear = weight * (in->discrete.rate[i] - last), m = in->mass.floor[i];
     v[i] = in->next.own[i] - in->discrete.rate[i];
     projection += m * v[i] * linear;
     square += m * v[i] * v[i];

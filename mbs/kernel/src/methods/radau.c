@@ -33,9 +33,10 @@ enum { STAGES = ALI3_RADAU, LAST = STAGES - 1, SWEEPS = 3, REFINEMENTS = 3 };
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-12;
 static const double SLOW_RATIO = 0.3;         /* ratio of two errors above which the tangent is computed again */
 static const double REFINED = 1e-2;       /* of the tolerances: below it refinement ends */
-static const double SHARE = 1e-5, ROUND_OFF = 1e-12; /* of accelerations: largest remaining error, and round-off */
+/* Largest remaining error and round-off, relative to accelerations. */
+static const double ERROR_FRACTION = 1e-5, ROUND_OFF = 1e-12;
 static const double STALL_LIMIT = 1e-9; /* below it a stalled iteration is round-off */
-static const double EPS_SHARE = 1e-3; /* of eps_rel: penalty for rows that are nearly redundant at singular positions */
+static const double EPS_FACTOR = 1e-3; /* of eps_rel: penalty for rows nearly redundant at singular positions */
 static const double MAX_RATIO = 2.0; /* steps: range of extrapolation of the last collocation polynomial */
 
 static const double node[STAGES] = {0.15505102572168219, 0.64494897427831781, 1.0}; /* (4 -+ sqrt 6)/10 */
@@ -216,6 +217,7 @@ static ali3_status correct(ali3_instance *in, double h, double alpha, double *ch
   return ALI3_OK;
 }
 
+/* Largest violation of the rows at the stages, m. */
 static double largest_opening(const ali3_instance *in) {
   double largest = 0.0;
   for (int i = 0; i < STAGES; i++) largest = fmax(largest, ali3_opening(in->system, stage_rows(in, in->radau.Phi, i)));
@@ -242,7 +244,7 @@ static ali3_status newton(ali3_instance *in, double t, double h, double alpha, b
     if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
     const double r = in->report.residual / residual_limit, v = largest_opening(in) / opening_limit;
     const double size = fmax(r, v), remaining = size < last_error ? change * size / last_error : change;
-    if (iteration == 0 && extrapolated) limit = fmax(ROUND_OFF, SHARE * change * change);
+    if (iteration == 0 && extrapolated) limit = fmax(ROUND_OFF, ERROR_FRACTION * change * change);
     if (r <= REFINED && v <= REFINED && remaining <= limit) return ALI3_OK;
     const bool slow = iteration > 0 && size > SLOW_RATIO * last_error;
     if (size <= 1.0 && (refinements++ == REFINEMENTS || (slow && (new_tangent || remaining <= STALL_LIMIT))))
@@ -324,6 +326,7 @@ static ali3_status project(ali3_instance *in, double h, double alpha) {
   return ALI3_OK;
 }
 
+/* Stores the inputs at all stages. */
 static ali3_status stage_inputs(ali3_instance *in) {
   const int32_t nu = in->system->size.nu;
   ali3_status status = ALI3_OK;
@@ -356,7 +359,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const ali3_system *S = in->system;
   const size_t nq = (size_t)S->size.nq;
   const int64_t before = in->report.iterations;
-  const double alpha = ali3_penalty(in, h) / EPS_SHARE;
+  const double alpha = ali3_penalty(in, h) / EPS_FACTOR;
   ali3_vectors *from = &in->now, *to = &in->next;
   ali3_history_own(in, ALI3_METHOD_RADAU_5, from->qdd);
   ali3_status status = stage_inputs(in);

@@ -45,7 +45,7 @@ static void combine(ali3_instance *in, double h, double time, const double *weig
   const int32_t nq = in->system->size.nq;
   double second[STAGES] = {0.0};
   for (int i = 0; i < stages; i++)
-    for (int j = 0; j < i; j++) second[j] += weights[i] * ali3_order_8.stage_weight[i][j];
+    for (int j = 0; j < i; j++) second[j] += weights[i] * ali3_tableau_8.a[i][j];
   for (int32_t i = 0; i < nq; i++) {
     in->next.qd[i] = 0.0;
     in->next.q[i] = 0.0;
@@ -112,24 +112,24 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const bool has_energy_check = S->n_flexible + S->n_tabled == 0; /* else in->step.Q has inertia forces too */
   const double kinetic = has_energy_check ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->step.r) : 0.0;
   double work =
-      has_energy_check ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->step.stage, in->step.r) : 0.0;
-  ali3_work_stage(in, h * ali3_order_8.weight[0], to->watched, to->work);
+      has_energy_check ? h * ali3_tableau_8.b[0] * ali3_mass_product(in, from->qd, in->step.stage, in->step.r) : 0.0;
+  ali3_work_stage(in, h * ali3_tableau_8.b[0], to->watched, to->work);
   const bool guides = S->n_guide_work > 0;
-  double guide_work = guides ? h * ali3_order_8.weight[0] * ali3_guides_power(in, to) : 0.0;
+  double guide_work = guides ? h * ali3_tableau_8.b[0] * ali3_guides_power(in, to) : 0.0;
   for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
-    combine(in, h, ali3_order_8.node[stage], ali3_order_8.stage_weight[stage], stage);
-    ali3_guides_time(in, to, t - (1.0 - ali3_order_8.node[stage]) * h);
-    status = ali3_inputs_at(in, ali3_order_8.node[stage]);
+    combine(in, h, ali3_tableau_8.c[stage], ali3_tableau_8.a[stage], stage);
+    ali3_guides_time(in, to, t - (1.0 - ali3_tableau_8.c[stage]) * h);
+    status = ali3_inputs_at(in, ali3_tableau_8.c[stage]);
     if (status != ALI3_OK) break;
     status = ali3_index_one(in, to);
-    ali3_work_stage(in, h * ali3_order_8.weight[stage], in->watch.now, to->work);
-    if (guides) guide_work += h * ali3_order_8.weight[stage] * ali3_guides_power(in, to);
-    if (has_energy_check) work += h * ali3_order_8.weight[stage] * force_power(in, to);
+    ali3_work_stage(in, h * ali3_tableau_8.b[stage], in->watch.now, to->work);
+    if (guides) guide_work += h * ali3_tableau_8.b[stage] * ali3_guides_power(in, to);
+    if (has_energy_check) work += h * ali3_tableau_8.b[stage] * force_power(in, to);
     memcpy(in->step.stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
   }
   in->inputs.forces = in->inputs.set;
   if (status == ALI3_OK) {
-    combine(in, h, 1.0, ali3_order_8.weight, STAGES);
+    combine(in, h, 1.0, ali3_tableau_8.b, STAGES);
     ali3_guides_time(in, to, t);
     status = project(in);
   }
@@ -150,6 +150,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   return ali3_accept(in);
 }
 
+/* The energy balance needs a constant mass matrix. */
 static bool has_balance(const ali3_instance *in) { return in->system->n_flexible + in->system->n_tabled == 0; }
 
 const ali3_method ali3_method_runge_kutta_8 = {.step = step,

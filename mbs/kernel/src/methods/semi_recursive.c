@@ -40,7 +40,7 @@ static void store(const ali3_instance *in, double *state) {
   for (int32_t j = 0; j < T->n; j++) *order++ = w->column_order[j];
 }
 
-/* Whether v has the n different integers from `first` on, as a restored state may have other values. */
+/* Whether v is a permutation of the n integers first, first + 1, ..., as a restored state may have other values. */
 static bool permutation(const double *v, int32_t n, int32_t first, int32_t *out) {
   bool used[ALI3_LANES] = {false};
   for (int32_t i = 0; i < n; i++) {
@@ -52,6 +52,7 @@ static bool permutation(const double *v, int32_t n, int32_t first, int32_t *out)
   return true;
 }
 
+/* Sets the tree's state from saved numbers; false: they are invalid. */
 static bool restore(const ali3_instance *in, const double *state) {
   const ali3_tree *T = in->system->tree;
   ali3_tree_work *w = in->tree;
@@ -68,6 +69,7 @@ static bool restore(const ali3_instance *in, const double *state) {
          permutation(order + 1 + T->n_row, T->n, 1, w->column_order);
 }
 
+/* Sets joint coordinates and computes the frames. */
 static void set_positions(const ali3_instance *in, const double *x) {
   memcpy(in->tree->q + 1, x, (size_t)in->system->tree->n * sizeof(double));
   ali3_tree_place(in->system->tree, in->tree);
@@ -215,6 +217,7 @@ static ali3_status write_natural(ali3_instance *in, ali3_vectors *v, ali3_readin
   return ALI3_OK;
 }
 
+/* Removes whole turns of rotary joints beyond MAX_ANGLE. */
 static void remove_turns(const ali3_system *S, ali3_tree_work *w) {
   for (int32_t j = 0; j < S->tree->n; j++)
     if (fabs(w->state[j]) > MAX_ANGLE && S->tree->slide[j + 1] == 0.0) {
@@ -264,22 +267,22 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
     status = accelerations_after_jump(in);
   else
     ali3_work_recall(in);
-  ali3_work_first(in, h * rule->weight[0]);
+  ali3_work_first(in, h * rule->b[0]);
   memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
   for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
-    combine(in, h, rule->stage_weight[stage], stage);
-    status = ali3_inputs_at(in, rule->node[stage]);
+    combine(in, h, rule->a[stage], stage);
+    status = ali3_inputs_at(in, rule->c[stage]);
     if (status != ALI3_OK) break;
     set_positions(in, w->sum);
     factorise_rows(in);
     memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));
     status = accelerations(in, w->sum + n, w->stage[stage] + n);
-    ali3_work_stage(in, h * rule->weight[stage], in->watch.now, in->watch.sum);
+    ali3_work_stage(in, h * rule->b[stage], in->watch.now, in->watch.sum);
   }
   in->inputs.forces = in->inputs.set;
   if (status == ALI3_OK) {
-    combine(in, h, rule->weight, rule->stages);
+    combine(in, h, rule->b, rule->stages);
     status = project(in);
   }
   if (status == ALI3_OK) status = accelerations(in, w->sum + n, w->qdd);
@@ -325,7 +328,7 @@ static ali3_status takes(const ali3_instance *in) {
   return in->system->tree == NULL ? ALI3_NO_TREE : ali3_needs_no_states(in);
 }
 
-static ali3_status step_8(ali3_instance *in, const ali3_request *request) { return step(in, request, &ali3_order_8); }
+static ali3_status step_8(ali3_instance *in, const ali3_request *request) { return step(in, request, &ali3_tableau_8); }
 
 const ali3_method ali3_method_semi_recursive = {.step = step_8,
                                                 .takes = takes,
@@ -336,7 +339,7 @@ const ali3_method ali3_method_semi_recursive = {.step = step_8,
                                                 .stable_rate = 5.0,
                                                 .round_off = ALI3_ROUND_OFF_INDEX_1};
 
-static ali3_status step_4(ali3_instance *in, const ali3_request *request) { return step(in, request, &ali3_order_4); }
+static ali3_status step_4(ali3_instance *in, const ali3_request *request) { return step(in, request, &ali3_tableau_4); }
 
 const ali3_method ali3_method_semi_recursive_4 = {.step = step_4,
                                                   .takes = takes,

@@ -23,12 +23,12 @@ ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading 
   return ali3_advance(in, &request);
 }
 
+/* Size of a unit of coordinate i, m. */
 static double unit_length(const ali3_measure *measure, int32_t i) {
   return measure->scale != NULL ? measure->scale[i] : 1.0;
 }
 
-/* Largest of |q_i| and, for coordinates with mass, |qd_i| over the rate (1/s), relative to the length of the
- * control. */
+/* Largest of |q_i| and, for coordinates with mass, |qd_i| / rate (1/s), relative to the length of the control. */
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate) {
   const ali3_system *S = in->system;
@@ -41,8 +41,8 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
   return largest / measure->control->length;
 }
 
-/* Reference rate of velocities, 1/s: that of the present motion, at least the given one. `all`: includes coordinates
- * without mass, such as driven angles. */
+/* Reference rate of velocities, 1/s: of the present motion, at least the given one. `all`: includes coordinates without
+ * mass, such as driven angles. */
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all) {
   const ali3_system *S = in->system;
   double largest = 0.0;
@@ -69,10 +69,10 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
   }
   if (status == ALI3_OK) {
     const int32_t order = ali3_method_order(in) < MAX_ORDER ? ali3_method_order(in) : MAX_ORDER;
-    const double share = 1.0 / (ldexp(1.0, order) - 1.0);
+    const double error_factor = 1.0 / (ldexp(1.0, order) - 1.0);
     for (int32_t i = 0; i < nq; i++) {
-      in->step.w[i] = share * (in->now.q[i] - in->kept.coarse.q[i]);
-      in->step.x[i] = share * (in->now.qd[i] - in->kept.coarse.qd[i]);
+      in->step.w[i] = error_factor * (in->now.q[i] - in->kept.coarse.q[i]);
+      in->step.x[i] = error_factor * (in->now.qd[i] - in->kept.coarse.qd[i]);
     }
     *error = ali3_distance(in, measure, in->step.w, in->step.x, ali3_rate(in, measure, false));
     in->report.steps++;

@@ -6,5 +6,5 @@
 
 bool ali3_parted(const ali3_instance *in, double t, double h);
 ali3_status ali3_advance(ali3_instance *in, const ali3_request *request);
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool reported);
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double middle, bool reported);
 #endif

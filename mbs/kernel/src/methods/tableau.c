@@ -1,4 +1,4 @@
-/* Coefficients of explicit Runge-Kutta methods. */
+/* Butcher tableaus of explicit Runge-Kutta methods. */
 #include "tableau.h"
 #include "../instance.h"
 
@@ -6,31 +6,31 @@ enum { STAGES = ALI3_STAGES };
 
 /* Order eight, twelve stages: Dormand and Prince, in Hairer, Norsett, Wanner, "Solving Ordinary Differential Equations
  * I", second edition. */
-static const double node_8[STAGES] = {0.0,
-                                      0.05260015195876773,
-                                      0.0789002279381516,
-                                      0.1183503419072274,
-                                      0.2816496580927726,
-                                      0.3333333333333333,
-                                      0.25,
-                                      0.3076923076923077,
-                                      0.6512820512820513,
-                                      0.6,
-                                      0.8571428571428571,
-                                      1.0};
-static const double weight_8[STAGES] = {0.054293734116568765,
-                                        0.0,
-                                        0.0,
-                                        0.0,
-                                        0.0,
-                                        4.450312892752409,
-                                        1.8915178993145003,
-                                        -5.801203960010585,
-                                        0.3111643669578199,
-                                        -0.1521609496625161,
-                                        0.20136540080403034,
-                                        0.04471061572777259};
-static const double stage_weight_8[STAGES][STAGES] = {
+static const double c_8[STAGES] = {0.0,
+                                   0.05260015195876773,
+                                   0.0789002279381516,
+                                   0.1183503419072274,
+                                   0.2816496580927726,
+                                   0.3333333333333333,
+                                   0.25,
+                                   0.3076923076923077,
+                                   0.6512820512820513,
+                                   0.6,
+                                   0.8571428571428571,
+                                   1.0};
+static const double b_8[STAGES] = {0.054293734116568765,
+                                   0.0,
+                                   0.0,
+                                   0.0,
+                                   0.0,
+                                   4.450312892752409,
+                                   1.8915178993145003,
+                                   -5.801203960010585,
+                                   0.3111643669578199,
+                                   -0.1521609496625161,
+                                   0.20136540080403034,
+                                   0.04471061572777259};
+static const double a_8[STAGES][STAGES] = {
     {0.0},
     {0.05260015195876773},
     {0.0197250569845379, 0.0591751709536137},
@@ -50,10 +50,10 @@ static const double stage_weight_8[STAGES][STAGES] = {
      -2.8589982771350235, -8.87285693353063, 12.360567175794303, 0.6433927460157636},
 };
 
-const ali3_tableau ali3_order_8 = {STAGES, node_8, weight_8, stage_weight_8};
+const ali3_tableau ali3_tableau_8 = {STAGES, c_8, b_8, a_8};
 
 /* Order four, four stages: Kutta 1901, the classical rule. */
-static const double node_4[] = {0.0, 0.5, 0.5, 1.0};
-static const double weight_4[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
-static const double stage_weight_4[][STAGES] = {{0.0}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}};
-const ali3_tableau ali3_order_4 = {4, node_4, weight_4, stage_weight_4};
+static const double c_4[] = {0.0, 0.5, 0.5, 1.0};
+static const double b_4[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+static const double a_4[][STAGES] = {{0.0}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}};
+const ali3_tableau ali3_tableau_4 = {4, c_4, b_4, a_4};

@@ -19,7 +19,7 @@
 ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_reading reading,
                             ali3_whole_step *step) {
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
-  ali3_roads_forgive(in);
+  ali3_roads_clear_read_errors(in);
   if (ali3_wheels_watch(in) != ALI3_OK && ali3_roads_status(in) == ALI3_OK) {
     in->report.last_status = ALI3_WHEEL_IN_ROAD;
     in->report.failures++;

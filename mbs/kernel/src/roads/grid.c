@@ -1,10 +1,10 @@
 /* Interpolation between the points of a grid. A cubic through a step exceeds the range of its ends by 4/27 of half the
  * step: it dips before a rise and bulges before a drop. Where that is more than MAX_OVERSHOOT of the spacing, beyond a
  * parabola through the ends, the slope at the point is limited to slopes for which the cubic stays in the range (F. N.
- * Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246) or to twice that of the parabola with
- * the smaller one of the curvatures at both ends (A. Suresh, H. T. Huynh, Journal of Computational Physics 136, 1997,
- * 83-99), which preserves the crests of smooth roads; the twist at that point is zero. Slopes belong to points, so that
- * the patches around one are C1. */
+ * Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246) or to twice the slope of the parabola
+ * with the smaller one of the curvatures at both ends (A. Suresh, H. T. Huynh, Journal of Computational Physics 136,
+ * 1997, 83-99), which preserves the crests of smooth roads; the twist at that point is zero. Slopes belong to points,
+ * so that the patches around one are C1. */
 #include "grid.h"
 
 #include <math.h>
@@ -20,6 +20,7 @@ enum { MAX_POINTS = 400 }; /* read by ali3_grid_top */
 #define OVERSHOOT 0.35     /* relative bound by which a bicubic patch exceeds the range of its values */
 enum { AROUND = 6 };       /* points along a side that slopes at the corners of a cell depend on */
 
+/* Index of the cell at s, in spacings; beyond the border the outermost cell. */
 static int cell_of(double s, int n) { return s >= (double)(n - 1) ? n - 2 : s > 0.0 ? (int)s : 0; }
 
 /* Cubic Hermite weights (slopes by central differences, one-sided at the border) of values first..first+3 (clamped to
@@ -35,16 +36,19 @@ ALI3_INLINED void cubic(double s, int n, double w[4], double dw[4]) {
   if (outside) dw[0] = dw[1] = dw[2] = dw[3] = 0.0; /* constant beyond the border */
 }
 
+/* Height of point (i, j), m. */
 static double height(const ali3_grid *g, int32_t i, int32_t j) {
   return g->file != NULL ? ali3_road_file_height(g->file, i, j) : g->z[(int64_t)i * g->ny + j];
 }
 
+/* Friction of point (i, j). */
 static double friction(const ali3_grid *g, int32_t i, int32_t j) {
   return g->file != NULL ? ali3_road_file_friction(g->file, i, j) : g->mu[(int64_t)i * g->ny + j];
 }
 
 static int32_t clamped_index(int32_t i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
 
+/* The smaller slope; 0 if the signs differ. */
 static double smaller(double a, double b) { return a * b > 0.0 ? (fabs(a) < fabs(b) ? a : b) : 0.0; }
 
 /* Limits low..high to slopes with which a segment of difference d stays in its range, or follows a parabola. */
@@ -142,7 +146,7 @@ static int may_be_limited(const ali3_grid *g, const double v[4][4]) {
   return 0;
 }
 
-/* Reads heights of n x n points from the indices i, j on; outside the grid those of the border. */
+/* Reads heights of n x n points, the first at the indices i, j; outside the grid heights of the border. */
 static void read_heights(const ali3_grid *g, int i, int j, int n, double *v) {
   if (g->file == NULL || i < 0 || j < 0 || i + n > g->nx || j + n > g->ny) {
     for (int k = 0; k < n; k++)
@@ -187,6 +191,7 @@ static void load_friction(const ali3_grid *g, ali3_cell *cell) {
     for (int j = 0; j < 2; j++) cell->friction[i][j] = friction(g, cell->i + 1 + i, cell->j + 1 + j);
 }
 
+/* Whether a cell holds the values of cell (i0, j0). */
 static int is_loaded(const ali3_cell *cell, int i0, int j0) { return cell->held && cell->i == i0 && cell->j == j0; }
 
 /* Loads a cell; cells of a file are stored with it, unless a tile could not be read. */
@@ -203,7 +208,7 @@ static void load_cell(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
   }
   fill_cell(g, cell, i0, j0);
   load_friction(g, cell);
-  if (ali3_road_file_lost(g->file) == NULL) *stored = *cell;
+  if (ali3_road_file_read_error(g->file) == NULL) *stored = *cell;
 }
 
 /* Loads the cell at a point; s: its position in spacings from the first point. */

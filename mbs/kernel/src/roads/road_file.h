@@ -4,11 +4,11 @@
  * size of the file (8), kind as in elements/road.h (4), CRC-32 of the checksums of all tiles in their order, 0 without
  * a grid (4), nx (8), ny (8), points along the side of a tile (4), maps: 1 heights, 2 heights and frictions (4), eight
  * reals (64), zeros (8). Reals of a plane: height, grade in x, grade in y, friction; of a kerb: x of the edge, lower
- * height, step, side, friction; of a grid: x0, y0, dx, dy, friction if there is no map of it, else 1.
- * Tile (I, J), with the points from 32 I in x and 32 J in y on, has number I * (tiles in y) + J; tiles are in the order
- * of their numbers: 32 x 32 heights, y fastest, as many frictions if there is a map of them, the number (8), zeros (4),
+ * height, step, side, friction; of a grid: x0, y0, dx, dy, friction if there is no map of it, otherwise 1.
+ * Tile (I, J), whose first point is 32 I in x and 32 J in y, has number I * (tiles in y) + J; tiles are in the order of
+ * their numbers: 32 x 32 heights, y fastest, as many frictions if there is a map of them, the number (8), zeros (4),
  * CRC-32 of all this (4). Points beyond the last row or column are zeros. In version 2 tiles are stored as in
- * shared_tile.h, and the checksum of the tiles is that of their table. */
+ * shared_tile.h, and the checksum of the tiles is the one of their table. */
 #ifndef ALI3_ROAD_FILE_H
 #define ALI3_ROAD_FILE_H
 #include <stddef.h>
@@ -40,18 +40,18 @@ const double *ali3_road_file_reals(const ali3_road_file *file);
 void ali3_road_file_size(const ali3_road_file *file, int32_t *nx, int32_t *ny);
 uint32_t ali3_road_file_identity(const ali3_road_file *file); /* checksum of its content */
 
-/* Height and friction of a point of the grid; 0 if its tile cannot be read, and the file counts as lost. */
+/* Height and friction of a point of the grid; 0 and a read error if its tile cannot be read. */
 double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j);
-/* Heights from point (i, j) on, rows apart by `stride`; `size`, rows and columns, is reduced to those of one tile.
- * NULL: lost. */
+/* Heights of the points beginning with (i, j), rows apart by `stride`; `size`, rows and columns, is reduced to one
+ * tile. NULL: read error. */
 const double *ali3_road_file_block(ali3_road_file *file, int32_t i, int32_t j, int32_t size[2], int32_t *stride);
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j);
 /* Storage for the cell with the indices i, j before its first corner, shared with all cells that are multiples of 16
  * apart. */
 ali3_cell *ali3_road_file_cell(const ali3_road_file *file, int32_t i, int32_t j);
 
-/* NULL, or the reason why the last tile could not be read, a sentence without its full stop. */
-const char *ali3_road_file_lost(const ali3_road_file *file);
-void ali3_road_file_forgive(ali3_road_file *file); /* clears the loss */
+/* NULL, or why the last tile could not be read, a sentence without its full stop. */
+const char *ali3_road_file_read_error(const ali3_road_file *file);
+void ali3_road_file_clear_read_error(ali3_road_file *file);
 int64_t ali3_road_file_reads(const ali3_road_file *file); /* tiles read so far */
 #endif

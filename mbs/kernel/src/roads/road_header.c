@@ -7,18 +7,19 @@
 #include "../files/crc32.h"
 #include "shared_tile.h"
 
-enum { PLANE, KERB, GRID }; /* elements/road.h */
 enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, MAX_POINTS = 1 << 30 };
 
+/* NULL, or what is wrong with the numbers of a plane or kerb. */
 static const char *plane_and_kerb_error(const ali3_road_header *h) {
-  const double *p = h->real, friction = p[h->kind == PLANE ? 3 : 4];
+  const double *p = h->real, friction = p[h->kind == ALI3_FILE_PLANE ? 3 : 4];
   if (h->nx != 0 || h->ny != 0 || h->maps != 0 || h->contents != 0) return "a plane or kerb has no grid";
   for (int i = 0; i < ALI3_ROAD_REALS; i++)
     if (!(fabs(p[i]) <= ALI3_ROAD_FARTHEST)) return "a number in its header is not finite or beyond 1e8";
   if (!(friction >= 0.0 && friction <= ALI3_ROAD_FRICTION)) return "its friction lies outside 0 to 10";
-  if (h->kind == PLANE && !(fabs(p[1]) <= 10.0 && fabs(p[2]) <= 10.0)) return "a grade of it lies outside -10 to 10";
-  if (h->kind == KERB && !(p[2] > 0.0)) return "the step of its kerb is not positive";
-  if (h->kind == KERB && p[3] != 1.0 && p[3] != -1.0) return "the side of its kerb is neither 1 nor -1";
+  if (h->kind == ALI3_FILE_PLANE && !(fabs(p[1]) <= 10.0 && fabs(p[2]) <= 10.0))
+    return "a grade of it lies outside -10 to 10";
+  if (h->kind == ALI3_FILE_KERB && !(p[2] > 0.0)) return "the step of its kerb is not positive";
+  if (h->kind == ALI3_FILE_KERB && p[3] != 1.0 && p[3] != -1.0) return "the side of its kerb is neither 1 nor -1";
   return NULL;
 }
 
@@ -59,10 +60,10 @@ const char *ali3_road_header_problem(const unsigned char *bytes, int64_t size, a
     return "its version is not 1 or 2, which this kernel reads; use a newer ALi3 or FMU, or write it again with ali3 "
            "road";
   if (*crc != ali3_crc32(bytes + 16, ALI3_ROAD_HEADER - 16)) return "its header was altered or damaged";
-  if (h->kind < PLANE || h->kind > GRID) return "it has an unknown kind of road";
-  const char *error = h->kind == GRID ? ali3_road_grid_problem(h) : plane_and_kerb_error(h);
+  if (h->kind < ALI3_FILE_PLANE || h->kind > ALI3_FILE_GRID) return "it has an unknown kind of road";
+  const char *error = h->kind == ALI3_FILE_GRID ? ali3_road_grid_problem(h) : plane_and_kerb_error(h);
   if (error != NULL) return error;
-  const int64_t tiles = h->kind == GRID ? ali3_road_tiles_along(h->nx) * ali3_road_tiles_along(h->ny) : 0;
+  const int64_t tiles = h->kind == ALI3_FILE_GRID ? ali3_road_tiles_along(h->nx) * ali3_road_tiles_along(h->ny) : 0;
   const int shared = *version == ALI3_ROAD_SHARED;
   const int64_t min_size = ALI3_ROAD_HEADER + tiles * (shared ? ALI3_TILE_ENTRY : (int64_t)ali3_road_tile_bytes(h));
   const int64_t full_size = shared ? h->size : min_size;

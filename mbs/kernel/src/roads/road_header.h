@@ -6,9 +6,10 @@
 
 #include "road_file.h"
 
+enum { ALI3_FILE_PLANE, ALI3_FILE_KERB, ALI3_FILE_GRID }; /* kinds, numbers as in elements/road.h */
 enum { ALI3_ROAD_TRAILER = 16 }; /* bytes of a tile of version 1 after its values */
 
-typedef struct { /* from byte 16 on */
+typedef struct { /* byte 16 and after */
   int64_t size;
   int32_t kind;
   uint32_t contents;

@@ -1,7 +1,7 @@
 /* Reads a table of heights. The first row has the y of the columns after a cell that is not a number, the first column
- * the x of the rows; another row that does not begin with a number begins the frictions. Cells are separated by
- * semicolons, tabs or commas, the first of these in the first row; unless it is the comma, the decimal separator may be
- * a comma. Lines that begin with # are comments. Independent of the locale. */
+ * the x of the rows; a later row that does not begin with a number is the first of the frictions. Cells are separated
+ * by semicolons, tabs or commas, the first of these in the first row; if that is not the comma, the decimal separator
+ * may be one. Lines that begin with # are comments. Independent of the locale. */
 #include "road_table.h"
 
 #include <math.h>
@@ -9,17 +9,22 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double REGULAR = 1e-6; /* tolerance of coordinates, of the spacing */
+#include "../algebra/parse_number.h"
+#include "road_file.h"
+
+static const double TOLERANCE = 1e-6; /* of coordinates, relative to the spacing */
+static const double ROUND_OFF = 1e-12; /* of coordinates, relative to the ends */
 
 typedef struct {
   const char *position, *end;
-  int line;
+  int line; /* its number, from 1 */
   char separator;
   char *message;
   size_t message_size;
 } reader;
 
-static int refuse(const reader *r, const char *format, ...) {
+/* Writes a message; returns 0. */
+static int write_message(const reader *r, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
   if (r->message != NULL && r->message_size > 0) vsnprintf(r->message, r->message_size, format, arguments);
@@ -44,8 +49,8 @@ static int next_line(reader *r, const char **line, const char **line_end) {
   return 0;
 }
 
-/* Returns the end of a cell of a line, without blanks around it; *next: start of the next cell or NULL. */
-static const char *cell_end(const reader *r, const char **cell, const char *line_end, const char **next) {
+/* Trims a cell of a line: moves *cell to its start, returns its end; *next: start of the next cell or NULL. */
+static const char *trim_cell(const reader *r, const char **cell, const char *line_end, const char **next) {
   const char *stop = memchr(*cell, r->separator, (size_t)(line_end - *cell));
   *next = stop != NULL ? stop + 1 : NULL;
   if (stop == NULL) stop = line_end;
@@ -54,163 +59,164 @@ static const char *cell_end(const reader *r, const char **cell, const char *line
   return stop;
 }
 
-static int digit(const char *p, const char *end) { return p < end && *p >= '0' && *p <= '9'; }
-
-/* Parses a cell as a number, identically on all platforms: error at most 1.5 units in the last place, exact to 15
- * digits. */
-static int parse_number(const reader *r, const char *p, const char *end, double *value) {
-  uint64_t digits = 0;
-  int power = 0, has_digits = 0, exponent = 0, negative_exponent;
-  const int negative = p < end && *p == '-';
-  if (p < end && (*p == '-' || *p == '+')) p++;
-  for (int in_fraction = 0;
-       digit(p, end) || (!in_fraction && p < end && (*p == '.' || (*p == ',' && r->separator != ','))); p++) {
-    if (!digit(p, end)) {
-      in_fraction = 1;
-      continue;
-    }
-    has_digits = 1;
-    if (digits < 100000000000000000u) {
-      digits = 10 * digits + (uint64_t)(*p - '0');
-      power -= in_fraction;
-    } else {
-      power += !in_fraction;
-    }
-  }
-  if (!has_digits) return 0;
-  if (p < end && (*p == 'e' || *p == 'E')) {
-    p++;
-    negative_exponent = p < end && *p == '-';
-    if (p < end && (*p == '-' || *p == '+')) p++;
-    if (!digit(p, end)) return 0;
-    for (; digit(p, end); p++)
-      if (exponent < 1000) exponent = 10 * exponent + (*p - '0');
-    power += negative_exponent ? -exponent : exponent;
-  }
-  double v = (double)digits;
-  for (; power > 0 && v > 0.0 && v < 1e300; power--) v *= 10.0;
-  double divisor = 1.0;
-  for (int k = 0; power < 0 && k < 22; k++, power++) divisor *= 10.0; /* exact up to 1e22 */
-  v /= divisor;
-  for (; power < 0 && v > 0.0; power++) v /= 10.0;
-  *value = negative ? -v : v;
-  return p == end && v < 1e300;
+static int parse_cell(const reader *r, const char *cell, const char *cell_end, double *value) {
+  return ali3_parse_number(cell, cell_end, r->separator != ',', value);
 }
 
-/* Reads the n numbers of a line from its second cell on, and the first one, NAN if it is not a number. */
-static int read_row(const reader *r, const char *line, const char *line_end, int64_t n, double *first, double *to) {
+/* Reads the first number of a line, NAN if it is not one, and the n numbers after it, all of which must be valid. */
+static int read_row(const reader *r, const char *line, const char *line_end, int64_t n, double *first, double *values) {
   const char *cell = line, *next;
   for (int64_t k = 0; k <= n; k++) {
     if (cell == NULL)
-      return refuse(r, "line %d has %lld cells, the first one %lld", r->line, (long long)k, (long long)n + 1);
-    const char *stop = cell_end(r, &cell, line_end, &next);
+      return write_message(r, "line %d has %lld cells, the first one %lld", r->line, (long long)k, (long long)n + 1);
+    const char *stop = trim_cell(r, &cell, line_end, &next);
     double value = NAN;
-    const int valid = parse_number(r, cell, stop, &value);
+    const int valid = parse_cell(r, cell, stop, &value);
     if (k == 0)
       *first = valid ? value : NAN;
     else if (valid)
-      to[k - 1] = value;
+      values[k - 1] = value;
     else
-      return refuse(r, "'%.*s' in line %d is not a number", (int)(stop - cell < 20 ? stop - cell : 20), cell, r->line);
+      return write_message(r, "'%.*s' in line %d is not a number", (int)(stop - cell < 20 ? stop - cell : 20), cell,
+                           r->line);
     cell = next;
   }
-  return cell == NULL || refuse(r, "line %d has more cells than the first one", r->line);
+  return cell == NULL ? 1 : write_message(r, "line %d has more cells than the first one", r->line);
 }
 
-/* Counts columns and rows after the first ones and finds whether a second table follows. */
-static int count_cells(reader *r, ali3_road_table *t) {
+static char choose_separator(const char *line, const char *line_end) {
+  const size_t size = (size_t)(line_end - line);
+  if (memchr(line, ';', size) != NULL) return ';';
+  return memchr(line, '\t', size) != NULL ? '\t' : ',';
+}
+
+/* Checks the first cell: its unit, if it has one in brackets, and that it is not a number. */
+static int check_corner(const reader *r, const char *cell, const char *cell_end) {
+  double value;
+  if (cell_end > cell && cell_end[-1] == '"') cell_end--;
+  const size_t size = (size_t)(cell_end - cell);
+  if (memchr(cell, '[', size) != NULL && cell_end[-1] == ']' && (size < 3 || memcmp(cell_end - 3, "[m]", 3) != 0))
+    return write_message(r, "its first cell is '%.*s'; coordinates and heights must be in m",
+                         (int)(size < 40 ? size : 40), cell);
+  if (parse_cell(r, cell, cell_end, &value))
+    return write_message(r, "its first cell is a number, so that it has no coordinates; make a road file of it by: "
+                            "ali3 road INPUT OUTPUT.road --spacing DX DY");
+  return 1;
+}
+
+/* Counts the cells of a line from `cell`, which may be NULL. */
+static int64_t count_cells(const reader *r, const char *cell, const char *line_end) {
+  int64_t n = 0;
+  for (; cell != NULL; n++) {
+    cell = memchr(cell, r->separator, (size_t)(line_end - cell));
+    if (cell != NULL) cell++;
+  }
+  return n;
+}
+
+/* Counts rows after the first ones; a second table has the frictions. */
+static int count_rows(reader *r, ali3_road_table *t) {
   const char *line, *line_end, *next;
   double value;
   int64_t rows[2] = {0, 0};
-  if (!next_line(r, &line, &line_end)) return refuse(r, "it is empty");
-  r->separator = memchr(line, ';', (size_t)(line_end - line)) != NULL    ? ';'
-                 : memchr(line, '\t', (size_t)(line_end - line)) != NULL ? '\t'
-                                                                         : ',';
-  const char *cell = line, *corner_end = cell_end(r, &cell, line_end, &next);
-  if (corner_end > cell && corner_end[-1] == '"') corner_end--;
-  const size_t corner = (size_t)(corner_end - cell);
-  if (memchr(cell, '[', corner) != NULL && corner_end[-1] == ']' &&
-      (corner < 3 || memcmp(corner_end - 3, "[m]", 3) != 0))
-    return refuse(r, "its first cell is '%.*s'; coordinates and heights must be in m", (int)(corner < 40 ? corner : 40),
-                  cell);
-  if (parse_number(r, cell, corner_end, &value))
-    return refuse(r, "its first cell is a number, so that it has no coordinates; make a road file of it by: ali3 road "
-                     "INPUT OUTPUT.road --spacing DX DY");
-  t->ny = 0;
-  while (next != NULL) {
-    t->ny++;
-    next = memchr(next, r->separator, (size_t)(line_end - next));
-    if (next != NULL) next++;
-  }
   t->maps = 1;
   while (next_line(r, &line, &line_end)) {
-    cell = line;
-    if (parse_number(r, cell, cell_end(r, &cell, line_end, &next), &value))
+    const char *cell = line, *cell_end = trim_cell(r, &cell, line_end, &next);
+    if (parse_cell(r, cell, cell_end, &value))
       rows[t->maps - 1]++;
     else if (++t->maps > 2)
-      return refuse(r, "line %d begins a third table; there are heights and frictions", r->line);
+      return write_message(r, "line %d begins a third table; there are heights and frictions", r->line);
   }
   t->nx = rows[0];
   if (t->nx < 2 || t->ny < 2)
-    return refuse(r, "it has %lld x %lld points; at least 2 x 2 are needed", (long long)t->nx, (long long)t->ny);
-  return t->maps == 1 || rows[1] == rows[0] ||
-         refuse(r, "it has %lld rows of heights and %lld of frictions", (long long)rows[0], (long long)rows[1]);
+    return write_message(r, "it has %lld x %lld points; at least 2 x 2 are needed", (long long)t->nx, (long long)t->ny);
+  if (t->maps == 2 && rows[1] != rows[0])
+    return write_message(r, "it has %lld rows of heights and %lld of frictions", (long long)rows[0],
+                         (long long)rows[1]);
+  return 1;
+}
+
+/* Finds separator, columns, rows and tables. */
+static int read_layout(reader *r, ali3_road_table *t) {
+  const char *line, *line_end, *next;
+  if (!next_line(r, &line, &line_end)) return write_message(r, "it is empty");
+  r->separator = choose_separator(line, line_end);
+  const char *cell = line, *cell_end = trim_cell(r, &cell, line_end, &next);
+  if (!check_corner(r, cell, cell_end)) return 0;
+  t->ny = count_cells(r, next, line_end);
+  return count_rows(r, t);
 }
 
 /* First value and spacing of n ascending, equidistant coordinates. */
-static int check_spacing(const reader *r, const double *v, int64_t n, char name, double *first, double *spacing) {
-  const double step = (v[n - 1] - v[0]) / (double)(n - 1);
-  if (!(step > 0.0)) return refuse(r, "its coordinates %c do not ascend", name);
+static int check_spacing(const reader *r, const double *coordinates, int64_t n, char axis, double *first,
+                         double *spacing) {
+  const double start = coordinates[0], end = coordinates[n - 1], step = (end - start) / (double)(n - 1);
+  if (!(step > 0.0)) return write_message(r, "its coordinates %c do not ascend", axis);
   for (int64_t k = 0; k < n; k++) {
-    const double expected = v[0] + step * (double)k;
-    if (!(fabs(v[k] - expected) <= REGULAR * step + 1e-12 * (fabs(v[0]) + fabs(v[n - 1]))))
-      return refuse(r, "its coordinates %c are not regular: %.12g should be %.12g", name, v[k], expected);
+    const double expected = start + step * (double)k;
+    if (!(fabs(coordinates[k] - expected) <= TOLERANCE * step + ROUND_OFF * (fabs(start) + fabs(end))))
+      return write_message(r, "its coordinates %c are not regular: %.12g should be %.12g", axis, coordinates[k],
+                           expected);
   }
-  *first = v[0];
+  *first = start;
   *spacing = step;
   return 1;
 }
 
-/* Reads both tables; x and y are work for coordinates. The second table must have those of the first. */
-static int read_values(reader *r, ali3_road_table *t, double *x, double *y) {
+/* Reads one table into nx * ny values; x, y: scratch for coordinates, whose first ones and spacings it finds. */
+static int read_map(reader *r, const ali3_road_table *t, double *values, double *x, double *y, double first[2],
+                    double spacing[2]) {
   const char *line, *line_end;
-  double first;
-  for (int32_t map = 0; map < t->maps; map++) {
-    double *to = t->values + map * t->nx * t->ny, first_point[2], step[2];
-    if (!next_line(r, &line, &line_end) || !read_row(r, line, line_end, t->ny, &first, y)) return 0;
-    for (int64_t i = 0; i < t->nx; i++, to += t->ny) {
-      if (!next_line(r, &line, &line_end) || !read_row(r, line, line_end, t->ny, &first, to)) return 0;
-      if (!(first - first == 0.0)) return refuse(r, "line %d begins with no number", r->line);
-      x[i] = first;
-    }
-    if (!check_spacing(r, x, t->nx, 'x', &first_point[0], &step[0]) ||
-        !check_spacing(r, y, t->ny, 'y', &first_point[1], &step[1]))
-      return 0;
-    for (int k = 0; k < 2; k++) {
-      if (map > 0 && (first_point[k] != t->first[k] || step[k] != t->spacing[k]))
-        return refuse(r, "its frictions have other coordinates than its heights");
-      t->first[k] = first_point[k];
-      t->spacing[k] = step[k];
-    }
+  if (!next_line(r, &line, &line_end) || !read_row(r, line, line_end, t->ny, &x[0], y)) return 0;
+  for (int64_t i = 0; i < t->nx; i++) {
+    if (!next_line(r, &line, &line_end) || !read_row(r, line, line_end, t->ny, &x[i], values + i * t->ny)) return 0;
+    if (!isfinite(x[i])) return write_message(r, "line %d does not begin with a number", r->line);
+  }
+  return check_spacing(r, x, t->nx, 'x', &first[0], &spacing[0]) &&
+         check_spacing(r, y, t->ny, 'y', &first[1], &spacing[1]);
+}
+
+/* Reads heights and frictions; x, y: scratch for coordinates. */
+static int read_values(reader *r, ali3_road_table *t, double *x, double *y) {
+  double first[2], spacing[2];
+  if (!read_map(r, t, t->values, x, y, t->first, t->spacing)) return 0;
+  if (t->maps == 1) return 1;
+  if (!read_map(r, t, t->values + t->nx * t->ny, x, y, first, spacing)) return 0;
+  for (int k = 0; k < 2; k++)
+    if (first[k] != t->first[k] || spacing[k] != t->spacing[k])
+      return write_message(r, "its frictions have other coordinates than its heights");
+  return 1;
+}
+
+/* Checks the range of heights and frictions. */
+static int check_values(const reader *r, const ali3_road_table *t) {
+  const int64_t points = t->nx * t->ny;
+  for (int64_t k = 0; k < t->maps * points; k++) {
+    const double v = t->values[k];
+    const int valid = k < points ? fabs(v) <= ALI3_ROAD_HIGHEST : v >= 0.0 && v <= ALI3_ROAD_FRICTION;
+    if (!valid)
+      return write_message(r, "its %s at row %lld, column %lld of the points is %g", k < points ? "height" : "friction",
+                           (long long)(k % points / t->ny + 1), (long long)(k % t->ny + 1), v);
   }
   return 1;
 }
 
 int ali3_road_table_read(const char *text, size_t size, ali3_road_table *t,
-                         void *(*allocate)(size_t count_cells, size_t size), void (*release)(void *block),
-                         char *message, size_t message_size) {
+                         void *(*allocate)(size_t count, size_t size), void (*release)(void *block), char *message,
+                         size_t message_size) {
   reader r = {.position = text, .end = text + size, .message = message, .message_size = message_size};
   if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) r.position += 3;
   const char *start = r.position;
-  if (!count_cells(&r, t)) return 0;
+  if (!read_layout(&r, t)) return 0;
+  if (t->nx > (int64_t)size / t->ny) /* before memory is taken */
+    return write_message(&r, "its size does not allow so many rows and columns");
   const size_t points = (size_t)t->nx * (size_t)t->ny;
-  if (t->nx > (int64_t)size / t->ny) return refuse(&r, "it has fewer cells than rows and columns");
   t->values = allocate((size_t)t->maps * points + (size_t)t->nx + (size_t)t->ny, sizeof(double));
-  if (t->values == NULL) return refuse(&r, "there is not enough memory");
+  if (t->values == NULL) return write_message(&r, "there is not enough memory");
   double *x = t->values + (size_t)t->maps * points;
   r.position = start;
   r.line = 0;
-  if (read_values(&r, t, x, x + t->nx)) return 1;
+  if (read_values(&r, t, x, x + t->nx) && check_values(&r, t)) return 1;
   release(t->values);
   t->values = NULL;
   return 0;

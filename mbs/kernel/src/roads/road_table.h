@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { ALI3_MOST_TABLE = 1 << 26 }; /* bytes of a text */
+enum { ALI3_MAX_TABLE = 1 << 26 }; /* bytes of a text */
 
 typedef struct {
   int64_t nx, ny;

@@ -6,7 +6,7 @@
 
 #include "../files/crc32.h"
 
-enum { SIDE = 32, POINTS = SIDE * SIDE, MOST_COEFFICIENTS = 8, MOST_LEVELS = 255, HEAD = 16 };
+enum { SIDE = 32, POINTS = SIDE * SIDE, MAX_COEFFICIENTS = 8, MAX_LEVELS = 255, HEAD = 16 };
 
 typedef struct {
   int64_t offset;
@@ -22,6 +22,7 @@ typedef struct {
 
 static const char ALTERED[] = "was altered or damaged";
 
+/* CRC-32 of the number of a tile and its entry in the table. */
 static uint32_t entry_crc(const unsigned char *bytes, int64_t number) {
   unsigned char checked[sizeof number + ALI3_TILE_ENTRY - 4];
   memcpy(checked, &number, sizeof number);
@@ -29,6 +30,7 @@ static uint32_t entry_crc(const unsigned char *bytes, int64_t number) {
   return ali3_crc32(checked, sizeof checked);
 }
 
+/* Coordinate of point i of a tile, -1 to 1. */
 static double normalised_coordinate(int i) { return (i - 0.5 * (SIDE - 1)) / (SIDE / 2); }
 
 static double polynomial(const double *c, int n, double t) {
@@ -37,22 +39,24 @@ static double polynomial(const double *c, int n, double t) {
   return value;
 }
 
+/* Writes SIDE x SIDE heights, stored or from a polynomial. */
 static void read_heights(const head *h, const unsigned char *from, double *to) {
-  double c[MOST_COEFFICIENTS * MOST_COEFFICIENTS];
+  double c[MAX_COEFFICIENTS * MAX_COEFFICIENTS];
   if (h->rows == SIDE) {
     memcpy(to, from, POINTS * sizeof *to);
     return;
   }
   memcpy(c, from, (size_t)h->rows * (size_t)h->columns * sizeof *c);
   for (int j = 0; j < SIDE; j++) { /* Horner's scheme, in this order on every platform */
-    double row[MOST_COEFFICIENTS];
+    double row[MAX_COEFFICIENTS];
     for (int a = 0; a < h->rows; a++) row[a] = polynomial(c + a * h->columns, h->columns, normalised_coordinate(j));
     for (int i = 0; i < SIDE; i++) to[i * SIDE + j] = polynomial(row, h->rows, normalised_coordinate(i));
   }
 }
 
+/* Writes SIDE x SIDE frictions; NULL, or what is wrong. */
 static const char *read_frictions(const head *h, const unsigned char *from, double *to) {
-  double levels_valid[MOST_LEVELS];
+  double levels_valid[MAX_LEVELS];
   if (h->levels == POINTS) {
     memcpy(to, from, POINTS * sizeof *to);
     return NULL;
@@ -70,9 +74,9 @@ static const char *read_frictions(const head *h, const unsigned char *from, doub
 static int64_t record_size(const head *h, int32_t maps) {
   const int is_full = h->rows == SIDE && h->columns == SIDE;
   const int is_polynomial =
-      h->rows >= 1 && h->rows <= MOST_COEFFICIENTS && h->columns >= 1 && h->columns <= MOST_COEFFICIENTS;
+      h->rows >= 1 && h->rows <= MAX_COEFFICIENTS && h->columns >= 1 && h->columns <= MAX_COEFFICIENTS;
   const int levels_valid =
-      maps < 2 ? h->levels == 0 : (h->levels >= 1 && h->levels <= MOST_LEVELS) || h->levels == POINTS;
+      maps < 2 ? h->levels == 0 : (h->levels >= 1 && h->levels <= MAX_LEVELS) || h->levels == POINTS;
   if (!(is_full || is_polynomial) || !levels_valid || h->zero != 0) return 0;
   const int64_t reals = (int64_t)h->rows * h->columns + h->levels;
   return HEAD + reals * (int64_t)sizeof(double) + (h->levels > 1 && h->levels < POINTS ? POINTS : 0);
@@ -87,7 +91,7 @@ const char *ali3_shared_tile(const ali3_tile_table *table, int64_t number, unsig
   memcpy(&e, bytes, sizeof e);
   if (e.zero != 0 || e.crc != entry_crc(bytes, number)) return ALTERED;
   const int64_t first = table->table + table->tiles * ALI3_TILE_ENTRY;
-  if (e.bytes < HEAD || e.bytes > ALI3_MOST_RECORD || e.offset < first || e.offset > table->size - e.bytes)
+  if (e.bytes < HEAD || e.bytes > ALI3_MAX_RECORD || e.offset < first || e.offset > table->size - e.bytes)
     return "lies outside of the file";
   if (!ali3_file_read(table->stream, e.offset, record, (size_t)e.bytes)) return "cannot be read";
   if (e.record_crc != ali3_crc32(record, (size_t)e.bytes)) return ALTERED;

@@ -19,7 +19,7 @@
 
 #include "../files/regular_file.h"
 
-enum { ALI3_TILE_ENTRY = 24, ALI3_MOST_RECORD = 16 + 2 * 32 * 32 * 8 };
+enum { ALI3_TILE_ENTRY = 24, ALI3_MAX_RECORD = 16 + 2 * 32 * 32 * 8 };
 
 typedef struct { /* of a file */
   ali3_file *stream;
@@ -28,6 +28,6 @@ typedef struct { /* of a file */
 } ali3_tile_table;
 
 /* Writes the values of a tile, heights and then frictions; NULL, or the end of a sentence on an error. `record`: work
- * of ALI3_MOST_RECORD bytes. */
+ * of ALI3_MAX_RECORD bytes. */
 const char *ali3_shared_tile(const ali3_tile_table *table, int64_t number, unsigned char *record, double *values);
 #endif

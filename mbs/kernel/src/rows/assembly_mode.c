@@ -1,5 +1,5 @@
 /* Assembly modes of closed loops. At each joint between two moving bodies of a loop the arms to the joints before and
- * after it make an angle, seen along an axis n; its sine is zero where the two bodies lie in line. A mode is a
+ * after it make an angle, seen along an axis n; its sine is zero when the two bodies lie in line. A mode is a
  * combination of signs of sines and cosines that compile found to belong together (mbs/compiler/assembly_modes.py). */
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "../instance.h"
 #include "assembly_mode.h"
 
-static const double DEFINITE = 0.15 * 0.15; /* square of a sine or cosine from which on a sign counts: as compile's */
+static const double DEFINITE = 0.15 * 0.15; /* square of a sine or cosine above which a sign counts: as in `compile` */
 static const double NOTHING = 1e-24; /* of the squares of the lengths: arms without an angle, along the axis */
 
 enum { SIGNALS = 9, KIND = 9, RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
@@ -52,6 +52,7 @@ ALI3_INLINED void mode_angles(ali3_instance *in, const double *q) {
 
 ALI3_BY_PROCESSOR(in->system, void, mode_angles, (ali3_instance * in, const double *q), (in, q))
 
+/* Bit k if v is positive; marks in *definite whether the sign counts. */
 static uint32_t bit(double v, int k, uint32_t *definite) {
   if (fabs(v) >= DEFINITE) *definite |= (uint32_t)1 << k;
   return v > 0.0 ? (uint32_t)1 << k : 0;
@@ -60,7 +61,7 @@ static uint32_t bit(double v, int k, uint32_t *definite) {
 /* First triad of a loop in none of its modes that differs from the mode that fits best. */
 static int32_t misfit(const ali3_system *S, int64_t loop, uint32_t signs, uint32_t definite) {
   uint32_t best = 0;
-  int fewest = 2 * ALI3_MOST_TRIADS + 1;
+  int fewest = 2 * ALI3_MAX_TRIADS + 1;
   for (int32_t i = S->mode_cell_ptr[loop]; i < S->mode_cell_ptr[loop + 1]; i += 2) {
     const uint32_t wrong = (signs ^ (uint32_t)S->mode_cell[i]) & (uint32_t)S->mode_cell[i + 1] & definite;
     int count = 0;
@@ -91,6 +92,7 @@ int32_t ali3_mode_left(const ali3_instance *in, int64_t loop) {
   return misfit(S, loop, signs, definite);
 }
 
+/* Appends the name of joint k in quotes, as far as it fits; returns the used length. */
 static size_t put_name(const ali3_system *S, int64_t k, char *text, size_t used, size_t size) {
   if (used + 1 < size) text[used++] = '\'';
   for (int32_t i = S->mode_name_ptr[k]; i < S->mode_name_ptr[k + 1] && used + 1 < size; i++)
@@ -100,6 +102,7 @@ static size_t put_name(const ali3_system *S, int64_t k, char *text, size_t used,
   return used;
 }
 
+/* Whether joints j and k have the same name. */
 static bool same_name(const ali3_system *S, int32_t j, int32_t k) {
   const int32_t *at = S->mode_name_ptr, n = at[j + 1] - at[j];
   return n == at[k + 1] - at[k] && memcmp(S->mode_name + at[j], S->mode_name + at[k], (size_t)n * sizeof *at) == 0;

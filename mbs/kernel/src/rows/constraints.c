@@ -69,7 +69,7 @@ ALI3_INLINED real add_run(const ali3_system *S, int32_t i, const real *q, real s
   return run < end ? sum + ali3_numbers_from_far(S->hess_val + run, q + S->hess_col[run], end - run) : sum;
 }
 
-/* The terms of a stretch of n entries from i on, twice with the rates qd. */
+/* The terms of a stretch of n entries, the first is i, twice with the rates qd. */
 static inline real stretch_gamma(const ali3_system *S, int32_t i, int32_t n, const real *qd) {
   const int32_t first = S->hess_ptr[i], terms = S->hess_ptr[i + 1] - first;
   real sum = {0};

@@ -4,11 +4,12 @@
 #include "../algebra/real.h"
 #include "../instance.h"
 
-/* 1 where there is no coordinate. */
+/* Value of a coordinate; 1 if there is none. */
 static inline real value_of(const real *q, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(1.0) : q[coordinate];
 }
 
+/* Rate of a coordinate; 0 if there is none. */
 static inline real rate_of(const real *qd, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
@@ -29,7 +30,7 @@ static inline real guide_second_rate(const ali3_guide_term *g, const ali3_vector
   return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
 }
 
-/* Part of a term in gamma, with w and its two rates. */
+/* Part of a term in gamma, from coordinates, their rates, and w with its two rates. */
 static inline real guide_bend(real qa, real qb, real va, real vb, real w, real wd, real wdd) {
   return wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
 }
@@ -50,6 +51,7 @@ static inline void guide_rates(const ali3_system *S, const real *q, const ali3_v
     Phit[g->row] += guide_rate(g, guides) * value_of(q, g->term.a) * value_of(q, g->term.b);
 }
 
+/* gamma += second time derivatives of the terms, without accelerations of coordinates. */
 static inline void guide_gamma(const ali3_system *S, const real *q, const real *qd, const ali3_vectors *guides,
                                real *gamma) {
   for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++)
@@ -58,7 +60,7 @@ static inline void guide_gamma(const ali3_system *S, const real *q, const real *
                    guide_factor(g, guides->s), guide_rate(g, guides), guide_second_rate(g, guides));
 }
 
-/* F += weight * lam w of each, twice where a and b are the same. */
+/* F += weight * lam w of each, twice if a and b are the same. */
 static inline void guide_geometric(const ali3_system *S, const real *s, const real *lam, double weight, real *F) {
   for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++) {
     if (g->term.pos < 0) continue;

@@ -134,7 +134,8 @@ static bool jumps(const double *real, int32_t i, const double *least) {
   return fabs(behind[0] - before[0]) > least[0] || fabs(behind[1] - before[1]) > least[1];
 }
 
-/* The first break after t and before `end` of all guides of time, else `end`; with `all` false only breaks that jump. */
+/* The first break after t and before `end` of all guides of time, otherwise `end`; with `all` false only breaks that
+ * jump. */
 static double first_break(const ali3_instance *in, double t, double end, bool all) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
@@ -148,7 +149,7 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
   return end;
 }
 
-/* The first break of a guide of time after t and before `end`, else `end`. */
+/* The first break of a guide of time after t and before `end`, otherwise `end`. */
 double ali3_guides_until(const ali3_instance *in, double t, double end) { return first_break(in, t, end, true); }
 
 /* The first such break at which rate or acceleration of the guide jump. */

@@ -31,7 +31,7 @@ static inline void turning_rates(const ali3_instance *in, const real *rate, real
   }
 }
 
-static const double MOST_TURN = 0.52; /* rad in a step: there the first steps give some 8e-4 of the energy */
+static const double MAX_TURN = 0.52; /* rad in a step: there the first steps give some 8e-4 of the energy */
 
 #ifndef ALI3_WIDTH
 /* Largest rate of them, rad/s. */

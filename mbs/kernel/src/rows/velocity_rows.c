@@ -1,7 +1,7 @@
 /* Conditions on velocities that no position integrates (rolling, skates): rows A(q) qd = 0 with A_b = row_lin + sum of
  * h q_a. They have no Phi; A takes the place of Phi_q, so projections, accelerations and forces A' lam need no separate
- * code. Where a step solves for positions, the value of such a row is A qd over the rate of its rule, whose derivative
- * with respect to the increment is A and a term of the size of the step. */
+ * code. Where a step solves for positions, the value of such a row is A qd divided by the rate of its rule, whose
+ * derivative with respect to the increment is A and a term of the size of the step. */
 #include "velocity_rows.h"
 #include "../instance.h"
 #include "switch_rows.h"

@@ -5,7 +5,7 @@
 #include "../system.h"
 #include "violation.h"
 
-/* The largest of n sizes |x| factor, a NaN where there is one; *worst becomes the first that has it, if it is not 0. */
+/* The largest of n sizes |x| factor, a NaN if there is one; *worst becomes the first that has it, if it is not 0. */
 double ali3_worst_size(const double *x, const double *factor, int32_t n, int32_t *worst) {
   double largest = 0.0;
   for (int32_t i = 0; i < n; i++) {

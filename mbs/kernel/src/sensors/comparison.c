@@ -12,6 +12,7 @@ static const double NO_TURN = 1e-3; /* rad: smaller rotations count only where n
 
 enum { KINDS = 4 }; /* groups in each unit: positions and rates, or loads; each always judged or not */
 
+/* Number of the group whose values are judged together. */
 static int32_t group_of(const ali3_judged *judged) {
   return judged->unit * KINDS + (judged->kind & ALI3_JUDGED_LOAD ? 2 : 0) + (judged->kind & ALI3_JUDGED_ALWAYS ? 1 : 0);
 }
@@ -22,6 +23,7 @@ static double difference(const ali3_judged *judged, double one, double other) {
   return judged->kind & ALI3_JUDGED_WRAPPED ? fabs(gap - 2.0 * PI * floor(gap / (2.0 * PI) + 0.5)) : gap;
 }
 
+/* Adds a value of the finer motion; of angles whole turns are counted. */
 static void update(const ali3_judged *judged, double value, bool compared, ali3_compared *seen) {
   if (seen->samples > 0 && judged->kind & ALI3_JUDGED_WRAPPED) {
     const double turn = value - seen->last, whole = floor(turn / (2.0 * PI) + 0.5);

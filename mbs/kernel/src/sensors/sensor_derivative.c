@@ -25,6 +25,7 @@ static double signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, 
   return sum;
 }
 
+/* Vector of n signals and its derivative in the direction. */
 static dual_vector vector(const ali3_instance *in, const int32_t *v, int32_t order, int32_t n) {
   dual_vector m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (int32_t i = 0; i < n; i++) {
@@ -44,6 +45,7 @@ static void cross(const double a[3], const double b[3], double out[3]) {
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/* Derivative of atan2(y, x). */
 static double angle_change(double y, double x, double dy, double dx) {
   const double square = x * x + y * y;
   return square > 0.0 ? (x * dy - y * dx) / square : 0.0;

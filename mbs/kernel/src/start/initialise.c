@@ -23,7 +23,7 @@
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 static const double CLOSED = 1e-12; /* m: violation that counts as closed */
 static const double ASSEMBLED = 1e-9; /* m: largest violation accepted when the iteration makes no further progress */
-static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
+static const double MAX_STEP = 0.5; /* m or rad per iteration */
 /* S^2: factor on K in the metric of positions, large enough that bodies move rather than bend. */
 static const double BENDING = 1.0;
 static const double ROUND_OFF = 1e-13;
@@ -70,7 +70,7 @@ static ali3_status close_position(ali3_instance *in) {
     double longest = 0.0;
     for (int32_t i = 0; i < nq; i++)
       if (fabs(in->step.x[i]) > longest) longest = fabs(in->step.x[i]);
-    const double step_fraction = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
+    const double step_fraction = longest > MAX_STEP ? MAX_STEP / longest : 1.0;
     ali3_rows_times(S, in->tangent.J, in->step.x, in->step.gamma);
     for (int32_t k = 0; k < nc; k++) /* a shortened step gives no estimate of the multipliers */
       lam[k] = step_fraction < 1.0 ? 0.0 : in->step.mu[k] + ALPHA * in->step.gamma[k];

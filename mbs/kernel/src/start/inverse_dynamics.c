@@ -14,7 +14,8 @@ static void copy(double *to, const double *from, int64_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
 
-/* Whether the coordinates of `target` map from those of `source`, and the rest of both states has equal sizes. */
+/* Whether the coordinates of `target` map from the coordinates of `source`, and the rest of both states has equal
+ * sizes. */
 static bool same_model(const ali3_system *target, const ali3_system *source) {
   const ali3_sizes *a = &target->size, *b = &source->size;
   return target->n_ported_ptr == (int64_t)b->nq + 1 && target->n_ported_lam_ptr == (int64_t)b->nc + 1 &&
@@ -35,7 +36,7 @@ static void map_coordinates(const ali3_system *S, const double *from, const doub
   add_columns(S->n_ported_ptr - 1, S->ported_ptr, S->ported_row, S->ported_val, from, to);
 }
 
-/* Multipliers of the rows from those of the model without ports; 0 for rows of ports. */
+/* Multipliers of the rows from the multipliers of the model without ports; 0 for rows of ports. */
 static void map_multipliers(const ali3_system *S, const double *from, double *to) {
   memset(to, 0, (size_t)S->size.nc * sizeof(double));
   add_columns(S->n_ported_lam_ptr - 1, S->ported_lam_ptr, S->ported_lam_row, S->ported_lam_val, from, to);

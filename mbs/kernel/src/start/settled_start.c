@@ -44,6 +44,7 @@ static void find_heaviest(ali3_instance *in, ali3_held_motion *motion) {
   }
 }
 
+/* Measures place, heading and their rates of the held motion. */
 static void measure(const ali3_instance *in, ali3_held_motion *m) {
   const ali3_system *S = in->system;
   /* the component along y is minus the derivative by a rotation to the left */

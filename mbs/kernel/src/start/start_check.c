@@ -7,7 +7,7 @@
 #include "../tabled/tabled.h"
 #include "initialise.h"
 
-enum { MOST_RISES = 100 }; /* an element may report its rise in parts */
+enum { MAX_RISES = 100 }; /* an element may report its rise in parts */
 
 ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road *roads, const double *q, int32_t e,
                                        double *u) {
@@ -53,7 +53,7 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
     worst = e;
   }
   for (int32_t e = 0; worst >= 0 && e < in->system->size.ne; e++)
-    for (int k = 0; k < MOST_RISES; k++) {
+    for (int k = 0; k < MAX_RISES; k++) {
       const double rise = verdict(in, e, raised).rise;
       if (!(rise > 0.0)) break;
       raised += rise;

@@ -38,6 +38,7 @@ static bool parameters_changed(const ali3_instance *in) {
   return false;
 }
 
+/* Exchanges the roads in use and those of the System. */
 static void exchange_roads(ali3_instance *in) {
   ali3_road *road = in->roads.used;
   in->roads.used = in->roads.own;

@@ -16,7 +16,7 @@ static const double LEVEL = 1e-10; /* m: a smaller lift is omitted; also the acc
 static const double TOUCHING = 1e-6; /* m: depth to which a scene is lowered */
 static const double UNEVEN = 1e-3; /* m: a start that sinks by less counts as level */
 static const double WAY = 0.01; /* m: displacement over which a slope is measured */
-enum { MOST_MOVES = 100 };
+enum { MAX_MOVES = 100 };
 
 /* Depth of element e in `roads` at q, raised by `raised`, m; *cosine: rise per depth. */
 static double depth(const ali3_instance *in, const ali3_road *roads, const double *q, int32_t e, double raised,
@@ -41,15 +41,16 @@ static bool measure_drawn_depths(ali3_instance *in) {
   return touching;
 }
 
+/* Depth of element e in the road at the present position, m; -infinity if it has no contact. */
 static double current_depth(const ali3_instance *in, int32_t e) {
   double cosine;
   return in->system->el_kind[e]->depth != NULL ? depth(in, in->roads.used, in->now.q, e, 0.0, &cosine) : -INFINITY;
 }
 
-/* Rise, searched from `from` on, at which element e at q is as deep as `target_depth`, m. */
+/* Rise, searched upwards from `from`, at which element e at q is as deep as `target_depth`, m. */
 static double find_rise(const ali3_instance *in, const double *q, int32_t e, double from, double target_depth) {
   double rise = from, cosine = 1.0;
-  for (int k = 0; k < MOST_MOVES; k++) {
+  for (int k = 0; k < MAX_MOVES; k++) {
     const double excess = depth(in, in->roads.used, q, e, rise, &cosine) - target_depth;
     if (!(fabs(excess) > LEVEL)) break;
     rise += excess * cosine;

@@ -20,9 +20,9 @@
 #include "initialise.h"
 #include "settled_start.h"
 
-static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
-static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 */
-static const double PENALTY = 1e9; /* c alpha, equal to that of a step with eps_rel = 2.5e-10 */
+static const double MAX_STEP = 0.1; /* m or rad per iteration */
+static const double FIRST_C = 1e-3, MIN_C = 1e-10, MAX_C = 100.0; /* s^2 */
+static const double PENALTY = 1e9; /* c alpha, as of a step with eps_rel = 2.5e-10 */
 static const double CLOSED = 1e-10; /* m */
 static const double OPEN = 1e-2; /* m: violation above which c does not increase */
 /* Iterations after which c is reduced if rows close slowly because c K is large relative to PENALTY. */
@@ -33,7 +33,7 @@ static const double ROUND_OFF = 1e-12; /* of the largest force */
 static const double TURNED = 1e-12, HELD = 1e-6;
 
 /* Residual of the forces at rest, g = Phi_q' lam - Q, in in->step.r. Stores the largest |g_i| in the report; returns
- * it, or 0 within round-off. `h`: of the step from the drawing, or 0. */
+ * it, or 0 within round-off. `h`: size of the step from the drawing, or 0. */
 static double evaluate_residual(ali3_instance *in, double c, double h) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;
@@ -95,13 +95,14 @@ static ali3_status newton_step(ali3_instance *in, double c, double *step_fractio
   if (!ali3_finite(in->step.x, nq)) return ALI3_NOT_FINITE;
   for (int32_t i = 0; i < nq; i++)
     if (fabs(in->step.x[i]) > longest) longest = fabs(in->step.x[i]);
-  *step_fraction = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
+  *step_fraction = longest > MAX_STEP ? MAX_STEP / longest : 1.0;
   ali3_rows_times(S, in->tangent.J, in->step.x, in->step.gamma);
   for (int32_t k = 0; k < nc; k++) lam[k] += *step_fraction * PENALTY / c * (in->step.Phi[k] + in->step.gamma[k]);
   for (int32_t i = 0; i < nq; i++) in->next.q[i] += *step_fraction * in->step.x[i];
   return ALI3_OK;
 }
 
+/* Marks coordinates that gravity or rows act on. */
 static void mark_holdable(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.nq; i++) {
@@ -122,7 +123,7 @@ static ali3_status iterate(ali3_instance *in, double tolerance, int32_t max_iter
   for (; iteration < max_iterations; iteration++) {
     if (!(residual < 1e300) || !(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
     if (iteration > 0 && residual <= tolerance && in->report.violation <= CLOSED) break;
-    while ((status = factorise(in, c)) == ALI3_SINGULAR && c > LEAST_C) {
+    while ((status = factorise(in, c)) == ALI3_SINGULAR && c > MIN_C) {
       c *= 0.25;
       evaluate_residual(in, c, h);
     }
@@ -133,11 +134,11 @@ static ali3_status iterate(ali3_instance *in, double tolerance, int32_t max_iter
     residual = evaluate_residual(in, c, h);
     const bool rows_close = in->report.violation <= CLOSED || in->report.violation < 0.5 * previous_violation;
     if (step_fraction < 1.0 || residual > 4.0 * previous)
-      c = fmax(0.5 * c, LEAST_C);
+      c = fmax(0.5 * c, MIN_C);
     else if (iteration >= SLOW && !rows_close)
       c = fmax(0.25 * c, FIRST_C);
     else if (in->report.violation <= OPEN)
-      c = fmin(4.0 * c, LARGEST_C);
+      c = fmin(4.0 * c, MAX_C);
     if (c != previous_c) residual = evaluate_residual(in, c, h); /* the tangents of elements include c */
   }
   in->report.last_iterations = iteration;

@@ -47,6 +47,7 @@ static void rotation_of(const ali3_instance *in, int64_t k, double Q[AXES][AXES]
     }
 }
 
+/* out = Q v */
 static void rotate(const double Q[AXES][AXES], const double *v, double out[AXES]) {
   for (int i = 0; i < AXES; i++) out[i] = Q[i][X] * v[X] + Q[i][Y] * v[Y] + Q[i][Z] * v[Z];
 }
@@ -85,6 +86,7 @@ static void write_signal(ali3_instance *in, int32_t to, const int32_t *frame, co
   }
 }
 
+/* Writes the rotated signals of wheel k. */
 static void write_signals(ali3_instance *in, int64_t k) {
   const ali3_system *T = in->base->turned;
   double Q[AXES][AXES], w[AXES];
@@ -104,6 +106,7 @@ static void write_entries(ali3_instance *in) {
     for (int32_t k = T->sig_ptr[T->el_sig[i]]; k < T->sig_ptr[T->el_sig[i] + 1]; k++) *to++ = in->axes.val[k];
 }
 
+/* Adds the change of the moments of inertia of wheel k. */
 static void write_moments(ali3_instance *in, int64_t k) {
   static const int entry[6][2] = {{X, X}, {Y, Y}, {Z, Z}, {Y, Z}, {Z, X}, {X, Y}};
   const int32_t table = in->base->axis_table[k];

@@ -1,4 +1,4 @@
-/* Resets the start of an instance to that of the System's file. */
+/* Resets the start of an instance to the start in the System's file. */
 #include <string.h>
 
 #include "../instance.h"

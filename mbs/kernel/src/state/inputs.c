@@ -112,7 +112,7 @@ ali3_status ali3_set_input_breaks(ali3_instance *in, const double *time, int64_t
   return ALI3_OK;
 }
 
-/* The first break of the inputs after the present time and before t, else t. */
+/* The first break of the inputs after the present time and before t, otherwise t. */
 double ali3_inputs_until(const ali3_instance *in, double t) {
   int64_t low = 0, high = in->inputs.n_breaks;
   while (low < high) {

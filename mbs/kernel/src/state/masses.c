@@ -12,6 +12,7 @@
 #include "axes.h"
 #include "masses.h"
 
+/* Whether a parameter can change a mass. */
 static bool has_changes(const ali3_system *s) {
   return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_real > 0 || s->n_axis_inertia > 0;
 }

@@ -1,4 +1,5 @@
-/* Mass matrix of an instance: that of the System with payloads, armatures, inertias and axes set by parameters. */
+/* Mass matrix of an instance: the matrix of the System with payloads, armatures, inertias and axes set by parameters.
+ * */
 #ifndef ALI3_MASSES_H
 #define ALI3_MASSES_H
 #include "../instance.h"

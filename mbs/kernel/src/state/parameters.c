@@ -25,6 +25,7 @@ typedef struct {
   double *of[ALI3_TARGET_COUNT];
 } targets;
 
+/* Arrays that parameters write. */
 static targets targets_of(const ali3_instance *in) {
   return (targets){{[ALI3_TARGET_ELEMENT] = in->parameters.el_real,
                     [ALI3_TARGET_GUIDE] = in->parameters.guide_real,
@@ -37,6 +38,7 @@ static targets targets_of(const ali3_instance *in) {
                     [ALI3_TARGET_AXIS] = in->parameters.axis_real}};
 }
 
+/* Writes the value of parameter p to its targets. */
 static void write(ali3_instance *in, int32_t p) {
   const ali3_system *S = in->system;
   const targets target = targets_of(in);
@@ -51,6 +53,7 @@ static const char *check(const ali3_instance *in, int64_t k) {
   return k < 0 ? ali3_check_data(in->system, data) : ali3_check_target(in->system, k, data);
 }
 
+/* Whether parameter p writes to an array of that kind. */
 static bool has_target(const ali3_system *S, int32_t p, int32_t family) {
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
     if (S->par_target[k] == family) return true;
@@ -74,8 +77,8 @@ ali3_status ali3_parameters_apply(ali3_instance *in) {
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
 }
 
-/* Sets all values (size.np doubles at any address) if the data they write are valid, else keeps the present ones; in
- * both cases the previous values are in parameters.work afterwards. */
+/* Sets all values (size.np doubles at any address) if the data they write are valid, otherwise keeps the present ones;
+ * in both cases the previous values are in parameters.work afterwards. */
 bool ali3_parameters_take(ali3_instance *in, const void *values) {
   const size_t size = (size_t)in->system->size.np * sizeof(double);
   memcpy(in->parameters.work, in->parameters.value, size);
@@ -97,6 +100,7 @@ static ali3_status write_checked(ali3_instance *in, int32_t p, double value) {
   return ALI3_OK;
 }
 
+/* Whether a value is finite and in the range of its parameter. */
 static bool in_range(const ali3_instance *in, int32_t index, double value) {
   return in != NULL && index >= 0 && index < in->system->size.np && value - value == 0.0 &&
          value >= in->system->par_min[index] && value <= in->system->par_max[index];

@@ -26,13 +26,14 @@ ali3_status ali3_set_road(ali3_instance *in, int32_t road, const char *path, cha
 
 ali3_status ali3_roads_status(const ali3_instance *in) {
   for (int32_t r = 0; r < in->system->nr; r++)
-    if (in->roads.used[r].file != NULL && ali3_road_file_lost(in->roads.used[r].file) != NULL) return ALI3_ROAD_LOST;
+    if (in->roads.used[r].file != NULL && ali3_road_file_read_error(in->roads.used[r].file) != NULL)
+      return ALI3_ROAD_LOST;
   return ALI3_OK;
 }
 
-void ali3_roads_forgive(ali3_instance *in) {
+void ali3_roads_clear_read_errors(ali3_instance *in) {
   for (int32_t r = 0; r < in->system->nr; r++)
-    if (in->roads.used[r].file != NULL) ali3_road_file_forgive(in->roads.used[r].file);
+    if (in->roads.used[r].file != NULL) ali3_road_file_clear_read_error(in->roads.used[r].file);
 }
 
 bool ali3_roads_from_outside(const ali3_instance *in) {
@@ -49,8 +50,8 @@ ali3_status ali3_roads_normals(const ali3_instance *in) {
 
 const char *ali3_road_lost(const ali3_instance *in) {
   for (int32_t r = 0; in != NULL && r < in->system->nr; r++)
-    if (in->roads.used[r].file != NULL && ali3_road_file_lost(in->roads.used[r].file) != NULL)
-      return ali3_road_file_lost(in->roads.used[r].file);
+    if (in->roads.used[r].file != NULL && ali3_road_file_read_error(in->roads.used[r].file) != NULL)
+      return ali3_road_file_read_error(in->roads.used[r].file);
   return "";
 }
 

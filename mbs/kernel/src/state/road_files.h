@@ -3,9 +3,9 @@
 #define ALI3_ROAD_FILES_H
 #include "../instance.h"
 
-/* ALI3_ROAD_LOST if part of a file could not be read since ali3_roads_forgive. */
+/* ALI3_ROAD_LOST if part of a file could not be read since ali3_roads_clear_read_errors. */
 ali3_status ali3_roads_status(const ali3_instance *in);
-void ali3_roads_forgive(ali3_instance *in);
+void ali3_roads_clear_read_errors(ali3_instance *in);
 /* Whether a road is a file or at a port, so that its height under the start is unknown when the System is made. */
 bool ali3_roads_from_outside(const ali3_instance *in);
 /* ALI3_BAD_NORMAL if the inputs in use give a road at a port an invalid normal. */

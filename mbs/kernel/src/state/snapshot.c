@@ -7,6 +7,7 @@
 #include "snapshot.h"
 #include "vectors.h"
 
+/* Number of doubles in a snapshot. */
 static size_t number_count(const ali3_system *s) {
   return ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np;
 }

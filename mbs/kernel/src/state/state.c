@@ -21,8 +21,8 @@ typedef struct { /* 40 bytes without padding */
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'S', 'T', 'A', '\n'};
 enum { CHECKED_FROM = 28 }; /* offset from which bytes are included in the checksum */
-static const double MOST = 1e60; /* largest magnitude of times, positions, rates, multipliers and element states */
-static const int64_t MOST_COUNTED = (int64_t)1 << 53; /* largest count of steps that doubles represent exactly */
+static const double MAX_MAGNITUDE = 1e60; /* of times, positions, rates, multipliers and element states */
+static const int64_t MAX_COUNT = (int64_t)1 << 53; /* largest count of steps that doubles represent exactly */
 
 size_t ali3_state_size(const ali3_system *s) {
   if (s == NULL) return 0;
@@ -30,6 +30,7 @@ size_t ali3_state_size(const ali3_system *s) {
   return sizeof(ali3_state_header) + sizeof(ali3_settings) + sizeof(ali3_report) + numbers * sizeof(double);
 }
 
+/* Writes bytes and moves the position behind them. */
 static void append(unsigned char **to, const void *from, size_t size) {
   if (size > 0) memcpy(*to, from, size);
   *to += size;
@@ -63,11 +64,12 @@ static bool numbers_valid(const unsigned char *p, size_t n) {
   for (size_t i = 0; i < n; i++) {
     double v;
     memcpy(&v, p + i * sizeof v, sizeof v);
-    if (!(v >= -MOST && v <= MOST)) return false;
+    if (!(v >= -MAX_MAGNITUDE && v <= MAX_MAGNITUDE)) return false;
   }
   return true;
 }
 
+/* Whether n numbers are finite and in their ranges. */
 static bool in_ranges(const unsigned char *p, int32_t n, const double *low, const double *high) {
   for (int32_t i = 0; i < n; i++) {
     double v;
@@ -77,7 +79,7 @@ static bool in_ranges(const unsigned char *p, int32_t n, const double *low, cons
   return true;
 }
 
-static bool count_valid(int64_t n) { return n >= 0 && n < MOST_COUNTED; }
+static bool count_valid(int64_t n) { return n >= 0 && n < MAX_COUNT; }
 
 static bool magnitude_valid(double x) { return x >= 0.0 && x - x == 0.0; }
 
@@ -128,8 +130,8 @@ ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot) {
   const unsigned char *vectors = (const unsigned char *)snapshot + sizeof head;
   const size_t size = (size_t)in->system->size.np * sizeof(double);
   memcpy(&head, snapshot, sizeof head);
-  if (!report_valid(in->system, &head.report) || !count_valid(head.count) || !(fabs(head.t_base) <= MOST) ||
-      !(head.h_last >= 0.0 && head.h_last <= MOST) || !vectors_valid(in, vectors))
+  if (!report_valid(in->system, &head.report) || !count_valid(head.count) || !(fabs(head.t_base) <= MAX_MAGNITUDE) ||
+      !(head.h_last >= 0.0 && head.h_last <= MAX_MAGNITUDE) || !vectors_valid(in, vectors))
     return ALI3_BAD_STATE;
   const unsigned char *parameters = vectors + (in->kept.n + (size_t)in->system->size.nu) * sizeof(double);
   if (memcmp(parameters, in->parameters.value, size) == 0) return ALI3_OK;
@@ -138,6 +140,7 @@ ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot) {
   return ali3_parameters_apply(in);
 }
 
+/* Reads bytes and moves the position behind them. */
 static void extract(void *to, const unsigned char **from, size_t size) {
   if (size > 0) memcpy(to, *from, size);
   *from += size;

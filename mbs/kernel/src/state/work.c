@@ -4,9 +4,9 @@
  * Trapezoidal rule: D'(f0 + f1)/2 with the forces of the converged Newton iteration. Energy-momentum: D'f of the
  * middle, where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages.
  *
- * The work of guides is stored after that of the elements: with ALi3-P and generalised-alpha from the energy balance
- * (../methods/constraint_work.c), with energy-momentum and Radau from the forces of driven rows along their guides,
- * with Runge-Kutta from the powers of the stages, and in relative coordinates as the mean of the powers at both
+ * The work of guides is stored after the work of the elements: with ALi3-P and generalised-alpha from the energy
+ * balance (../methods/constraint_work.c), with energy-momentum and Radau from the forces of driven rows along their
+ * guides, with Runge-Kutta from the powers of the stages, and in relative coordinates as the mean of the powers at both
  * ends. */
 #include <string.h>
 
@@ -71,16 +71,16 @@ void ali3_work_reopen(ali3_instance *in) {
   ali3_work_store(in, v);
 }
 
-/* Adds the work of a step D from in->now to in->next, with the mean of the forces at its ends (share = 1/2) or the
- * forces of the last ali3_forces (share = 1). */
-void ali3_work_step(ali3_instance *in, double share) {
+/* Adds the work of a step D from in->now to in->next, with the mean of the forces at its ends (weight = 1/2) or the
+ * forces of the last ali3_forces (weight = 1). */
+void ali3_work_step(ali3_instance *in, double weight) {
   if (in->system->n_work == 0) return;
   ali3_signal_displacements(in, in->next.step_way);
-  ali3_work_along(in, share);
+  ali3_work_along(in, weight);
 }
 
 /* Leaves the powers of the start unchanged: a method that reads them stores its own or calls ali3_work_reopen. */
-ALI3_INLINED void work_along(ali3_instance *in, double share) {
+ALI3_INLINED void work_along(ali3_instance *in, double weight) {
   const ali3_system *S = in->system;
   const double *before = in->now.watched + S->n_work, *displacement = in->next.step_way;
   double *mean = in->next.step_force, *after = in->next.watched + S->n_work;
@@ -88,13 +88,13 @@ ALI3_INLINED void work_along(ali3_instance *in, double share) {
     const double *force = in->element.force + S->el_sig_ptr[S->work_element[k]];
     const int32_t n = S->work_ptr[k + 1] - S->work_ptr[k];
     ALI3_EACH(0, n, ALI3_AT(after) = ALI3_AT(force);
-              ALI3_AT(mean) = share * ALI3_AT(force) + (1.0 - share) * ALI3_AT(before))
+              ALI3_AT(mean) = weight * ALI3_AT(force) + (1.0 - weight) * ALI3_AT(before))
     in->next.work[k] = in->now.work[k] + ali3_product_from_far(mean, displacement, n);
     before += n, displacement += n, mean += n, after += n;
   }
 }
 
-ALI3_BY_PROCESSOR(in->system, void, work_along, (ali3_instance * in, double share), (in, share))
+ALI3_BY_PROCESSOR(in->system, void, work_along, (ali3_instance * in, double weight), (in, weight))
 
 /* sum (n_work) += weight (s) times the powers of a stage. */
 void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum) {

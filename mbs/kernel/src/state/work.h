@@ -16,9 +16,9 @@ void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *
 
 /* Methods with forces at the ends or the middle of a step: displacements (n_work_force) along in->step.D, and the work
  * along in->next.step_way. */
-void ali3_work_step(ali3_instance *in, double share);
+void ali3_work_step(ali3_instance *in, double weight);
 ALI3_PER_WIDTH void ali3_signal_displacements(const ali3_instance *in, real *displacement);
-void ali3_work_along(ali3_instance *in, double share);
+void ali3_work_along(ali3_instance *in, double weight);
 
 /* Methods with stages. */
 void ali3_work_recall(ali3_instance *in);

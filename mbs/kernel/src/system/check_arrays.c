@@ -36,7 +36,7 @@ static ali3_status check_offsets(ali3_message m, const limits_of_array *a) {
   return ALI3_OK;
 }
 
-/* Numbers are finite, or infinite where the list allows it, but not NaN. */
+/* Numbers are finite, or infinite if the list allows it, but not NaN. */
 static ali3_status check_numbers(ali3_message m, const limits_of_array *a) {
   const double *v = a->items;
   for (int64_t i = 0; i < a->n; i++)

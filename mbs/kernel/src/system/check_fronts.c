@@ -55,6 +55,7 @@ ali3_status ali3_check_fronts(ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
+/* Checks that the coordinates of row k lie in its front. */
 static ali3_status check_row_pattern(const ali3_system *s, int32_t k, ali3_message m) {
   const int32_t begin = s->row_ptr[k], end = s->row_ptr[k + 1], f = s->row_front[k];
   if (begin == end) return ali3_bad(m, "row %d has no coordinates", (int)k);

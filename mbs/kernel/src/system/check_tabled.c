@@ -5,7 +5,7 @@
 #include "loading.h"
 #include "message.h"
 
-enum { MAX_TABLED = 4096, FEWEST = 4, MOST = 4096 }; /* control points along a parameter */
+enum { MAX_TABLED = 4096, MIN_POINTS = 4, MAX_POINTS = 4096 }; /* control points along a parameter */
 
 ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   const int64_t n = s->n_tabled_size / 3;
@@ -14,8 +14,8 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   for (int64_t i = 0; i < n; i++) {
     const int32_t *size = s->tabled_size + 3 * i;
     const bool single = size[2] == 1;
-    if ((size[0] != 1 && size[0] != ALI3_TABLED_BODY) || size[1] < FEWEST || size[1] > MOST ||
-        (!single && (size[2] < FEWEST || size[2] > MOST)))
+    if ((size[0] != 1 && size[0] != ALI3_TABLED_BODY) || size[1] < MIN_POINTS || size[1] > MAX_POINTS ||
+        (!single && (size[2] < MIN_POINTS || size[2] > MAX_POINTS)))
       return ali3_bad(m, "table %lld has %d functions at %d by %d points", (long long)i, (int)size[0], (int)size[1],
                       (int)size[2]);
     s->n_dependent += size[0];

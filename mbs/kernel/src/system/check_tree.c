@@ -13,8 +13,8 @@ static ali3_status check_cuts(const ali3_system *s, int64_t n, ali3_message m) {
     CHECK(ali3_check_indices(m, "tree_cut_rows", s->tree_cut_rows + 2 * c, 1, 0, 4));
     CHECK(ali3_check_indices(m, "tree_cut_rows", s->tree_cut_rows + 2 * c + 1, 1, 0, 3));
     rows += s->tree_cut_rows[2 * c] + s->tree_cut_rows[2 * c + 1];
-    if (rows > ALI3_MOST_CUT_ROWS)
-      return ali3_bad(m, "the cut joints of the tree have more than %d rows", ALI3_MOST_CUT_ROWS);
+    if (rows > ALI3_MAX_CUT_ROWS)
+      return ali3_bad(m, "the cut joints of the tree have more than %d rows", ALI3_MAX_CUT_ROWS);
   }
   if (rows + 4 * n + 1 + s->n_tree_angle_col > (1 + ALI3_PAST) * (int64_t)s->size.nq)
     return ali3_bad(m, "a tree of %lld joints for %d coordinates", (long long)n, (int)s->size.nq);
@@ -29,7 +29,7 @@ static bool on_path(const ali3_system *s, int32_t j, int32_t k) {
 
 static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   const int64_t angles = s->n_tree_angle_col;
-  if (angles > ALI3_MOST_ANGLES) return ali3_bad(m, "the tree has %lld angles", (long long)angles);
+  if (angles > ALI3_MAX_ANGLES) return ali3_bad(m, "the tree has %lld angles", (long long)angles);
   for (int64_t a = 0; a < angles; a++)
     for (int32_t k = s->tree_angle_ptr[a]; s->tree_angle_inertia[a] != 0.0 && k < s->tree_angle_ptr[a + 1]; k++)
       for (int32_t i = s->tree_angle_ptr[a]; i < k; i++) {
@@ -52,7 +52,7 @@ static ali3_status check_coordinates(const ali3_system *s, ali3_message m) {
 
 ali3_status ali3_check_tree(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_tree_parent;
-  if (n > ALI3_MOST_JOINTS) return ali3_bad(m, "the tree has %lld joints", (long long)n);
+  if (n > ALI3_MAX_JOINTS) return ali3_bad(m, "the tree has %lld joints", (long long)n);
   for (int64_t b = 0; b < n; b++) CHECK(ali3_check_indices(m, "tree_parent", s->tree_parent + b, 1, 0, b + 1));
   if (n == 0) return ALI3_OK;
   if (s->size.ng > 0 || s->size.n_switch > 0 || s->n_flex_front > 0 || s->n_velocity_row > 0)

@@ -8,7 +8,7 @@
 #include "../rows/violation.h"
 #include "derive_elements.h"
 
-enum { MOST_TERMS = 32, MOST_IN_TURN = 2048 };
+enum { MAX_TERMS = 32, MAX_IN_TURN = 2048 };
 
 void ali3_rows_place(ali3_system *s, ali3_pool *p) {
   const size_t na = (size_t)s->n_angle_row;
@@ -148,7 +148,7 @@ static bool in_triples(const ali3_system *s, int32_t k) {
   if ((end - s->row_ptr[k]) % ALI3_TRIPLE != 0) return false;
   for (int32_t i = s->row_ptr[k]; i < end; i += ALI3_TRIPLE) {
     const int32_t terms = ptr[i + 1] - ptr[i];
-    if (terms > MOST_TERMS || ptr[i + 2] - ptr[i + 1] != terms || ptr[i + 3] - ptr[i + 2] != terms) return false;
+    if (terms > MAX_TERMS || ptr[i + 2] - ptr[i + 1] != terms || ptr[i + 3] - ptr[i + 2] != terms) return false;
     if (col[i + 1] != col[i] + 1 || col[i + 2] != col[i] + 2) return false;
   }
   return true;
@@ -169,19 +169,18 @@ static int32_t find_stretch(const ali3_system *s, int32_t k) {
   int32_t i = end - 1;
   for (; i > s->row_ptr[k]; i--) {
     const int32_t terms = ptr[i + 1] - ptr[i];
-    if (s->row_col[i - 1] != s->row_col[i] - 1 || ptr[i] - ptr[i - 1] != terms ||
-        (end - i + 1) * terms > MOST_IN_TURN ||
+    if (s->row_col[i - 1] != s->row_col[i] - 1 || ptr[i] - ptr[i - 1] != terms || (end - i + 1) * terms > MAX_IN_TURN ||
         memcmp(col + ptr[i - 1], col + ptr[i], (size_t)terms * sizeof *col) != 0)
       break;
   }
-  return end - i < ALI3_SHORTEST ? end : i;
+  return end - i < ALI3_MIN_LENGTH ? end : i;
 }
 
 /* Interleaves the terms of `count` entries with `terms` terms each, stored one entry after the other from `first`
  * on. */
 static void interleave(ali3_system *s, int32_t first, int32_t count, int32_t terms) {
-  int32_t col[MOST_IN_TURN];
-  double val[MOST_IN_TURN];
+  int32_t col[MAX_IN_TURN];
+  double val[MAX_IN_TURN];
   memcpy(col, s->hess_col + first, (size_t)(count * terms) * sizeof *col);
   memcpy(val, s->hess_val + first, (size_t)(count * terms) * sizeof *val);
   for (int32_t t = 0; t < terms; t++)
@@ -278,14 +277,14 @@ static void derive_stretch_terms(ali3_system *s, int32_t k) {
   }
 }
 
-/* First terms of each entry of row k from which on its coordinates are consecutive. */
+/* First terms of each entry of row k from which its coordinates are consecutive. */
 static void derive_runs(ali3_system *s, int32_t k) {
   const bool any = s->row_stretch[k] < s->row_ptr[k + 1];
   for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {
     const int32_t end = s->hess_ptr[i + 1];
     int32_t t = end - 1;
     while (t > s->hess_ptr[i] && s->hess_col[t - 1] == s->hess_col[t] - 1) t--;
-    s->hess_run[i] = any && end - t >= ALI3_SHORTEST ? t : end;
+    s->hess_run[i] = any && end - t >= ALI3_MIN_LENGTH ? t : end;
   }
 }
 

@@ -4,7 +4,7 @@
 #include "../system.h"
 #include "pool.h"
 
-enum { ALI3_SHORTEST = 8 }; /* least number of consecutive coordinates with a separate loop */
+enum { ALI3_MIN_LENGTH = 8 }; /* least number of consecutive coordinates with a separate loop */
 
 void ali3_rows_place(ali3_system *s, ali3_pool *p);
 void ali3_rows_derive(ali3_system *s);

@@ -37,7 +37,7 @@ static int32_t find_index(const int32_t *list, int32_t n, int32_t value) {
   return -1;
 }
 
-/* Coordinate k of an item, first those of its base, then its parameters; -1: none. */
+/* Coordinate k of an item, first coordinates of its base, then its parameters; -1: none. */
 static int32_t coordinate(const ali3_tabled *c, int32_t k) { return k < 12 ? c->frame[k] : c->param[k - 12]; }
 
 /* Writes the local indices of the coordinates of an item in a front; false: one is not in the front. */

@@ -45,7 +45,7 @@
   X(13, SOLVER, solver, "h", 0, 0, NEVER, SOLVER, \
     "kind: 0 iterations of the last step, 1 max violation m, 2 residual, 3 factorizations since start, 4 halvings since " \
     "start, 5 status of the last step, once a closed loop has changed its assembly mode that of `ALI3_BRANCH_CHANGED` " \
-    "where it is good, 6 error of the energy J, 7 the same as a share of the motion", "-", "solver health") \
+    "where it is good, 6 error of the energy J, 7 the same relative to the motion", "-", "solver health") \
   X(14, NORM, norm, "bP(s)", 0, 0, BY_FIRST, MOTION, \
     "order (0, 1), n (2 or 3), n signals", "-", "norm of (p, p')") \
   X(15, DIRECTION, direction, "dsssssssss", 0, 0, BY_FIRST, MOTION, \

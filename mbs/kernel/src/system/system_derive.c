@@ -60,7 +60,7 @@ static void longest_stretch(const int32_t *col, int32_t begin, int32_t end, int3
   stretch[0] = stretch[1] = end;
   for (int32_t i = begin, first = begin; i < end; i++) {
     if (i > first && col[i] != col[i - 1] + 1) first = i;
-    if (i + 1 - first >= ALI3_SHORTEST && i + 1 - first > stretch[1] - stretch[0])
+    if (i + 1 - first >= ALI3_MIN_LENGTH && i + 1 - first > stretch[1] - stretch[0])
       stretch[0] = first, stretch[1] = i + 1;
   }
 }

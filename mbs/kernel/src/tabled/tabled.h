@@ -1,7 +1,7 @@
 /* Bodies and numbers by tables: dependent coordinates X of independent ones.
  * A body has four vectors, its position and its axes, X_0 = r + Y p and X_i = Y R_i: r and the axes Y are those of
  * its base, p and R_i functions of one or two parameters, which are coordinates too. A number is a single such
- * function. For elements and sensors X extend the coordinates of the System: signals may have columns from nq on.
+ * function. For elements and sensors X extend the coordinates of the System: signals may have columns nq and above.
  * Their forces are transformed by B' with B = dX/dq, without rows. Inertia is summed over the bodies of a base
  * (tabled_inertia.c). */
 #ifndef ALI3_TABLED_H
@@ -57,7 +57,7 @@ struct ali3_tabled_group {
   int32_t n_signal, signal[ALI3_TABLED_SIGNALS]; /* signals of all elements */
   /* entries of a signal, stored with one of its elements */
   int32_t entry[ALI3_TABLED_SIGNALS], n_entry[ALI3_TABLED_SIGNALS];
-  /* Parts, if its signals are vectors of bodies on one base and numbers: as d(vector) is a sum of a share of each of r
+  /* Parts, if its signals are vectors of bodies on one base and numbers: as d(vector) is a sum of a part of each of r
    * and Y and of a vector per single coordinate, a 3 x 3 square is transformed by four shares. */
   bool parted;
   int32_t base; /* -1: none, or the earth */
@@ -127,7 +127,7 @@ ALI3_PER_WIDTH void ali3_tabled_mass_times(const ali3_instance *in, const real *
 /* Adds gravity and -B' M_X Bd qd to Q. */
 ALI3_PER_WIDTH void ali3_tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q);
 double ali3_tabled_gravity(const ali3_instance *in, const double *q);
-/* Adds the power of both energies beyond that of M qdd and of constant gravity, W. */
+/* Adds the power of both energies beyond M qdd and constant gravity, W. */
 void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kinetic, double *gravity);
 ALI3_PER_WIDTH void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F);
 ALI3_PER_WIDTH void ali3_tabled_elements_tangent(ali3_instance *in, real *F);

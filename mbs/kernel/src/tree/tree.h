@@ -1,13 +1,13 @@
 /* Relative coordinates along a spanning tree of the bodies, shared by the files of the semi-recursive method.
- * Quantities are in earth axes with respect to the origin of the earth, so that those of bodies add up along the tree
- * without transformations. Most are arrays over bodies ("lanes"), body 0 is the ground; loops over lanes have no
+ * Quantities are in earth axes with respect to the origin of the earth, so that quantities of bodies add up along the
+ * tree without transformations. Most are arrays over bodies ("lanes"), body 0 is the ground; loops over lanes have no
  * branches and no dependence between bodies, recursions along the tree have few operations. */
 #ifndef ALI3_TREE_H
 #define ALI3_TREE_H
 #include "../algebra/number_pairs.h"
 #include "../instance.h"
 
-enum { ALI3_MOST_JOINTS = 64, ALI3_LANES = 66, ALI3_MOST_CUT_ROWS = 64, ALI3_MOST_ANGLES = 64 };
+enum { ALI3_MAX_JOINTS = 64, ALI3_LANES = 66, ALI3_MAX_CUT_ROWS = 64, ALI3_MAX_ANGLES = 64 };
 typedef double ali3_lanes[ALI3_LANES];
 
 /* For loops with independent iterations; not for sums, which it would allow to be reordered. */
@@ -47,16 +47,16 @@ struct ali3_tree_work {
   ali3_lanes composite; /* mass carried by each joint */
   ali3_lanes load; /* right side of M qdd = load */
   double gravity[3]; /* zero if the forces of the System include it */
-  double mass[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* M, lower triangle; zero between joints on different branches */
-  double dense[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* a matrix and its factors */
-  double product[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* M times the columns of the null space */
-  double row[ALI3_MOST_CUT_ROWS][ALI3_LANES]; /* Jacobian of the rows of the cut joints */
-  double upper[ALI3_MOST_CUT_ROWS][ALI3_LANES]; /* factors of the chosen rows */
-  double Phi[ALI3_MOST_CUT_ROWS], gamma[ALI3_MOST_CUT_ROWS];
-  int32_t row_order[ALI3_MOST_CUT_ROWS], column_order[ALI3_LANES], rank; /* the first `rank` of both are the chosen */
+  double mass[ALI3_MAX_JOINTS + 1][ALI3_LANES]; /* M, lower triangle; zero between joints on different branches */
+  double dense[ALI3_MAX_JOINTS + 1][ALI3_LANES]; /* a matrix and its factors */
+  double product[ALI3_MAX_JOINTS + 1][ALI3_LANES]; /* M times the columns of the null space */
+  double row[ALI3_MAX_CUT_ROWS][ALI3_LANES]; /* Jacobian of the rows of the cut joints */
+  double upper[ALI3_MAX_CUT_ROWS][ALI3_LANES]; /* factors of the chosen rows */
+  double Phi[ALI3_MAX_CUT_ROWS], gamma[ALI3_MAX_CUT_ROWS];
+  int32_t row_order[ALI3_MAX_CUT_ROWS], column_order[ALI3_LANES], rank; /* the first `rank` of both are the chosen */
   double stage[ALI3_STAGES][2 * ALI3_LANES], sum[2 * ALI3_LANES]; /* rates of (q, qd) at the stages of a step */
   double state[2 * ALI3_LANES], qdd[ALI3_LANES]; /* state at the present stage */
-  double turned[ALI3_MOST_ANGLES]; /* values of the angles at zero joint coordinates, including whole turns */
+  double turned[ALI3_MAX_ANGLES]; /* values of the angles at zero joint coordinates, including whole turns */
 };
 
 /* tree_derive.c */

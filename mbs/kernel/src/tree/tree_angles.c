@@ -32,7 +32,7 @@ void ali3_angles_write(const ali3_system *S, const ali3_tree_work *w, double *q,
   }
 }
 
-/* Adds the generalised forces of the angles to those of their joints. */
+/* Adds the generalised forces of the angles to the forces of their joints. */
 void ali3_angles_load(const ali3_system *S, ali3_tree_work *w, const double *Q) {
   for (int32_t a = 0; a < S->tree->n_angle; a++)
     for (int32_t k = S->tree_angle_ptr[a]; k < S->tree_angle_ptr[a + 1]; k++)

@@ -236,7 +236,7 @@ static bool reduce_mass(const ali3_tree *T, ali3_tree_work *w) {
 /* Joint accelerations (n) from w->load, w->gamma and M. */
 bool ali3_loops_solve(const ali3_tree *T, ali3_tree_work *w, double *qdd) {
   const int32_t r = w->rank, n = T->n, f = n - r;
-  double g[ALI3_MOST_CUT_ROWS], z[ALI3_LANES];
+  double g[ALI3_MAX_CUT_ROWS], z[ALI3_LANES];
   const bool positive = reduce_mass(T, w);
   solve_dependent(w, w->gamma, g);
   for (int32_t d = 0; d < r; d++) {
@@ -261,7 +261,7 @@ bool ali3_loops_solve(const ali3_tree *T, ali3_tree_work *w, double *qdd) {
 /* Subtracts from x (n) the smallest change, in the metric of mass, that removes the violation of the chosen rows. */
 void ali3_loops_correct(const ali3_tree *T, ali3_tree_work *w, const double *violation, double *x) {
   const int32_t r = w->rank, n = T->n, f = n - r;
-  double y[ALI3_MOST_CUT_ROWS], z[ALI3_LANES];
+  double y[ALI3_MAX_CUT_ROWS], z[ALI3_LANES];
   solve_dependent(w, violation, y);
   for (int32_t c = 0; c < f; c++) {
     z[c] = 0.0;
