@@ -93,7 +93,7 @@ def _fmpy(environment: CarEnvironment, folder: Path) -> Way:
     inputs = [reference[name] for name in environment.car.inputs]
     outputs = [reference[name] for name in environment._reads]
     values, h = [0.0] * len(inputs), environment.car.step_length
-    texts = {name: value for name, value in environment.car._always.items() if isinstance(value, str)}
+    texts = {name: value for name, value in environment.car._parameters.items() if isinstance(value, str)}
 
     def begin() -> None:
         slave.reset()
