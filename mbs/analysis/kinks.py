@@ -27,7 +27,7 @@ def state_beside_kinks(evaluator: Evaluator, side: int | None) -> State:
     """Shift the state of the evaluator away from kinks of the forces in the velocities.
 
     `side`: 1 or -1 for rising or falling velocities; None takes rising ones and warns with `LinearisationWarning`.
-    Raises `ValueError`: a coordinate has several kinks.
+    Raises `ValueError` if a coordinate has several kinks.
     """
     state = evaluator.state
     names = evaluator.system.meta["coordinates"]

@@ -17,7 +17,7 @@ class Progress:
     """A bar on the standard error stream, or lines; silent until `delay` seconds have passed.
 
     `delay`: time before the bar appears, s; `clock`: monotone time, s; `everywhere`: whether the bar is also written to
-    a stream that is no terminal, with control characters.
+    a stream that is not a terminal, with control characters.
     """
 
     def __init__(

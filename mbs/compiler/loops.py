@@ -61,7 +61,7 @@ class Block:
     vertices: list[Vertex]
     edges: list[Edge]
     reference: Vertex
-    """Vertex to which the motion of the block is relative: the ground, else the one with most edges in the model."""
+    """Vertex to which the motion of the block is relative: the ground, or the one with most edges in the model."""
 
 
 def blocks_of_loops(model: Model) -> list[Block]:

@@ -75,7 +75,7 @@ class Cut:
 def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
     """Groups in depth-first order, the ground first, and the joints that are cut.
 
-    Raises `NoTreeError`: with the reason.
+    Raises `NoTreeError` with the reason if the model has no tree.
     """
     _check_model(model)
     group_of = _weld_groups(model)
@@ -143,7 +143,7 @@ def _check_model(model: Model) -> None:
 def angle_joints(groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
     """The joints whose coordinates add up to a relative angle, by the numbers of their bodies, and their signs.
 
-    Raises `NoTreeError`: where a joint between its bodies turns about another axis.
+    Raises `NoTreeError` if a joint between its bodies turns about another axis.
     """
     assert joint.turn is not None
     axis = np.array([0.0, 0.0, 1.0]) if joint.turn.axis is None else in_space(joint.turn.axis)

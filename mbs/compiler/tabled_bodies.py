@@ -1,4 +1,4 @@
-"""Lookup-table bodies and numbers: dependent coordinates, numbered after those of the System, and `tabled_` arrays."""
+"""Lookup-table bodies and numbers: dependent coordinates, numbered after the coordinates, and `tabled_` arrays."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -98,7 +98,7 @@ def tabled_cliques(model: Model, with_dependents: Sequence[Affine]) -> list[list
 
 
 def expand_columns(columns: Sequence[int], dependent_columns: Sequence[Sequence[int]], nz: int) -> list[int]:
-    """Coordinates of z on which columns depend; those from `nz` on are dependents with columns `dependent_columns`."""
+    """Coordinates of z on which columns depend; number `nz` and higher are dependents, columns `dependent_columns`."""
     return sorted({j for c in columns for j in (dependent_columns[c - nz] if c >= nz else [c])})
 
 

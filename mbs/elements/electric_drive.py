@@ -29,7 +29,7 @@ class ElectricDrive(Element):
     max_power: NotNegative
     """Largest power of the motor at its shaft, W."""
     ratio: Positive
-    """Speed of the motor over the mean speed of the wheels, a ratio."""
+    """Ratio of the speed of the motor to the mean speed of the wheels."""
     limit_speed: Positive = 1200.0
     """Speed of the motor beyond which its torque fades to zero within 5 %, rad/s."""
     efficiency: Share = 0.9

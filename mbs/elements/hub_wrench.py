@@ -1,4 +1,4 @@
-"""Force and moment on the hub of a wheel, given by inputs in place of a tyre."""
+"""Force and moment on the hub of a wheel, given by inputs instead of a tyre."""
 
 from __future__ import annotations
 

@@ -106,7 +106,7 @@ def texts_of(kind: type) -> dict[str, str]:
 def reals_of(thing: object, label: str, values: Mapping[str, object] | None = None) -> Reals:
     """Checked numbers of an element or a road, in the order of the kernel.
 
-    `label`: of the element or road, for messages; `values`: in place of fields, by name.
+    `label`: label of the element or road, for messages; `values`: values by name that replace fields.
     """
     reals: Reals = {}
     for name, real in declared(type(thing)).items():

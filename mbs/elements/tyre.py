@@ -64,11 +64,11 @@ class TyreCurve:
     max_force: AtTwoLoads
     """Largest force on a road of the reference friction, N; otherwise proportional to the friction."""
     max_slip: AtTwoLoads
-    """Slip where it is reached, a ratio."""
+    """Slip at which it is reached, a ratio."""
     slide_force: AtTwoLoads
     """Force of full sliding, N; proportional to the friction too."""
     slide_slip: AtTwoLoads
-    """Slip from which on it slides, a ratio."""
+    """Slip above which it slides, a ratio."""
 
 
 Curve = Annotated[TyreCurve, Group(TyreCurve, "a TyreCurve", "curve")]
@@ -98,9 +98,9 @@ class Tyre(Element):
     trail: SignedAtTwoLoads
     """Dynamic trail over contact length at zero slip, a ratio."""
     trail_zero: Annotated[Pair, Real(positive, LOADS, "slip of zero trail")]
-    """Lateral slip where the trail first vanishes, a ratio."""
+    """Lateral slip at which the trail first vanishes, a ratio."""
     trail_end: Annotated[Pair, Real(positive, LOADS, "end slip of the trail")]
-    """Lateral slip where it ends, a ratio."""
+    """Lateral slip at which it ends, a ratio."""
     carcass_stiffness: AlongAxes
     """Longitudinal and lateral stiffness of the carcass, N/m."""
     carcass_damping: AlongAxes

@@ -20,7 +20,7 @@ ENERGIES = ("kinetic", "gravity", "elastic", "total")
 
 @dataclass(frozen=True)
 class _WorkIntegers(Sequence[int]):
-    """Integers of a work sensor of all elements from number `first` on, including elements that are added later."""
+    """Integers of a work sensor of all elements beginning with `first`, including elements that are added later."""
 
     elements: Sequence[ElementRecord]
     first: int
@@ -41,7 +41,7 @@ class EnergySensorVocabulary(SensorVocabulary):
     """Sensors of energy, mass and work of the whole model."""
 
     book_of_added: tuple[str, str] | None = None
-    """Name and description of a sensor of the work of all elements added from now on; it is added with the first."""
+    """Name and description of a sensor of the work of all elements added later; it is added with the first of them."""
 
     def add(self, element: ElementRecord) -> ElementRecord:
         """Add a force element by its record.

@@ -24,8 +24,8 @@ def body_and_point(
 ) -> tuple[Body, ArrayLike]:
     """Body and point of an end that does not slide; a body alone is its centre of mass.
 
-    Neither is checked to be of the model. Raises `ModelError`: the end is something else; `expected`: description of a
-    valid one.
+    Neither is checked to be of the model. `expected`: description of a valid end. Raises `ModelError` if the end is
+    something else.
     """
     if isinstance(end, Body):
         return end, end.com

@@ -209,7 +209,7 @@ class ParameterVocabulary(Register):
         Parameters
         ----------
         value : float
-            As the model is compiled, in `unit`.
+            Value in the compiled model, in `unit`.
         min, max : float
             Limits, in `unit`.
         unit : str
@@ -228,8 +228,8 @@ class ParameterVocabulary(Register):
         Raises
         ------
         ModelError
-            The value is not between the limits, a target does not exist or is another parameter's, or what it writes at
-            one of the limits is no value that the target can have.
+            The value is not between the limits, a target does not exist or is another parameter's, or it cannot have
+            the number that one of the limits writes.
         """
         subject = f"parameter {shown(name)}"
         start = number(value, f"The value of {subject}")

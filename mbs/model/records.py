@@ -128,7 +128,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class RoadFileParameter:
-    """A parameter that is text: the file in place of a road."""
+    """A parameter that is text: the file of a road."""
 
     name: str
     road: int

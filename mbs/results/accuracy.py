@@ -54,9 +54,9 @@ class Accuracy:
     message: str = ""
     """Evidence against the result, with a remedy; empty if there is none."""
     notice: str = ""
-    """A sentence about an open energy balance of a run that its refined run confirms; else empty."""
+    """A sentence about an open energy balance of a run that its refined run confirms; otherwise empty."""
     branch: str = ""
-    """A sentence about a change of the assembly mode that the refined run does not make; else empty."""
+    """A sentence about a change of the assembly mode that the refined run does not make; otherwise empty."""
 
     @property
     def error(self) -> float | None:
@@ -97,7 +97,7 @@ def required_check(report: Report, method: str) -> str:
 
 def missed_over_peak(report: Report) -> float:
     """Changes of velocity that ``v + h a`` misses, over the largest velocity."""
-    # a constant velocity is no motion that steps could miss
+    # steps cannot miss a constant velocity
     speed = min(report.speed_peak, report.velocity_path) or math.inf
     return report.predictor_path / speed
 
@@ -186,7 +186,7 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
     """
     sufficient = next(((step, error) for step, error in tried if error <= CLEAR), None)
     if sufficient is None:
-        tolerance_advice = "simulate(..., tolerance=1e-3) in place of a step finds sufficient steps."
+        tolerance_advice = "simulate(..., tolerance=1e-3) instead of a step finds sufficient steps."
         if not tried:
             return f"Which step is sufficient was not tried: {tolerance_advice}"
         step, error = tried[-1]
@@ -232,7 +232,7 @@ def budget_text(accuracy: Accuracy, step: float, most: float, needed: float) -> 
     return (
         f"Whether the result is off was not checked: a refined run with steps of {step:g} s would cost more than the "
         f"budget of {most:g} runs ({reason}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give it "
-        "tolerance=1e-3 in place of a step."
+        "tolerance=1e-3 instead of a step."
     )
 
 

@@ -210,7 +210,7 @@ def select_compared(
     """Values of a run that are compared, by name, as the kernel selects them.
 
     `at_rest`: no coordinate moves, so that rates and motor forces are excluded; `guided`: two motions decide whether a
-    position moves by itself, see `differences`; `length`, `before`, `energy`: as of `Comparison`.
+    position moves by itself, see `differences`; `length`, `before`, `energy`: as in `Comparison`.
     """
     comparison = Comparison(
         {n: quantity for n, quantity in compared.items() if quantity.always or not at_rest}, length, before, energy

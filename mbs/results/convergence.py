@@ -73,7 +73,7 @@ def extrapolate_error(
     That order holds after abrupt events too: stops are located, and parts of steps shrink with the step.
 
     `tables`: samples (n,), by name, of the run and of the last two refined ones, of which the last has half the step;
-    `before`, `length`: as of `Comparison`. Result: the sizes of the sensors too, see `Comparison.sizes`.
+    `before`, `length`: as in `Comparison`. Result: the sizes of the sensors too, see `Comparison.sizes`.
     """
     run, coarse, fine = tables
     weight = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)

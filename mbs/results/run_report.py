@@ -41,7 +41,7 @@ class Report:
     work : float
         Work of inputs, drives, dampers and tyres, the sum of their shares of the steps, J.
     kinetic_peak : float
-        Largest kinetic energy, J; at least that of 1e-6 m/s, so that round-off at rest is no error.
+        Largest kinetic energy, J; at least the energy at 1e-6 m/s, so that round-off at rest does not count.
     speed_peak, velocity_path, predictor_path : float
         In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, length of the path of the velocity, and the
         sum over the steps of its distance from ``v + h a`` of their start; of methods of order above two the larger of

@@ -58,7 +58,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     notices : sequence of str
         Notices of the scene, see `Model.notice`; evaluated at the recorded times.
     branch_change : str
-        A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
+        A sentence about the first change of the assembly mode of a closed loop; empty if there was none.
     control : Control, optional
         Record of the choice of method and steps, if `simulate` chose them.
     drawing : Drawing, optional
@@ -208,7 +208,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
 
     def thinned(self, every: int) -> Trajectory:
-        """Keep every n-th sample, from the first on, with the same report, settings and accuracy.
+        """Keep every n-th sample, including the first, with the same report, settings and accuracy.
 
         Parameters
         ----------

@@ -220,7 +220,7 @@ def _check_signal(name: str, signal: Signal) -> Signal:
 def _interpolate(
     t: NDArray[np.float64], times: NDArray[np.float64], values: NDArray[np.float64], tolerance: float, after_jump: bool
 ) -> NDArray[np.float64]:
-    """Values of a table at times `t` (n,), s; `tolerance`, `after_jump`: as of `InputSignals.at`."""
+    """Values of a table at times `t` (n,), s; `tolerance`, `after_jump`: as in `InputSignals.at`."""
     if after_jump:
         right = np.searchsorted(times, t + tolerance, side="right")
     else:

@@ -27,8 +27,8 @@ class Tolerance:
 def check_tolerance(tolerance: object, units: Mapping[str, str], length: float) -> Tolerance:
     """Return the tolerance of a run, given as a number or as numbers by sensor.
 
-    `units`: of the sensors that the System computes, by name; `length`: of the model, m. Raises `ValueError`: it is not
-    valid.
+    `units`: units of the sensors that the System computes, by name; `length`: length of the model, m. Raises
+    `ValueError` if the tolerance is not valid.
     """
     if isinstance(tolerance, Mapping):
         return _check_sensor_tolerances(tolerance, units, length)

@@ -92,8 +92,8 @@ def check_resolution(t: float, h: float) -> None:
 def count_steps(t0: float, t_end: float, h: float) -> int:
     """Number of whole steps of `h` from `t0` to `t_end`, s, up to round-off.
 
-    Raises `ValueError`: the end is before the start, or the step is longer than the run or lost in the round-off of the
-    time.
+    Raises `ValueError` if the end is before the start, or the step is longer than the run or lost in the round-off of
+    the time.
     """
     end = check_end(t0, t_end)
     steps = math.floor((end - t0) / h + 1e-6)
@@ -109,7 +109,7 @@ def warn_of_end(t0: float, t_end: float, h: float) -> None:
     covered, duration = count_steps(t0, t_end, h) * h, t_end - t0
     if duration - covered > MOST_OMITTED_SHARE * duration + 1e-6 * h:
         warnings.warn(
-            f"The run ends at {t0 + covered:g} s, a whole number of steps of {h:g} s, in place of {t_end:g} s; h = "
+            f"The run ends at {t0 + covered:g} s, a whole number of steps of {h:g} s, instead of {t_end:g} s; h = "
             f"{duration / math.ceil(duration / h):.9g} ends there.",
             AccuracyWarning,
             stacklevel=3,
@@ -163,7 +163,7 @@ def check_progress(progress: bool | Callable[[float], None] | None) -> None:
 
 
 def record_times(t0: float, t_end: float, h: float | None, every: int, times: ArrayLike | None) -> NDArray[np.float64]:
-    """Instants of the record, s, shape (n,), beginning with `t0`; `h` and `every` or `times`: as of `simulate`."""
+    """Instants of the record, s, shape (n,), beginning with `t0`; `h`, `every` and `times` as in `simulate`."""
     check_end(t0, t_end)
     if times is not None and h is not None:
         raise ValueError("Both times and h are given; one of them says where to record.")

@@ -117,8 +117,8 @@ class ControlledRun:
     def advance(self, steps: int) -> None:
         """Make at most `steps` accepted steps, no further than to the end.
 
-        Raises `KernelError`: a step of the least size fails; `StalledError`: many steps of the least size exceed their
-        share of the error.
+        Raises `KernelError` if a step of the least size fails, `StalledError` if many steps of the least size exceed
+        their part of the error.
         """
         instance, task = self.simulation.instance, self.task
         time_tolerance = 1e-9 * task.span

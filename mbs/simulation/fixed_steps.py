@@ -50,8 +50,8 @@ def run_fixed_steps(
 ) -> Trajectory:
     """Run in steps of `h`, s, with further runs that estimate its error, see `estimate_accuracy`.
 
-    `start`: makes the simulation for a step, s; `before`, `divisor`: as of `RefinedRuns`; `warned`: list to which
-    warnings except `Accuracy.message` are added, also if the run fails; None: they are issued.
+    `start`: function that makes the simulation for a step, s; `before`, `divisor`: as in `RefinedRuns`; `warned`: list
+    to which warnings except `Accuracy.message` are added, also if the run fails; None: they are issued.
     """
     is_checked = estimate_error is not False
     most_cost = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error

@@ -29,7 +29,7 @@ class BendingWarning(UserWarning):
 class BendingWatch:
     """Largest rotation of a node in its floating frame over the observed states.
 
-    `frames`: of the System; None or without flexible bodies: nothing is observed.
+    `frames`: frames of the System; None or without flexible bodies: nothing is observed.
     """
 
     def __init__(self, frames: Frames | None) -> None:
@@ -56,7 +56,7 @@ class BendingWatch:
 
     @property
     def message(self) -> str:
-        """Text of the warning with a remedy if a body bent too far, else empty."""
+        """Text of the warning with a remedy if a body bent too far, otherwise empty."""
         if self.body is None or self.turn <= MOST_TURN:
             return ""
         divisions = int(np.ceil(self.turn / MOST_TURN))
@@ -68,7 +68,7 @@ class BendingWatch:
         )
 
     def message_once(self) -> str:
-        """Return the message on the first call that has one, else an empty text."""
+        """Return the message on the first call that has one, otherwise an empty text."""
         text = "" if self._was_reported else self.message
         self._was_reported = self._was_reported or bool(text)
         return text

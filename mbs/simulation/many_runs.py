@@ -64,9 +64,9 @@ class Variant:
     parameters: Mapping[str, Any] = field(default_factory=dict)
     """Values that differ from their declaration."""
     inputs: Mapping[str, Signal] = field(default_factory=dict)
-    """Inputs over time, as of `simulate`."""
+    """Inputs over time, as in `simulate`."""
     pose: Pose | None = None
-    """Start of a scene that is not tied to the ground."""
+    """Initial pose of a model without a connection to the ground."""
 
 
 @dataclass(frozen=True)

@@ -59,7 +59,7 @@ def choose(
 ) -> MethodChoice:
     """Choose the method for a tolerance by runs of all candidates at the tolerance `coarse`.
 
-    Each runs as long as it can still be the fastest. Raises `SimulationError`: none reaches the end.
+    Each runs as long as it can still be the fastest. Raises `SimulationError` if none reaches the end.
     """
     system = start().system
     names, property_text = candidates(system, tolerance)
@@ -78,7 +78,7 @@ def choose(
     if not best:
         raise SimulationError(
             f"None of {', '.join(runs)} reaches the end of the run from t = {task.t0:g} to {task.t_end:g} s, not even "
-            f"at {coarse:g} in place of the tolerance of {tolerance:g} that was asked for; name a method to see where "
+            f"at {coarse:g} instead of the tolerance of {tolerance:g} that was asked for; name a method to see where "
             "and why it fails.",
             task.t0,
             Status.NOT_CONVERGED,

@@ -32,7 +32,7 @@ def _loaded_with_ports(system: System) -> tuple[LoadedSystem, dict[str, int]] | 
 class OmittedSensorSystem:
     """A second System with ports that follows the states of a simulation.
 
-    `sensor`: the requested one, for the error. Raises `KeyError`: there is no System with ports.
+    `sensor`: name of the requested sensor, for the error. Raises `KeyError` if there is no System with ports.
     """
 
     def __init__(self, system: System, sensor: str = "") -> None:
@@ -45,7 +45,7 @@ class OmittedSensorSystem:
     def values(self, instance: Instance) -> list[float]:
         """Values of the omitted sensors at the state of `instance`, which is not changed.
 
-        Raises `SimulationError`: the forces at the ports cannot be computed.
+        Raises `SimulationError` if the forces at the ports cannot be computed.
         """
         try:
             self._instance.follow(instance)

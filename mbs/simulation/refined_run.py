@@ -48,7 +48,7 @@ class RefinedRuns:
     Parameters
     ----------
     run : tuple of Trajectory and list of ndarray
-        The first run, and its coordinates if these are compared in place of sensors.
+        The first run, and its coordinates if these are compared instead of sensors.
     march : callable
         Makes a run; arguments: step, s, steps between two samples, callback of its progress from 0 to 1, whether
         coordinates are recorded, most Newton iterations of a step (0: those of the settings), and a callback that sees
@@ -141,7 +141,7 @@ class RefinedRuns:
     def refine(self, parts: int) -> Accuracy:
         """Make a refined run with the step divided by `parts`, and return the accuracy estimated from it.
 
-        Raises `SimulationError`: the run fails; `TooDearError`: it exceeds the remaining budget.
+        Raises `SimulationError` if the run fails, `TooDearError` if it exceeds the remaining budget.
         """
         refined = self._refined[parts] = self.rerun(self.h / parts, self.every * parts, float(parts))
         self.left_alone = bool(self.run[0].branch_change) and not refined[0].branch_change
@@ -189,7 +189,7 @@ class RefinedRuns:
         The step is halved, down to a 16th, while the refined run is coarse or its own error could change the verdict;
         with a `divisor` there is one run. If the last run is still uncertain, its possible error is added.
 
-        Raises `SimulationError`: a run fails; `TooDearError`: a run would exceed the remaining budget.
+        Raises `SimulationError` if a run fails, `TooDearError` if a run would exceed the remaining budget.
         """
         parts = self.first_divisor
         verdict = self.refine(parts)
@@ -286,7 +286,7 @@ class RefinedRuns:
     def rerun(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
         """Run the motion in steps of `h`, s, with a sample every `every` steps, and add the cost.
 
-        Raises `TooDearError`: the cost exceeds the remaining budget.
+        Raises `TooDearError` if the cost exceeds the remaining budget.
         """
         spent_cost = 1.0 + self.cost
         self.tried = h

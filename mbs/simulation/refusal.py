@@ -142,7 +142,7 @@ def _changed_parameters_text(simulation: SteppedSystem) -> str:
     for k, entry in enumerate(prepared(simulation.system)[1]["parameters"]):
         value, span = simulation.instance.get_parameter(k), entry["max"] - entry["min"]
         if value != entry["value"]:
-            change_text = f"{entry['name']!r} is {value:g}{unit_text(entry['unit'])} in place of {entry['value']:g}"
+            change_text = f"{entry['name']!r} is {value:g}{unit_text(entry['unit'])} instead of {entry['value']:g}"
             changed.append((abs(value - entry["value"]) / span if span < math.inf else math.inf, change_text))
     changed.sort(key=lambda item: -item[0])
     changes_text = "; ".join(change_text for _, change_text in changed[:MOST_NAMES])

@@ -73,7 +73,7 @@ class Simulation(SteppedSystem):
     Raises
     ------
     ArgumentTypeError
-        An argument is of another kind, such as a Model in place of a System.
+        An argument has the wrong type, such as a Model instead of a System.
     ValueError
         A name is unknown, a value lies outside its limits, or the System takes no pose.
     SimulationError
@@ -126,7 +126,7 @@ class Simulation(SteppedSystem):
         )
 
     def set_input(self, name: str, value: float) -> None:
-        """Set the value of an input from now on.
+        """Set the value of an input.
 
         Parameters
         ----------
@@ -207,7 +207,7 @@ class Simulation(SteppedSystem):
                 )
 
     def _set_road(self, entry: Mapping[str, Any], value: object) -> None:
-        """Set the file of a road at the start. `entry`: of the parameter in `System.meta`."""
+        """Set the file of a road at the start. `entry`: entry of the parameter in `System.meta`."""
         name = entry["name"]
         if self._started:
             raise ValueError(f"Parameter {name!r} is fixed: give the file of a road to the Simulation's constructor.")
@@ -530,7 +530,7 @@ class Simulation(SteppedSystem):
         self._call("The saved state was refused", lambda: self.instance.restore(bytes(state)))
 
     def _index(self, kind: str, name: str) -> int:
-        """Index of an input, parameter or switch. `kind`: key of the metadata. Raises `ValueError`: there is none."""
+        """Index of an input, parameter or switch; `kind`: key of the metadata. Raises `ValueError` if there is none."""
         names = [entry["name"] for entry in self._meta[kind]]
         if not isinstance(name, str) or name not in names:
             available = ", ".join(names) or "none"
@@ -538,7 +538,7 @@ class Simulation(SteppedSystem):
         return names.index(name)
 
     def _call(self, subject: str, action: Callable[[], object], *, step_given: bool = False) -> None:
-        """Call the kernel; make a `SimulationError` of its error. `subject`, `step_given`: as of `refusal`."""
+        """Call the kernel; make a `SimulationError` of its error. `subject`, `step_given`: as in `refusal`."""
         try:
             action()
         except KernelError as error:

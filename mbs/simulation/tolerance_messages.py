@@ -41,7 +41,7 @@ def stalled_error(run: ControlledRun, tolerance: float, record: Trajectory) -> S
 
 
 def refused_error(run: ControlledRun, tolerance: float, record: Trajectory, error: KernelError) -> SimulationError:
-    """Error of a run in which a step failed; `tolerance` and `record` as of `stalled_error`."""
+    """Error of a run in which a step failed; `tolerance` and `record` as in `stalled_error`."""
     simulation = run.simulation
     if error.status in (Status.NO_TREE, Status.WRONG_METHOD):
         return refusal(simulation, "The run was refused", error, record)

@@ -37,7 +37,7 @@ class SystemFileError(ValueError):
 class CompiledModel:
     """The arrays and metadata of a System without its drawing; immutable.
 
-    `arrays`, `meta` and `frames`: as of `mbs.System`.
+    `arrays`, `meta` and `frames`: as in `mbs.System`.
     """
 
     def __init__(

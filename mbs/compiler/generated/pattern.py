@@ -12,7 +12,7 @@ Integers = list[int]
 
 @dataclass(frozen=True)
 class Front:
-    """A front of the tangent, stored by columns from `offset` on."""
+    """A front of the tangent, stored by columns beginning at `offset`."""
 
     number: int
     offset: int
@@ -39,7 +39,7 @@ class Element:
     triple: list[bool]
     """Whether each signal is the first component of a point."""
     tangent: int
-    """Index of the first of its tangents among those of all elements."""
+    """Index of its first tangent among the tangents of all elements."""
 
 
 class Pattern:

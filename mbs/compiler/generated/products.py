@@ -18,7 +18,7 @@ FORCES = (
 
 
 def store(array: str, first: int, length: int, value: str, end: int) -> list[str]:
-    """C that stores `length` numbers of a vector in an array with `end` entries, from `first` on.
+    """C that stores `length` numbers of a vector in an array with `end` entries, beginning at `first`.
 
     The entry after them may be overwritten: it is written later.
     """
@@ -96,7 +96,7 @@ def signals(pattern: Pattern) -> list[str]:
 
 
 def forces(pattern: Pattern) -> list[str]:
-    """Adds the forces on signals to Q, element by element; those of idle elements are zero."""
+    """Adds the forces on signals to Q, element by element; idle elements have zero forces."""
     ptr = pattern.array["el_sig_ptr"]
     terms: list[list[tuple[int, int, int]]] = [[] for _ in range(1 + max([pattern.nq - 1, *pattern.sig_col]))]
     for element in pattern.elements:

@@ -37,7 +37,7 @@ def _gather(front: Front, piece: Piece) -> str:
 
 
 def _scatter(front: Front, piece: Piece, value: str, first: int) -> list[str]:
-    """Statements that write the unknowns of a piece from index `first` on back to b."""
+    """Statements that write the unknowns of a piece, beginning at index `first`, back to b."""
     coordinates = front.coordinates
     if not piece.wide:
         return [f"  b[{coordinates[piece.first]}] = {value};"] if piece.first >= first else []
@@ -67,7 +67,7 @@ def _forward(front: Front) -> list[str]:
 
 
 def _scalars(front: Front, column_pieces: Sequence[Piece], p: int, count: int) -> list[str]:
-    """Statements for the unknowns of `count` pivots from p on, minus the products with earlier pivots of the group."""
+    """Statements for the unknowns of `count` pivots after p, minus the products with earlier pivots of the group."""
 
     def element(i: int) -> str:
         piece = next(x for x in column_pieces if x.first <= i < x.first + (4 if x.wide else 1))
@@ -91,7 +91,7 @@ def _scalars(front: Front, column_pieces: Sequence[Piece], p: int, count: int) -
 
 
 def _subtracted(piece: Piece, p: int, count: int, n: int) -> str:
-    """C expression of a piece minus its products with `count` pivots from p on."""
+    """C expression of a piece minus its products with `count` pivots beginning with p."""
     x = f"x{piece.first}"
     term = [f"{piece.load(f'(A + {(p + k) * n})')} * y{p + k}" for k in range(count)]
     if count == 1:

@@ -10,7 +10,7 @@
 #include "element.h"
 
 enum {
-  /* Torque of the engine, N m; full torque is the lesser of it and of the power over the speed. */
+  /* Torque of the engine, N m; full torque is the lesser of it and of the power divided by the speed. */
   MAX_TORQUE,
   /* Power of the engine, W. */
   MAX_POWER,
@@ -18,17 +18,17 @@ enum {
   EFFICIENCY,
   /* Torque ratio of the converter at stall. */
   STALL_FACTOR,
-  /* Speed ratio of the converter from which on its torque ratio is 1. */
+  /* Speed ratio of the converter above which its torque ratio is 1. */
   COUPLING_RATIO,
   /* Engine speed at rest with closed throttle, rad/s. */
   IDLE_SPEED,
   /* Engine speed at rest with open throttle, rad/s. */
   STALL_SPEED,
-  /* Engine speed where the limiter sets in, rad/s. */
+  /* Engine speed at which the limiter sets in, rad/s. */
   LIMIT_SPEED,
   /* Torque per driven wheel at rest with closed throttle, the selector in drive, N m; 0: neutral. */
   CREEP_TORQUE,
-  /* Wheel speed where the creep torque has faded, rad/s. */
+  /* Wheel speed at which the creep torque has faded, rad/s. */
   CREEP_SPEED,
   /* Torque of the engine at its limit speed with closed throttle, N m. */
   DRAG_TORQUE,

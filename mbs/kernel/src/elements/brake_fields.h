@@ -17,7 +17,7 @@ enum {
   STICK_DAMPING,
   /* Factor on max_torque, so that a total torque and a balance may be parameters. */
   SHARE,
-  /* Torque at full hand brake, N m; that of the pedal is added to it. */
+  /* Torque at full hand brake, N m; the torque of the pedal is added to it. */
   HAND_TORQUE,
   /* Factor on the share, so that brakes that differ from left to right may be a parameter. */
   SIDE,

@@ -14,7 +14,7 @@ enum {
   MAX_TORQUE,
   /* Largest power of the motor at its shaft, W. */
   MAX_POWER,
-  /* Speed of the motor over the mean speed of the wheels, a ratio. */
+  /* Ratio of the speed of the motor to the mean speed of the wheels. */
   RATIO,
   /* Speed of the motor beyond which its torque fades to zero within 5 %, rad/s. */
   LIMIT_SPEED,

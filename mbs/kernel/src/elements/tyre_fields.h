@@ -32,9 +32,9 @@ enum {
   TYRE_LATERAL = TYRE_LONGITUDINAL + 10,
   /* Dynamic trail over contact length at zero slip, a ratio. */
   TYRE_TRAIL = TYRE_LATERAL + 10,
-  /* Lateral slip where the trail first vanishes, a ratio. */
+  /* Lateral slip at which the trail first vanishes, a ratio. */
   TYRE_TRAIL_ZERO = TYRE_TRAIL + 2,
-  /* Lateral slip where it ends, a ratio. */
+  /* Lateral slip at which it ends, a ratio. */
   TYRE_TRAIL_END = TYRE_TRAIL_ZERO + 2,
   /* Longitudinal and lateral stiffness of the carcass, N/m. */
   TYRE_CARCASS_STIFFNESS = TYRE_TRAIL_END + 2,
