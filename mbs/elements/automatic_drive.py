@@ -131,7 +131,7 @@ class AutomaticDrive(Element):
         request: int | None = None,
         clutch: int | None = None,
     ) -> ElementRecord:
-        """The force element; the frame carries the reaction.
+        """Make the record of the element for the kernel; the frame carries the reaction.
 
         Parameters
         ----------

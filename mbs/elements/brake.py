@@ -60,7 +60,7 @@ class Brake(Element):
         *,
         by_size: bool = False,
     ) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------

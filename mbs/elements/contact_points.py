@@ -106,7 +106,7 @@ class ContactPoints(Element):
     def record(
         self, name: str, origin: AffineVector, axes: Sequence[AffineVector], points: ArrayLike, road: int
     ) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------

@@ -76,7 +76,7 @@ class ElectricDrive(Element):
         throttle: int,
         selector: int | None = None,
     ) -> ElementRecord:
-        """The force element; the frame carries the reaction.
+        """Make the record of the element for the kernel; the frame carries the reaction.
 
         Parameters
         ----------

@@ -42,7 +42,7 @@ class Integer:
         return self.noun or f"the {self.name.replace('_', ' ')}"
 
     def checked(self, value: int | None, label: str) -> int:
-        """Return a valid value; None stands for a missing input. `label`: of the element, for messages."""
+        """Return a valid value; None stands for a missing input. `label`: label of the element, for messages."""
         if value is None and self.least == -1:
             return -1
         subject = f"{capital(self.phrase)} of {label}"

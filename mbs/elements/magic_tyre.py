@@ -115,7 +115,7 @@ class MagicTyre(Element):
         return slip_stiffness, c["LONGITUDINAL_STIFFNESS"] or slip_stiffness / ((c["PTX1"] or 0.5) * self.radius)
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Raises
         ------

@@ -119,7 +119,7 @@ class SpringDamper(Element):
     _elastic = True
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Raises
         ------

@@ -58,7 +58,7 @@ class SpringDamperTable(Element):
     _elastic = True
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Returns
         -------

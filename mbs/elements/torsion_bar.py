@@ -37,7 +37,7 @@ class TorsionBar(Element):
     _elastic = True
 
     def record(self, name: str, wheel: Affine, pinion: Affine) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------

@@ -133,7 +133,7 @@ class Tyre(Element):
     _c_prefix = "TYRE_"
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Raises
         ------

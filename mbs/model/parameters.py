@@ -223,7 +223,7 @@ class ParameterVocabulary(Register):
             Whether it may be set while the model moves; False: before the start only, as masses of payloads, ratios of
             armatures and switches must be.
         works : (float, float), optional
-            Range, in `unit`, in which such models work; an FMU and a `Simulation` warn when another value is set.
+            Range of validity of the model, in `unit`; an FMU and a `Simulation` warn if another value is set.
 
         Raises
         ------

@@ -186,7 +186,7 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
 
 def requested_tolerance(system: System, tolerance: object) -> Tolerance:
     """Return the tolerance of a run of the System; raise `ValueError` if it is not valid."""
-    sensors = prepared(system)[1]["sensors"]
+    sensors = prepared(system).meta["sensors"]
     units = {sensor["name"]: sensor["unit"] for sensor in sensors if sensor.get("computed", True)}
     return check_tolerance(tolerance, units, length_of(system))
 

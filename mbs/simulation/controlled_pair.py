@@ -22,7 +22,7 @@ class ControlledPair:
     def differences(self) -> dict[str, float]:
         """Largest differences of the sensors with their own tolerance, in their units."""
         system = self.run.simulation.system
-        compared, names = compared_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
+        compared, names = compared_sensors(system), [s["name"] for s in prepared(system).meta["sensors"]]
         differences = dict[str, float]()
         for name in self.tolerance.sensors:
             fine, coarse = (run.values[:, names.index(name)] for run in (self.run, self.coarser))

@@ -74,7 +74,7 @@ class ControlledRun:
     def __init__(
         self, simulation: SteppedSystem, task: Task, settings: Settings, tolerance: float, longest: float = 1.0
     ) -> None:
-        meta = prepared(simulation.system)[1]
+        meta = prepared(simulation.system).meta
         self.simulation, self.task = simulation, task
         self.length = length_of(simulation.system)
         self.settings = tighten_tolerances(
@@ -184,4 +184,4 @@ def tighten_tolerances(settings: Settings, error: float, q: Array, fineness: flo
 
 def signals_of(inputs: Mapping[str, Signal], simulation: SteppedSystem) -> InputSignals:
     """Signals of the inputs of the System, from functions, tables or constants by name."""
-    return InputSignals(inputs, prepared(simulation.system)[1]["inputs"])
+    return InputSignals(inputs, prepared(simulation.system).meta["inputs"])

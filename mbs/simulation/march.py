@@ -71,7 +71,7 @@ def march(
     t0, h = simulation.time, check_step(h)
     steps, every = count_steps(t0, t_end, h), check_every(every)
     check_progress(progress)
-    meta, instance = prepared(simulation.system)[1], simulation.instance
+    meta, instance = prepared(simulation.system).meta, simulation.instance
     check_record(steps // every + 1, len(meta["sensors"]))
     simulation.step_tried = h
     checked_inputs = check_values(inputs, "The inputs")

@@ -47,7 +47,7 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
     if np.any(system.arrays["guide_type"] != GuideType.OF_TIME):
         return ["ali3p"], "guides through a filter"
     coarse = ["ali3p"] if tolerance >= COARSE else []
-    if not prepared(system)[1]["report"]["no_tree"]:
+    if not prepared(system).meta["report"]["no_tree"]:
         return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5", *coarse], "a tree of joints"
     if len(system.arrays["velocity_row"]) > 0:
         return ["runge_kutta_8", *coarse], "wheels that roll"

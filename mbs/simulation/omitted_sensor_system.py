@@ -16,7 +16,7 @@ NO_PORTS = "there is no model with ports that follows it. Compile one that compu
 
 def omitted_names(system: System) -> list[str]:
     """Names of the sensors that the System does not compute."""
-    return [s["name"] for s in prepared(system)[1]["sensors"] if not s.get("computed", True)]
+    return [s["name"] for s in prepared(system).meta["sensors"] if not s.get("computed", True)]
 
 
 def _loaded_with_ports(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:

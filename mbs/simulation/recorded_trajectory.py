@@ -38,7 +38,7 @@ def recorded_trajectory(
     `wall`: time in the kernel, s; `omitted`: sensors that were not computed; `notices`: sentences beside those of the
     System; empty ones are dropped.
     """
-    sensors = prepared(simulation.system)[1]["sensors"]
+    sensors = prepared(simulation.system).meta["sensors"]
     return Trajectory(
         t,
         values,
@@ -63,7 +63,7 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
 
     `values` (n, ns): samples at the times `t` (n,), s.
     """
-    meta = prepared(system)[1]
+    meta = prepared(system).meta
     notices, sensors = notices_before(meta), meta["sensors"]
     for k, sensor in enumerate(sensors):
         threshold = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0

@@ -40,7 +40,7 @@ class SteppedSystem(SystemInstance):
     def road_text(self) -> str:
         """A sentence about the wheel whose rim was pressed deepest into a road; empty if none was."""
         element, text = self.instance.rim_text()
-        return f"{text} It is the wheel of '{prepared(self.system)[1]['elements'][element]['name']}'." if text else ""
+        return f"{text} It is the wheel of '{prepared(self.system).meta['elements'][element]['name']}'." if text else ""
 
     @property
     def start_text(self) -> str:

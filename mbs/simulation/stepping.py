@@ -43,7 +43,7 @@ from mbs.simulation.arguments import (
 )
 from mbs.simulation.fixed_steps import run_fixed_steps
 from mbs.simulation.omitted_sensor_system import Readings
-from mbs.simulation.parameter_warning import warn_of_unusual_value
+from mbs.simulation.parameter_warning import warn_if_out_of_range
 from mbs.simulation.refusal import refusal
 from mbs.simulation.restored_run import restore_system
 from mbs.simulation.start_on_road import warn_of_start_beside_road
@@ -184,7 +184,7 @@ class Simulation(SteppedSystem):
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
-        warn_of_unusual_value(entry, x, stacklevel=2 if self._started else 3)
+        warn_if_out_of_range(entry, x, stacklevel=2 if self._started else 3)
         self._apply_to_refined(lambda run: run.set_parameter(index, x))
 
     def _apply_to_refined(self, change: Callable[[Instance], object]) -> None:

@@ -34,7 +34,7 @@ from mbs.system.compiled_model import (
     SystemFileError,
 )
 from mbs.system.drawing import Drawing
-from mbs.system.meta_check import meta_problem
+from mbs.system.meta_check import find_meta_error
 from mbs.system.text import system_text
 
 _LARGEST = 4_000_000_000  # bytes of a file
@@ -182,9 +182,9 @@ class System(CompiledModel):
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
             meta = json_of(arrays.pop("meta"), SystemFileError, "The array 'meta' of the System file", finite=False)
-            problem = meta_problem(meta, {name: len(values) for name, values in arrays.items()})
-            if problem:
-                raise SystemFileError(f"The names in the System file were altered: {problem}.")
+            error_text = find_meta_error(meta, {name: len(values) for name, values in arrays.items()})
+            if error_text:
+                raise SystemFileError(f"The names in the System file were altered: {error_text}.")
             drawn = arrays.pop("drawing", None)
             system = cls(arrays, meta, None, None if drawn is None else Drawing.from_bytes(drawn, len(arrays["q0"])))
             str(system)
