@@ -48,7 +48,7 @@ def eliminate(
     Parameters
     ----------
     equations : sequence of (name, Affine)
-        Each expression is zero; the name is that of its joint.
+        Each expression is zero; the name is the name of its joint.
     locked : set of int
         Coordinates that must not be eliminated (angles and spins).
     first : set of int

@@ -22,7 +22,7 @@ def reduce_coordinates(
 ) -> tuple[NaturalCoordinates, list[int], list[Affine], list[Affine], int, list[RowTerms]]:
     """Eliminate the linear equations.
 
-    `retained`: coordinates of flexible bodies, which are never eliminated; `length`: of the model as drawn, m.
+    `retained`: coordinates of flexible bodies, which are never eliminated; `length`: length of the model as drawn, m.
 
     Returns
     -------

@@ -293,7 +293,7 @@ def _corrected_joints(loops: Loops, constants: MovableConstants, tolerance: floa
 def _corrected_joint(
     loops: Loops, c: Condition, g: Array, poses: Poses, joined: bool, points: list[Array], axes: list[Array]
 ) -> Corrected:
-    """A corrected joint; `points`, `axes`: of other joints, whose numbers it takes where they are equal."""
+    """A corrected joint; `points`, `axes`: of other joints, whose numbers it takes if they are equal."""
     ends = c.joint.drawing
     assert ends is not None
     corrected_ends = loops.ends_in_space(c, poses, g)

@@ -123,7 +123,7 @@ def cleaned(
 def expand(
     products: Sequence[Product], linear: Affine, full: Sequence[Affine], size: float, error: float = 0.0
 ) -> Polynomial:
-    """Polynomial in z of a sum of products and a linear part; `size`: of the model, m; `error`: see `cleaned`."""
+    """Polynomial in z of a sum of products and a linear part; `size`: size of the model, m; `error`: see `cleaned`."""
     p: Polynomial = {}
     largest = [0.0, 0.0, 0.0]
     cache: dict[int, Affine] = {}
@@ -155,7 +155,7 @@ def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTer
 def row_terms(
     equation: Equation, joint: int, equation_number: int, full: Sequence[Affine], size: float, error: float = 0.0
 ) -> RowTerms:
-    """An equation of a joint as a row over z; `size`: of the model, m; `error`: see `cleaned`."""
+    """An equation of a joint as a row over z; `size`: size of the model, m; `error`: see `cleaned`."""
     products = expand(equation.products, equation.linear, full, size, error)
     row = RowTerms(equation.name, equation.kind, joint, equation_number, products)
     if equation.angle is not None:

@@ -101,7 +101,7 @@ class _TermLists:
 
 
 class RowArrays:
-    """The row arrays of the System file, by name in `arrays`; coefficients are those of the joints until `scale`.
+    """The row arrays of the System file, by name in `arrays`; coefficients are not scaled until `scale`.
 
     `rows`: over z before ordering; `new`: index of each z in elimination order.
     """

@@ -37,7 +37,7 @@ def candidate_vectors(body: Body) -> list[Vector]:
 def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[RowTerms]:
     """Rows of a rigid body over z, with rows that hold identically.
 
-    `full`: full coordinates as expressions in z; `error`: of the corrected drawing, parts of its size. A row
+    `full`: full coordinates as expressions in z; `error`: error of the corrected drawing, parts of its size. A row
     may be zero but for this error, which would lock the motion that the other rows allow.
     """
     if body.is_point:

@@ -42,7 +42,7 @@ def tabled_coordinates(model: Model) -> list[int]:
 
 
 def base_coordinates(model: Model) -> set[int]:
-    """Natural coordinates that tables depend on, those of base bodies and parameters: they are never eliminated."""
+    """Natural coordinates that tables depend on, of base bodies and parameters: they are never eliminated."""
     bases = {i for b in model.bodies if b.is_base for i in range(b.start, b.start + b.size)}
     return bases | {c.index for t in model.tabled for c in t.parameters}
 

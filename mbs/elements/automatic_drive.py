@@ -89,7 +89,7 @@ class AutomaticDrive(Element):
     _outputs = (
         Output("engine_speed", "rad/s", "speed of the engine", display_unit="rpm"),
         Output("gear", "1", "gear engaged", whole=True),
-        Output("wheel_torque", "N m", "torque on each of the two wheels, the mean where the differential locks"),
+        Output("wheel_torque", "N m", "torque on each of the two wheels, the mean if the differential locks"),
         Output("engine_torque", "N m", "torque of the engine"),
         *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
         *(Output(f"{side}_torque", "N m", f"torque on the {side} wheel") for side in ("left", "right")),

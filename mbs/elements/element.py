@@ -77,8 +77,8 @@ class Element:
     ) -> ElementRecord:
         """Make the record.
 
-        `integer`: values of the declared integers, None if missing; `values`, `states`, `outputs`: in place of those of
-        the fields and the class; `appended`: reals between the required and the optional ones; `has_optional`: whether
+        `integer`: values of the declared integers, None if missing; `values`, `states`, `outputs`: replace those of the
+        fields and the class; `appended`: reals between the required and the optional ones; `has_optional`: whether
         there are optional reals, if no integer is optional.
         """
         label = self._label(name)

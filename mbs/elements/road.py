@@ -52,7 +52,7 @@ class PlaneRoad(Summarised, _NamedNumbers):
     grade_y: Number = 0.0
     """Slope dz/dy, a ratio."""
     friction: NotNegative = 0.9
-    """Coefficient of friction; a tyre has the forces of its curves times it over its own `reference_friction`."""
+    """Coefficient of friction; the forces of a tyre are its curves times this, divided by its `reference_friction`."""
     friction_factor: NotNegative = 1.0
     """Factor on the friction, also on the friction of a road file instead of this road."""
     type: ClassVar[RoadType] = RoadType.PLANE

@@ -12,7 +12,7 @@ from mbs.elements.wheel_signals import carrier_signals
 
 @dataclass(frozen=True)
 class SpinAngle(Element):
-    """Angle of an axisymmetric wheel on its carrier since the start, summed over the steps; it has no force.
+    """Angle of an axisymmetric wheel on its carrier since the start, summed by steps; it has no force.
 
     The coordinate of a spin is the integral of the absolute rate about its axis; where the carrier turns about that
     axis too, or the axis itself is turned around, the angle between wheel and carrier is another. It is the sum of

@@ -80,7 +80,7 @@ WITH_BORE = Integer("with_bore", least=1, most=1, optional=True, noun="the numbe
 class Tyre(Element):
     """Tyre of a wheel that meets the road as a disc.
 
-    Pairs hold at the nominal load and at twice of it, those of the carcass along and across the heading.
+    Pairs hold at the nominal load and at twice the nominal load; pairs of the carcass along and across the heading.
     """
 
     radius: Positive
@@ -90,7 +90,7 @@ class Tyre(Element):
     stiffness: Positive
     """Radial stiffness, N/m."""
     damping: NotNegative
-    """Radial damping, N s/m; it sets in over the first 5 mm."""
+    """Radial damping, N s/m; it grows from zero along the first 5 mm."""
     longitudinal: Curve
     """Longitudinal force over longitudinal slip."""
     lateral: Curve

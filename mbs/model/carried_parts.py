@@ -88,7 +88,7 @@ class WrittenAxis:
     reals: tuple[float, float]
     """In the order of `AXIS_REALS`."""
     leaning: float
-    """Increase of the rolling radius per unit of one over the cosine of the elevation, m."""
+    """Increase of the rolling radius per unit of 1/cos(elevation), m."""
 
     @property
     def vectors(self) -> tuple[AffineVector, AffineVector, AffineVector]:

@@ -199,7 +199,7 @@ class FlexibleBody(Body):
         return np.concatenate([super().reference(), np.zeros(self.n_modes)])
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        # those of the undeformed body
+        # velocities of the undeformed body
         arm = position[3:12].reshape(3, 3).T @ self.first_moment / self.mass
         rigid = super().velocity(linear - np.cross(angular, arm), angular, position)
         return np.concatenate([rigid, np.zeros(self.n_modes)])
@@ -359,7 +359,7 @@ def _rotate_integrals(s: ShapeIntegrals, R: NDArray[np.float64]) -> ShapeIntegra
 def _check_rotational_inertia(name: str, positions: np.ndarray, masses: np.ndarray) -> None:
     """Raise `ModelError` for a body whose mass lies on a line, about which it has no inertia.
 
-    `positions`: of the mass points, m, shape (n, 3); `masses`: kg, shape (n,).
+    `positions`: positions of the mass points, m, shape (n, 3); `masses`: kg, shape (n,).
     """
     x = positions - masses @ positions / masses.sum()
     moments, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", masses, x, x))

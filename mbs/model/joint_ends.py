@@ -16,7 +16,7 @@ FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | Body"
 End: TypeAlias = "tuple[Body, ArrayLike] | Body | SlidingPoint"
 """A fixed end, or a point that a guide slides."""
 PointPair: TypeAlias = "ArrayLike | tuple[ArrayLike, ArrayLike]"
-"""A point, or one per body where the drawing does not close."""
+"""A point, or one per body if the drawing does not close."""
 
 
 def body_and_point(

@@ -71,7 +71,7 @@ class SlidingVocabulary(ShapeVocabulary):
         triangles : array_like of int, shape (k, 3)
             Their corners, counter-clockwise from outside.
         color, material, opacity
-            As of `shape`.
+            As in `shape`.
         cover : bool
             Whether it hides what is within, and pages can make it see-through.
         """

@@ -71,7 +71,7 @@ def _control_points(values: Array) -> Array:
 def pose_functions(base: Body, places: Array, rotations: Array) -> Array:
     """Functions of a tabled body, shape (..., 12), from positions of its centre of mass and rotations on the base.
 
-    `places`: m, shape (..., 3); `rotations`: from the drawn axes, shape (..., 3, 3).
+    `places`: m, shape (..., 3); `rotations`: rotation matrices from the drawn axes, shape (..., 3, 3).
     """
     axes = np.swapaxes(rotations, -1, -2).reshape(*rotations.shape[:-2], 9)
     return np.concatenate([places - base.com, axes], axis=-1)

@@ -151,8 +151,8 @@ class InputSignals:
             if right == 0 or right == len(times):
                 return float(values[right and -1])
             begin, span = times[right - 1], times[right] - times[right - 1]
-            share = min(1.0, max(0.0, (t - begin) / span)) if span > 0.0 else 0.0
-            return float(values[right - 1] + share * (values[right] - values[right - 1]))
+            fraction = min(1.0, max(0.0, (t - begin) / span)) if span > 0.0 else 0.0
+            return float(values[right - 1] + fraction * (values[right] - values[right - 1]))
 
         return interpolate_table
 
@@ -228,6 +228,6 @@ def _interpolate(
     left = np.clip(right - 1, 0, len(times) - 1)
     right = np.clip(right, 0, len(times) - 1)
     span = times[right] - times[left]
-    share = np.where(span > 0.0, (t - times[left]) / np.where(span > 0.0, span, 1.0), 0.0)
-    interpolated: NDArray[np.float64] = values[left] + np.clip(share, 0.0, 1.0) * (values[right] - values[left])
+    fraction = np.where(span > 0.0, (t - times[left]) / np.where(span > 0.0, span, 1.0), 0.0)
+    interpolated: NDArray[np.float64] = values[left] + np.clip(fraction, 0.0, 1.0) * (values[right] - values[left])
     return interpolated

@@ -16,7 +16,7 @@ class Method:
     order: int = 2
     """Order of convergence with fixed steps."""
     project: bool | None = None
-    """Value of the setting `project` that the name implies; None: that of the settings."""
+    """Value of the setting `project` that the name implies; None: as in the settings."""
     conservative_only: bool = False
     tree_only: bool = False
     positions_only: bool = False
@@ -88,4 +88,4 @@ METHOD_TABLE = {
         cost=5.5,  # measured: three stages in one tangent are three times as wide
     ),
 }
-"""The only list of methods in Python; numbers and orders of changing steps are those of the kernel."""
+"""The only list of methods in Python; numbers and orders of changing steps are defined by the kernel."""

@@ -11,7 +11,7 @@ from mbs.simulation.system_instance import SystemInstance
 Array = NDArray[np.float64]
 
 SHIFT = 1e-6  # shift of coordinates (m), velocities (m/s) and element states in central differences
-RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the largest count as zero
+RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this part of the largest count as zero
 STATE_STEP = 1e-5  # s; element step from which the rates of element states are computed
 SHORT_STEP = 1e-9  # s; element step over which a state keeps its value
 

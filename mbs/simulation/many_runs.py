@@ -209,14 +209,14 @@ def simulate_many(
     variants : sequence of Variant
         Parameters, inputs and the pose of each run.
     t_end, h, settings, every, t0
-        As of `simulate`; the method is 'ali3p'. Systems without switches, with projections, the linearised update and
+        As in `simulate`; the method is 'ali3p'. Systems without switches, with projections, the linearised update and
         no `step_iterations`, are stepped together, others one by one.
     lanes : int, optional
         2, 4 or 8 runs at once; by default what the processor has instructions for, and no more than the variants fill.
     threads : int, optional
         Groups at once; by default one for each core.
     progress : bool or callable, optional
-        As of `simulate`; refined runs are not in it.
+        As in `simulate`; refined runs are not in it.
     estimate_error : {None, False}, optional
         None checks each run as `simulate` does: one that is not plainly smooth is repeated alone and with other steps,
         which costs two runs or more. False checks none.

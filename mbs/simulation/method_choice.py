@@ -93,7 +93,7 @@ def choose(
 def _advance_until_fastest(runs: dict[str, ControlledRun], weights: dict[str, float]) -> set[str]:
     """Advance all runs until one ends and the others exceed its weighted work; return the names of failed runs.
 
-    `weights`: factors of the work of the coarse runs, which give that of runs to the tolerance.
+    `weights`: factors of the work of the coarse runs, which give the work of runs to the tolerance.
     """
     failed: set[str] = set()
     budget = FIRST_BUDGET

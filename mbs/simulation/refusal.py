@@ -14,10 +14,10 @@ from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
 
-MOST_NAMES = 3  # largest number of names in one sentence
+MAX_NAMES = 3  # largest number of names in one sentence
 NEAR_AN_END = (Status.NOT_CONVERGED, Status.TOO_DEAR, Status.TOO_STIFF, Status.UNRESOLVED)
 """Failures of steps where drives reach the end of the motion of a loop: there speeds grow without bound."""
-CLOSED = 1e-6  # largest residual of closed rows over that of the driven step: solved rows reach round-off
+CLOSED = 1e-6  # of the residual of the driven step: largest residual of closed rows; solved rows reach round-off
 ITERATIONS, HALVINGS = 30, 12  # largest numbers: of Newton's iterations for positions, of bisections of the time
 STIFF_STEP = 1.0  # largest product of rate and step with which an explicit method is accurate
 
@@ -115,9 +115,9 @@ def end_of_motion_text(simulation: SteppedSystem, ahead: float) -> str:
         lower, upper = (middle, upper) if _can_close(evaluator, middle) else (lower, middle)
     meta = prepared(simulation.system).meta
     names = [repr(meta["rows"][row]["name"]) for row in rows]
-    suffix = f" and {len(names) - MOST_NAMES} others" if len(names) > MOST_NAMES else ""
+    suffix = f" and {len(names) - MAX_NAMES} others" if len(names) > MAX_NAMES else ""
     return (
-        f" Shorter steps do not help: driven by {', '.join(names[:MOST_NAMES])}{suffix} the joints can be closed until "
+        f" Shorter steps do not help: driven by {', '.join(names[:MAX_NAMES])}{suffix} the joints can be closed until "
         f"about t = {simulation.time + lower:.5g} s, where two ways to close them meet, and not behind it. End the "
         f"run before, or drive it less far."
     )
@@ -145,8 +145,8 @@ def _changed_parameters_text(simulation: SteppedSystem) -> str:
             change_text = f"{entry['name']!r} is {value:g}{unit_text(entry['unit'])} instead of {entry['value']:g}"
             changed.append((abs(value - entry["value"]) / span if span < math.inf else math.inf, change_text))
     changed.sort(key=lambda item: -item[0])
-    changes_text = "; ".join(change_text for _, change_text in changed[:MOST_NAMES])
-    suffix = f" (and {len(changed) - MOST_NAMES} others)" if len(changed) > MOST_NAMES else ""
+    changes_text = "; ".join(change_text for _, change_text in changed[:MAX_NAMES])
+    suffix = f" (and {len(changed) - MAX_NAMES} others)" if len(changed) > MAX_NAMES else ""
     return f" {changes_text}{suffix}." if changes_text else ""
 
 

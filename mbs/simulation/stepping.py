@@ -53,7 +53,7 @@ from mbs.simulation.tolerance_run import to_tolerance
 from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
-MOST_ITERATIONS = 10**6
+MAX_ITERATIONS = 10**6
 
 
 class Simulation(SteppedSystem):
@@ -286,7 +286,7 @@ class Simulation(SteppedSystem):
             None was found; the state is the one before.
         """
         force = positive(tolerance, "The tolerance of the static equilibrium", ValueError)
-        iterations = whole(max_iterations, "max_iterations", 1, MOST_ITERATIONS, ValueError)
+        iterations = whole(max_iterations, "max_iterations", 1, MAX_ITERATIONS, ValueError)
         self._refined = None
         self._call(
             "No static equilibrium was found near the present position",
@@ -395,12 +395,12 @@ class Simulation(SteppedSystem):
             Record the state after every that many steps, or intervals of the record.
         progress : bool or callable, optional
             None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
-            the share that is done.
+            the fraction done.
         estimate_error : bool or float, optional
-            As of `simulate`, in the first run in doubt, of eight steps or more; its last refined run continues from
+            As in `simulate`, in the first run in doubt, of eight steps or more; its last refined run continues from
             call to call with the same inputs, parameters and switches, until `step` is called.
         tolerance : float or mapping of str to float, optional
-            As of `simulate`, of what this part adds to the error; by the method of the settings.
+            As in `simulate`, of what this part adds to the error; by the method of the settings.
 
         Returns
         -------
@@ -422,7 +422,7 @@ class Simulation(SteppedSystem):
         BranchWarning
             When a step jumped to another branch.
         BendingWarning
-            Once, when a flexible body bends more within its floating frame than its modes hold for.
+            Once, when a flexible body deforms more than its linear modes allow.
         """
         if tolerance is not None:
             requested = requested_tolerance(self.system, tolerance)

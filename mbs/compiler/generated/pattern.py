@@ -45,7 +45,8 @@ class Element:
 class Pattern:
     """Sparsity patterns of a System, derived from its arrays as by the kernel.
 
-    `turned`: with entries for all directions of the axes that parameters write; its functions have other names.
+    `turned`: whether it has entries for all directions of the axes that parameters write; its functions then have other
+    names.
     """
 
     def __init__(self, arrays: Mapping[str, Any], *, turned: bool = False) -> None:

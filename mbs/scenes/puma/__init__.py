@@ -118,7 +118,7 @@ def stages(
     jumps : list, optional
         Takes the change of the kinetic energy when the pin closes and when it opens, J.
     estimate_error : bool or float, optional
-        As of `Simulation.run`.
+        As in `Simulation.run`.
 
     Yields
     ------
