@@ -70,7 +70,7 @@ def close_loops(loops: Loops, poses: Poses, tolerance: float, g: Array | None = 
 def trace_motion(
     loops: Loops, start: ClosedLoops, tolerance: float, g: Array | None = None, seed: int = 0
 ) -> list[ClosedLoops]:
-    """Positions along the motions from a position, without those where the rank is lower."""
+    """Positions along the motions from a position, without positions of lower rank."""
     random = np.random.default_rng(seed)
     freedoms = start.right.shape[1]
     positions = [start]

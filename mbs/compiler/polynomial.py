@@ -26,18 +26,21 @@ class RowTerms:
     """One constraint row over z."""
 
     name: str
+    """Name of its joint or body."""
     kind: str
-    """`name`, `kind`: name of its joint or body, and kind of its condition."""
+    """Kind of its condition."""
     joint: int
+    """Number of its joint, or -1 for rows of rigid bodies."""
     equation_number: int
-    """`joint`, `equation_number`: number of the joint and of its equation, or -1 for rows of rigid bodies."""
+    """Number of the equation of the joint, or -1 for rows of rigid bodies."""
     main: Polynomial
     """Quadratic part."""
     theta: int = -1
     """Coordinate of the angle part, or -1."""
     cosine: Polynomial = field(default_factory=dict)
+    """C of the angle part C cos(theta) + S sin(theta)."""
     sine: Polynomial = field(default_factory=dict)
-    """`cosine`, `sine`: C and S of the angle part."""
+    """S of the angle part."""
     guides: list[tuple[int, int, Polynomial]] = field(default_factory=list)
     switch: int = -1
     """Number of the switch that turns it on and off, or -1."""

@@ -38,7 +38,7 @@ def with_ports_of(ported: System, plain: System) -> System | None:
     Returns
     -------
     System or None
-        With the arrays ``ported_``; None where the models differ, or a System was read from a file without its full
+        With the arrays ``ported_``; None if the models differ, or a System was read from a file without its full
         coordinates.
     """
     ported_frames, plain_frames = ported.frames, plain.frames

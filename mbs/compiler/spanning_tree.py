@@ -40,7 +40,7 @@ class Group:
 
     bodies: list[Body]
     number: int = 0
-    """In depth-first order; 0 is the ground."""
+    """Number in depth-first order; 0 is the ground."""
     depth: int = 0
     """Number of joints between the ground and the group."""
     parent: Group | None = None
@@ -48,10 +48,11 @@ class Group:
     slides: bool = False
     """Whether the joint to its parent is prismatic."""
     origin: Array = field(default_factory=lambda: np.zeros(3))
+    """Drawn origin of the frame, m, shape (3,)."""
     axes: Array = field(default_factory=lambda: np.eye(3))
-    """`origin`, `axes`: drawn origin, shape (3,), m, and axes x, y, z of the frame as columns, shape (3, 3)."""
+    """Drawn axes x, y, z of the frame as columns, shape (3, 3)."""
     base: Array = field(default_factory=lambda: np.zeros(12))
-    """Shape (12,): origin and columns of the joint's frame on the parent, in the frame of the parent."""
+    """Origin, m, and columns of the joint's frame on the parent, in the frame of the parent, shape (12,)."""
 
     @property
     def height(self) -> int:

@@ -24,7 +24,7 @@ class Signals:
     """Affine signals of z in elimination order, each stored once.
 
     `full`: full coordinates as expressions in z; `new`: index of each z in elimination order; `reserved`: coordinates
-    that expressions, by identity, have as entries even where they are zero, each as a separate signal.
+    that expressions, by identity, have as entries even if they are zero, each as a separate signal.
     """
 
     def __init__(

@@ -63,7 +63,7 @@ class SpringDamperTable(Element):
         Returns
         -------
         ElementRecord
-            For `Model.add`; its reals stiffness and damping are there where they are numbers.
+            For `Model.add`; it has the reals stiffness and damping if these are numbers.
 
         Raises
         ------

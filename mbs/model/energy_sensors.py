@@ -77,7 +77,7 @@ class EnergySensorVocabulary(SensorVocabulary):
         Parameters
         ----------
         kind : {"kinetic", "gravity", "elastic", "total", "work", "nonconservative", "by inputs", "with guides"}
-            The elastic energy is that of springs and flexible bodies. Work is that of all forces of the elements;
+            The elastic energy is stored in springs and flexible bodies. Work is the work of all forces of the elements;
             nonconservative together with the change of their own potential energy, so that springs have none, but for
             the work of jumps of inputs, as of a `PortRoad`, which is "by inputs" (with the method "ali3p" and
             generalised-alpha; with others it stays nonconservative). Work that is lost, in a damper or a brake, is

@@ -114,7 +114,7 @@ class ShapeVocabulary(BodyVocabulary):
             (`radius`, `at`, `axis`) or none.
         at : array_like, shape (dimension,), optional
             Middle of the shape, of a mesh its origin, m; by default the centre of mass, of a mesh the origin of the
-            drawing. All places are in earth axes in the reference configuration, like those of joints; in the plane two
+            drawing. All places are in earth axes in the reference configuration, as for joints; in the plane two
             numbers or three.
         size : array_like, shape (3,)
             Lengths of the edges, m; in the plane two will do.

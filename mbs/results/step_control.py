@@ -30,15 +30,17 @@ class Control:
     h: float | None
     """The fixed step, s; None: steps under error control."""
     steps: int
+    """Accepted steps of the returned run."""
     rejected: int
+    """Steps that were repeated because their error was too large."""
     failed: int
-    """`steps`, `rejected`, `failed`: steps of the returned run; steps that were repeated because their error was too
-    large, and because they did not converge."""
+    """Steps that were repeated because they did not converge."""
     forced: int
     """Steps that exceed their part of the tolerance at any length."""
     smallest: float
+    """Smallest accepted step, s."""
     largest: float
-    """`smallest`, `largest`: smallest and largest accepted step, s."""
+    """Largest accepted step, s."""
     side_steps: int
     """Steps to times between the steps at which no polynomial through the steps was accurate enough."""
     runs: int

@@ -142,7 +142,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         scene : mapping, optional
             Scene to draw; by default the scene of the run.
         name : str
-            Name of the recording; by default that of the model.
+            Name of the recording; by default the name of the model.
 
         Returns
         -------

@@ -10,10 +10,10 @@ from mbs.common.polyline import needed_points
 
 Array = NDArray[np.float64]
 Table = tuple[Array, Array]
-MIN_DEPARTURE = 0.05  # share of the range of the table; smaller departures from a line are noise
-MAX_DEPARTURE = 0.01  # share of the range: largest departure from a line in the parts of a divided step
+MIN_DEPARTURE = 0.05  # of the range of the table; smaller departures from a line are noise
+MAX_DEPARTURE = 0.01  # of the range of the table: largest departure from a line in the parts of a divided step
 AT_END = 1e-6  # steps: distance below which a time counts as the end of a step, or as another break
-ROUND_OFF = 1e-6  # share of the largest value: range of a constant with round-off (2e-7 in single precision)
+ROUND_OFF = 1e-6  # of the largest value: range of a constant with round-off (2e-7 in single precision)
 HUGE = 1e300  # bound of values whose differences are finite
 SAMPLES = 16  # per step: they meet a pulse of a function of a tenth of a step
 BLOCK = 4096  # steps whose samples are in memory at a time

@@ -59,7 +59,7 @@ class OmittedSensorSystem:
 class Readings(dict[str, float]):
     """Sensor values of a state by name; omitted ones are computed when one is first read.
 
-    `values`: of the sensors that the System computes; `instance`: at the state, may be advanced later.
+    `values`: values of the sensors that the System computes; `instance`: instance at the state, may be advanced later.
     """
 
     def __init__(self, values: Mapping[str, float], system: System, instance: Instance) -> None:

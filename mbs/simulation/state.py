@@ -21,17 +21,19 @@ class Pose:
     """
 
     x: float = 0.0
+    """Shift from the reference configuration along x of the earth, m."""
     y: float = 0.0
+    """Shift along y, m."""
     z: float = 0.0
-    """`x`, `y`, `z`: shift from the reference configuration, earth axes, m."""
+    """Shift along z, m."""
     yaw: float = 0.0
     """Turn about the vertical, rad."""
     speed: float = 0.0
-    """Along the turned forward direction, wheels rolling, m/s."""
+    """Speed along the turned forward direction, wheels rolling, m/s."""
     lateral_speed: float = 0.0
-    """To the left of it, m/s."""
+    """Speed to the left, m/s."""
     yaw_rate: float = 0.0
-    """Positive to the left, rad/s. Both speeds refer to the origin of the drawing, about which it turns."""
+    """Yaw rate, positive to the left, rad/s. Both speeds refer to the origin of the drawing, about which it turns."""
 
     def __post_init__(self) -> None:
         for name in ("x", "y", "z", "yaw", "speed", "lateral_speed", "yaw_rate"):

@@ -298,7 +298,7 @@ class Simulation(SteppedSystem):
 
         After each step the scene is moved back as a whole: position along the ground and horizontal velocity of its
         heaviest point, heading and yaw rate of its heaviest direction stay, on a slope along the slope. A scene above
-        its road is lowered to it first. Works are counted from here on, as in an FMU with `initial.settling`.
+        its road is lowered to it first. Works are counted from here, as in an FMU with `initial.settling`.
 
         Parameters
         ----------
