@@ -22,7 +22,7 @@ from mbs.compiler.block_rows import BlockRows, affine_of, quadratics, rows_of_bl
 from mbs.compiler.loop_motion import MAX_TURN, trace
 from mbs.compiler.loops import Block, blocks_of_loops
 from mbs.compiler.polynomial import RowTerms
-from mbs.compiler.tables import Signals, ragged
+from mbs.compiler.tables import Signals, ragged_arrays
 from mbs.compiler.triads import Triad, triads
 from mbs.model.model import Model
 from mbs.model.perpendicular_vectors import perpendicular
@@ -65,9 +65,12 @@ def mode_arrays(
 
     def trace_modes() -> dict[str, Any]:
         cells = [[n for cell in _block_modes(*loop, full, q, guides) for n in cell] for loop in loops]
-        return ragged("mode_cell", cells, np.int64)
+        return ragged_arrays("mode_cell", cells, np.int64)
 
-    return {**ragged("mode_triad", numbers, np.int64), **ragged("mode_name", names, np.int64)}, trace_modes
+    return {
+        **ragged_arrays("mode_triad", numbers, np.int64),
+        **ragged_arrays("mode_name", names, np.int64),
+    }, trace_modes
 
 
 def _triad_integers(triad: Triad, signals: Signals, ring: int) -> list[int]:

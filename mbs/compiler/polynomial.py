@@ -38,7 +38,7 @@ class RowTerms:
     theta: int = -1
     """Coordinate of the angle part, or -1."""
     cosine: Polynomial = field(default_factory=dict)
-    """C of the angle part C cos(theta) + S sin(theta)."""
+    """C of the angle part ``cos(theta) S - sin(theta) C``."""
     sine: Polynomial = field(default_factory=dict)
     """S of the angle part."""
     guides: list[tuple[int, int, Polynomial]] = field(default_factory=list)
@@ -100,7 +100,7 @@ def add_product(polynomial: Polynomial, factor: float, a: Affine, b: Affine, lar
     largest[:] = [max(most, abs(factor) * size) for most, size in zip(largest, degrees, strict=True)]
 
 
-def cleaned(
+def drop_round_off(
     p: Polynomial, size: float = 1.0, largest: Sequence[float] = (0.0, 0.0, 0.0), error: float = 0.0
 ) -> Polynomial:
     """The polynomial without coefficients that are round-off of the largest, at coordinates of 1 m and of `size`, m.
@@ -126,7 +126,10 @@ def cleaned(
 def expand(
     products: Sequence[Product], linear: Affine, full: Sequence[Affine], size: float, error: float = 0.0
 ) -> Polynomial:
-    """Polynomial in z of a sum of products and a linear part; `size`: size of the model, m; `error`: see `cleaned`."""
+    """Polynomial in z of a sum of products and a linear part.
+
+    `size`: size of the model, m; `error`: see `drop_round_off`.
+    """
     p: Polynomial = {}
     largest = [0.0, 0.0, 0.0]
     cache: dict[int, Affine] = {}
@@ -140,7 +143,7 @@ def expand(
     for factor, a, b in products:
         add_product(p, factor, of_z(a), of_z(b), largest)
     add_product(p, 1.0, substitute(linear, full), Affine({}, 1.0), largest)
-    return cleaned(p, size, largest, error)
+    return drop_round_off(p, size, largest, error)
 
 
 def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTerms:
@@ -158,7 +161,7 @@ def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTer
 def row_terms(
     equation: Equation, joint: int, equation_number: int, full: Sequence[Affine], size: float, error: float = 0.0
 ) -> RowTerms:
-    """An equation of a joint as a row over z; `size`: size of the model, m; `error`: see `cleaned`."""
+    """An equation of a joint as a row over z; `size`: size of the model, m; `error`: see `drop_round_off`."""
     products = expand(equation.products, equation.linear, full, size, error)
     row = RowTerms(equation.name, equation.kind, joint, equation_number, products)
     if equation.angle is not None:

@@ -29,8 +29,8 @@ def store(array: str, first: int, length: int, value: str, end: int) -> list[str
     return [f"  {'PUT' if first + 4 <= end else 'put3'}({array} + {first}, {value});"]
 
 
-def transposed(pattern: Pattern) -> list[str]:
-    """J' w, each sum in the order of the rows."""
+def transpose_product(pattern: Pattern) -> list[str]:
+    """C function of J' w, each sum in the order of the rows."""
     entries: list[list[tuple[int, int]]] = [[] for _ in range(pattern.nq)]
     for k in range(pattern.nc):
         for i in range(pattern.row_ptr[k], pattern.row_ptr[k + 1]):

@@ -58,7 +58,7 @@ def _forward(front: Front) -> list[str]:
         lines += _scalars(front, column_pieces, p, count)
         for piece in column_pieces:
             if piece.first + (3 if piece.wide else 0) >= p + count:
-                lines.append(f"  x{piece.first} = {_subtracted(piece, p, count, n)};")
+                lines.append(f"  x{piece.first} = {_subtract_products(piece, p, count, n)};")
         p += count
     for piece in column_pieces:
         if piece.first + (3 if piece.wide else 0) >= pivots:
@@ -90,7 +90,7 @@ def _scalars(front: Front, column_pieces: Sequence[Piece], p: int, count: int) -
             for line in (f"  const double {name} = {value};", f"  b[{first + k}] = {name};")]  # fmt: skip
 
 
-def _subtracted(piece: Piece, p: int, count: int, n: int) -> str:
+def _subtract_products(piece: Piece, p: int, count: int, n: int) -> str:
     """C expression of a piece minus its products with `count` pivots beginning with p."""
     x = f"x{piece.first}"
     term = [f"{piece.load(f'(A + {(p + k) * n})')} * y{p + k}" for k in range(count)]

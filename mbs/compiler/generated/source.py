@@ -16,7 +16,7 @@ _Function = Callable[[Pattern], list[str]]
 _FRONTS: dict[str, _Function] = {"factorise": fronts.factorise, "solve": solve.solve}
 _ROWS: dict[str, _Function] = {
     "rows_times": rows.times,
-    "rows_transposed": products.transposed,
+    "rows_transposed": products.transpose_product,
     "mass_times": products.mass,
     "rows": rows.rows,
     "gamma": rows.gamma,
