@@ -68,5 +68,4 @@ class PointMass(Body):
         return self.com
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Velocity `linear`, m/s; a particle does not turn."""
-        return linear
+        return linear  # a particle does not turn
