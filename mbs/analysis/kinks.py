@@ -13,9 +13,9 @@ from mbs.simulation.state import State
 
 Array = NDArray[np.float64]
 
-KINK = 1e-3  # least difference of the slopes on both sides over the largest slope of the forces by this velocity
-WIDE = 100.0  # width of the wide difference over that of the narrow one
-BEND = 1e-2  # least difference of the slopes of narrow and wide differences over the largest slope
+KINK = 1e-3  # least difference of the slopes on both sides, relative to the largest slope of the forces
+WIDE = 100.0  # ratio of the widths of the wide and the narrow difference
+BEND = 1e-2  # least difference of the slopes of narrow and wide differences, relative to the largest slope
 KINK_DISTANCE = 10.0  # distance from a kink at which slopes are taken, in widths of the difference
 
 
@@ -27,7 +27,7 @@ def state_beside_kinks(evaluator: Evaluator, side: int | None) -> State:
     """Shift the state of the evaluator away from kinks of the forces in the velocities.
 
     `side`: 1 or -1 for rising or falling velocities; None takes rising ones and warns with `LinearisationWarning`.
-    Raises `ValueError`: a coordinate has several kinks.
+    Raises `ValueError` if a coordinate has several kinks.
     """
     state = evaluator.state
     names = evaluator.system.meta["coordinates"]
@@ -44,8 +44,8 @@ def state_beside_kinks(evaluator: Evaluator, side: int | None) -> State:
         if side is None:
             mass = diagonal[i] or 1.0
             warnings.warn(
-                f"A force has a kink at the state: its slope over the mass is {ahead / mass:.4g} 1/s where the "
-                f"velocity of {names[i]!r} rises and {behind / mass:.4g} 1/s where it falls. The linear model takes "
+                f"A force has a kink at the state: its slope divided by the mass is {ahead / mass:.4g} 1/s if the "
+                f"velocity of {names[i]!r} rises and {behind / mass:.4g} 1/s if it falls. The linear model takes "
                 "the first; side=1 says that it is meant, side=-1 takes the other.",
                 LinearisationWarning,
                 stacklevel=3,

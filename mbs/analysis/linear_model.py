@@ -15,7 +15,7 @@ seen in the frame has constant coefficients: ``-V' M G`` times the displacement,
 rates above.
 
 With conditions on velocities A qd = 0 (rolling, skates) there are more displacements than velocities: z refers to a
-basis P of the null space of the rows on positions alone, w to a basis V of that of all rows, and
+basis P of the null space of the rows on positions, w to a basis V of the null space of all rows, and
 ``zd = P' M (V w + N z)``.
 """
 
@@ -38,11 +38,11 @@ from mbs.system.system import System
 
 Array = NDArray[np.float64]
 
-STEADY = 1e-2  # largest unsteady acceleration over the accelerations of the motion and of its forces
+STEADY = 1e-2  # largest unsteady acceleration, relative to the accelerations of the motion and of its forces
 STILL = 1e-3  # m/s2; smaller accelerations count as zero
 STATE_TOLERANCE = 1e-3  # 1/s; slots whose rates have smaller slopes (gears, clocks) have no dynamics
-FREE = 1e-3  # 1/s; smaller eigenvalues are zero up to round-off: those of free motions
-OSCILLATION_TOLERANCE = 1e-9  # imaginary part over modulus of an eigenvalue below which it counts as real
+FREE = 1e-3  # 1/s; smaller eigenvalues belong to free motions: they are zero up to round-off
+OSCILLATION_TOLERANCE = 1e-9  # ratio of imaginary part to modulus below which an eigenvalue counts as real
 
 
 @dataclass(frozen=True)
@@ -119,8 +119,8 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
         top that precesses. Frequencies are those seen in the frame of the motion; where several frames fit, as for a
         symmetric rotor, in the one that turns least: `LinearModel.frame_turning`.
     side : {1, -1}, optional
-        Where a force has a kink at the state (an engine's drag at standstill), whether its slope is that of rising or
-        of falling velocities. By default that of rising ones is taken, with a warning.
+        If a force has a kink at the state (an engine's drag at standstill): take its slope for rising (1) or falling
+        (-1) velocities; by default rising, with a warning.
 
     Returns
     -------
@@ -135,7 +135,7 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     Warns
     -----
     LinearisationWarning
-        Where a force has a kink at the state, or bends within the smallest differences.
+        A force has a kink at the state, or bends within the smallest differences.
     """
     instance_of(Simulation, simulation, "What linearise takes", "a Simulation")
     if side is not None and (not is_number(side) or side not in (1, -1)):

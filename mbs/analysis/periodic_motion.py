@@ -20,9 +20,9 @@ from mbs.simulation.stepping import Simulation
 
 Array = NDArray[np.float64]
 
-MOST_STEPS = 1e8  # largest number of steps of a period
-DISTURBANCE = 1e-4  # largest change of a point or unit axis, m; of a velocity the same over the period
-CLOSED = 1e-4  # largest distance of the state after a period, share of the size and of the speed of the motion
+MAX_STEPS = 1e8  # largest number of steps of a period
+DISTURBANCE = 1e-4  # largest change of a point or unit axis, m; of a velocity the same divided by the period
+CLOSED = 1e-4  # largest distance of the state after a period, relative to the size and the speed of the motion
 
 
 @dataclass(frozen=True)
@@ -73,8 +73,8 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
             f"The period is {shown(period)} s and the step {shown(h)} s; both must be positive, h at most the period."
         )
     check_resolution(simulation.time + period, h)
-    if period / h > MOST_STEPS:
-        raise ValueError(f"The period of {period:g} s has {period / h:.3g} steps of {h:g} s; at most {MOST_STEPS:g}.")
+    if period / h > MAX_STEPS:
+        raise ValueError(f"The period of {period:g} s has {period / h:.3g} steps of {h:g} s; at most {MAX_STEPS:g}.")
     evaluator = Evaluator(simulation)
     state = evaluator.state
     if evaluator.slots:

@@ -42,7 +42,7 @@ class SteadyFrame:
     turning: Array
     """Shape (1,) or (3,): angular velocity of the frame, earth axes, rad/s."""
     unsteady: Array
-    """Shape (nq,): accelerations that differ from those of the frame, m/s2."""
+    """Accelerations relative to the frame, m/s2, shape (nq,)."""
 
 
 @dataclass(frozen=True)
@@ -187,7 +187,7 @@ def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidat
 def _defect(
     evaluator: Evaluator, c: _Candidate, q: Array, qd: Array, scales: _Scales, rows: tuple[Array, Array, Array]
 ) -> Array:
-    """Defects of a candidate at a state, over the length, speed and acceleration of the motion."""
+    """Defects of a candidate at a state, relative to the length, speed and acceleration of the motion."""
     dq, dqd = c.G @ q + c.b, c.G @ qd
     dt, stencil = (1.0, FORWARD) if c.kind == "time" else (0.0, CENTRAL)
     states = [(q + s * dq, qd + s * dqd, evaluator.time + s * dt) for s in STEP * stencil[0]]
@@ -215,7 +215,7 @@ def _fit(
     state, each = evaluator.state, scales.each
     fields = np.array([_velocity_and_acceleration(c.G @ state.q + c.b, c.G @ state.qd, scales) for c in candidates])
     target = _velocity_and_acceleration(state.qd, state.qdd, scales)
-    time = symmetries[-1]  # share of time in each symmetry; that of the solution is 1
+    time = symmetries[-1]  # part of time in each symmetry; 1 in the solution
     if np.abs(time).max(initial=0.0) > SAME:
         start, free = symmetries @ (time / (time @ time)), symmetries @ scipy.linalg.null_space(time[None])
     else:

@@ -175,7 +175,7 @@ def one_of(value: object, words: Collection[str], subject: str, error: Error = M
 def instance_of(kind: type[Thing] | tuple[type[Thing], ...], value: object, subject: str, wanted: str) -> Thing:
     """Return a value of the class `kind`.
 
-    Raises `ArgumentTypeError`: the value is of another class. `wanted`: description of a valid value.
+    Raises `ArgumentTypeError` if the value is of another class. `wanted`: description of a valid value.
     """
     if not isinstance(value, kind):
         raise ArgumentTypeError(f"{capital(subject)} must be {wanted}, not {shown(value)}.")

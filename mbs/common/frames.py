@@ -31,8 +31,9 @@ class Frames:
     dimension: int
     """2 or 3."""
     points: tuple[int, ...]
+    """First of the `dimension` full coordinates of each point."""
     vectors: tuple[int, ...]
-    """`points`, `vectors`: first of the `dimension` full coordinates of each point and of each vector."""
+    """First of the `dimension` full coordinates of each vector."""
     bodies: tuple[int, ...]
     """First full coordinate of each rigid body: centre of mass, then unit axes (spatial a, b, c; planar a)."""
     scalars: tuple[int, ...]

@@ -17,7 +17,7 @@ class Progress:
     """A bar on the standard error stream, or lines; silent until `delay` seconds have passed.
 
     `delay`: time before the bar appears, s; `clock`: monotone time, s; `everywhere`: whether the bar is also written to
-    a stream that is no terminal, with control characters.
+    a stream that is not a terminal, with control characters.
     """
 
     def __init__(
@@ -34,34 +34,34 @@ class Progress:
         if self._bar is not None:
             self._bar.close()
 
-    def update(self, share: float) -> None:
-        """Show the completed share of the run, from 0 to 1."""
+    def update(self, fraction: float) -> None:
+        """Show the completed fraction of the run, from 0 to 1."""
         if self._bar is None:
             if self._clock() < self._from:
                 return
             if self._everywhere:
-                self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM)
+                self._bar = tqdm(total=1.0, initial=fraction, bar_format=_FORM)
             else:
-                self._bar = bars.bar(total=1.0, initial=share, bar_format=_FORM, delay=0.0)
-        self._bar.update(share - self._bar.n)
+                self._bar = bars.bar(total=1.0, initial=fraction, bar_format=_FORM, delay=0.0)
+        self._bar.update(fraction - self._bar.n)
 
 
 class Callback(Progress):
-    """Progress that calls a function of the completed share."""
+    """Progress that calls a function of the completed fraction."""
 
     def __init__(self, function: Callable[[float], None]) -> None:
         super().__init__(math.inf)
         self._function = function
 
-    def update(self, share: float) -> None:
-        self._function(share)
+    def update(self, fraction: float) -> None:
+        self._function(fraction)
 
 
 def progress_for(choice: bool | Callable[[float], None] | None) -> Progress:
     """Make the progress display of a run.
 
     `choice`: None: after two seconds, as lines without a terminal; True: a bar at once; False: none; or a function of
-    the completed share.
+    the completed fraction.
     """
     if callable(choice):
         return Callback(choice)

@@ -14,7 +14,7 @@ from mbs.model.model import Model
 
 
 def written_armatures(model: Model) -> list[int]:
-    """Numbers of the armatures whose ratio a parameter writes; those of all others are constants of the mass matrix."""
+    """Numbers of the armatures whose ratio a parameter writes; all others are constants of the mass matrix."""
     targets = [target for p in model.parameters for target in p.targets]
     return sorted({k for family, k, *_ in targets if family == ParameterTarget.ARMATURE})
 

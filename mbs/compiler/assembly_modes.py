@@ -2,9 +2,9 @@
 
 A block of loops with one degree of freedom is traced once around from its drawing (`mbs.compiler.loop_motion`).
 
-- Where a body hinged on the frame makes a full turn on this path, as a crank does, the combinations of signs along the
+- If a body hinged on the frame makes a full turn on this path, as a crank does, the combinations of signs along the
   path are its modes: any other belongs to another circuit or branch.
-- Where none does, as in a suspension, a triad that changes its sign passes a dead centre, at which another body of the
+- If none does, as in a suspension, a triad that changes its sign passes a dead centre, at which another body of the
   loop reverses its rotation: the mechanism leaves its assembly mode.
 
 Circuits and branches: T. R. Chase, J. A. Mirth, Circuits and branches of single-degree-of-freedom planar linkages,
@@ -22,7 +22,7 @@ from mbs.compiler.block_rows import BlockRows, affine_of, quadratics, rows_of_bl
 from mbs.compiler.loop_motion import MAX_TURN, trace
 from mbs.compiler.loops import Block, blocks_of_loops
 from mbs.compiler.polynomial import RowTerms
-from mbs.compiler.tables import Signals, ragged
+from mbs.compiler.tables import Signals, ragged_arrays
 from mbs.compiler.triads import Triad, triads
 from mbs.model.model import Model
 from mbs.model.perpendicular_vectors import perpendicular
@@ -38,7 +38,7 @@ MAX_TRIADS = 15
 DEFINITE = 0.15
 """Sine or cosine beyond which a sign counts; the kernel has the same (assembly_mode.c)."""
 MAX_REVERSAL_STEPS = 3
-"""Largest number of steps between a dead centre and the position where a body reverses its rotation."""
+"""Largest number of steps between a dead centre and the position at which a body reverses its rotation."""
 assert MAX_TURN < DEFINITE  # a step skips no combination of signs
 
 
@@ -47,8 +47,8 @@ def mode_arrays(
 ) -> tuple[dict[str, Any], Callable[[], dict[str, Any]]]:
     """The `mode_` arrays of the triads, and a function that traces their loops and returns the `mode_cell` arrays.
 
-    Only steps need the latter. `rows`: constraint rows in z; `full`: full coordinates as expressions in z; `q`:
-    assembled values of z.
+    Only the checks of steps need the latter. `rows`: constraint rows in z; `full`: full coordinates as expressions in
+    z; `q`: assembled values of z; `guides`: values of the guides.
     """
     numbers, loops, names = [], [], []
     rows_and_columns = [(row, set(row.columns())) for row in rows]
@@ -65,9 +65,10 @@ def mode_arrays(
 
     def trace_modes() -> dict[str, Any]:
         cells = [[n for cell in _block_modes(*loop, full, q, guides) for n in cell] for loop in loops]
-        return ragged("mode_cell", cells, np.int64)
+        return ragged_arrays("mode_cell", cells, np.int64)
 
-    return {**ragged("mode_triad", numbers, np.int64), **ragged("mode_name", names, np.int64)}, trace_modes
+    triad_arrays = ragged_arrays("mode_triad", numbers, np.int64) | ragged_arrays("mode_name", names, np.int64)
+    return triad_arrays, trace_modes
 
 
 def _triad_integers(triad: Triad, signals: Signals, ring: int) -> list[int]:
@@ -107,7 +108,7 @@ def _block_modes(
 
 
 def _is_dead_centre(sine: Array, steps: Array) -> bool:
-    """Whether an angle reverses wherever the sine of a triad changes its sign. `steps`: rows of steps of all angles."""
+    """Whether an angle reverses wherever the sine of a triad changes its sign; `steps`: steps of all angles, rad."""
     crossings = np.flatnonzero(sine[1:] * sine[:-1] < 0.0)
     reverses = np.any(steps * np.roll(steps, 1, axis=0) < 0.0, axis=1)
     is_near = np.array(

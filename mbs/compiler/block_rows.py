@@ -15,10 +15,10 @@ from mbs.model.model import Model
 Array = NDArray[np.float64]
 
 RIGID = 12
-"""Full coordinates of a body in space before those of its deformation."""
+"""Full coordinates of a body in space before its deformation."""
 MAX_TIED = {"port": 1, "interface": 3}
 """Joints that tie coordinates of a port or a node to its body, by type, with the largest number that one row ties: a
-row with more has coordinates of another body in place of those of the port.
+row with more has coordinates of another body instead of the port.
 """
 
 
@@ -50,7 +50,7 @@ class Quadratics:
 def rows_of_block(
     model: Model, block: Block, rows: Sequence[tuple[RowTerms, set[int]]], full: Sequence[Affine]
 ) -> BlockRows:
-    """Coordinates and rows of a block without those of drives; deformations are held.
+    """Coordinates and rows of a block without its drives; deformations are held.
 
     `rows`: all rows, each with the coordinates it depends on; `full`: full coordinates as expressions in z.
     """

@@ -49,10 +49,10 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
     Raises
     ------
     ArgumentTypeError
-        `model` is no Model.
+        `model` is not a Model.
     ModelError
-        If the assembly cannot be closed or the model is not possible; the message names the joints. `native`: there
-        is no compiler.
+        The assembly cannot be closed or the model is not possible; the message names the joints. With `native`: there
+        is no C compiler.
     """
     correct = closed_loops(tolerance)
     correction, compiled_loops = _compile_closed(model, correct)

@@ -114,9 +114,9 @@ def start_velocity(
 ) -> Array:
     """Velocity that satisfies the rows and comes nearest to the given velocities.
 
-    Minimises the kinetic energy of the difference from the given velocities, with a small weight on that of all other
-    velocities; repeated about its own result, so that the weight does not change the given velocities. Rates of
-    deformation count by their elastic energy, so that flexible bodies start with as little vibration as the joints
+    Minimises the kinetic energy of the difference from the given velocities, plus a small weight times the energy of
+    all other velocities; repeated about its own result, so that the weight does not change the given velocities. Rates
+    of deformation count by their elastic energy, so that flexible bodies start with as little vibration as the joints
     allow.
 
     Parameters

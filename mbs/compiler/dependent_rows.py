@@ -32,8 +32,8 @@ def independent_rows(
 ) -> tuple[list[RowTerms], int]:
     """The rows without those that follow from others, in the same order, and the number removed.
 
-    `joints`: names of the joints at each body, for errors; `length`: of the model, m. Raises `ModelError`: dependent
-    rows contradict each other.
+    `joints`: names of the joints at each body, for errors; `length`: length of the model, m. Raises `ModelError` if
+    dependent rows contradict each other.
     """
     unit = fineness(length)
     unit_by_degree = (1.0, unit, unit * unit)  # otherwise linear terms are negligible next to squares in a small model

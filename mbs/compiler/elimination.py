@@ -48,14 +48,14 @@ def eliminate(
     Parameters
     ----------
     equations : sequence of (name, Affine)
-        Each expression is zero; the name is that of its joint.
+        Each expression is zero; the name is the name of its joint.
     locked : set of int
         Coordinates that must not be eliminated (angles and spins).
-    first : set of int
+    preferred : set of int
         Coordinates that are eliminated in preference to others at equal cost.
-    first_only : bool
+    preferred_first : bool
         Eliminate as many as possible of `preferred` before any other, whatever the cost.
-    stay : set of int
+    retained : frozenset of int
         Coordinates that are not eliminated, of flexible bodies; equations between them remain.
     length : float
         Length of the model, m: the remainder of an equation is round-off if it is so for coordinates of `preferred` of
@@ -76,97 +76,138 @@ def eliminate(
     >>> [(dict(e.terms), e.constant) for e in found.expressions]
     [({0: 1.0}, -0.5), ({0: 1.0}, 0.0), ({0: 2.0}, 0.0)]
     """
-    rows = [dict(e.terms) for _, e in equations]
-    largest: list[tuple[float, ...]] = [(0.0, 0.0)] * len(rows)  # sizes of each unsolved row so far
-    constants = [e.constant for _, e in equations]
-    scale = max([1.0, *(abs(c) for c in constants)])
-    users: list[set[int]] = [set() for _ in range(n)]
-    for i, row in enumerate(rows):
-        for j in row:
-            users[j].add(i)
-    solved: dict[int, int] = {}  # row -> column
+    unsolved = _Rows(n, equations, locked, preferred, preferred_first, retained, length)
+    while (row_and_pivot := unsolved.next_pivot()) is not None:
+        unsolved.eliminate(*row_and_pivot)
+    return unsolved.result()
 
-    def pivot_cost(i: int) -> tuple[bool, int, bool, int]:
-        row = {j: v for j, v in rows[i].items() if j not in retained}
-        least = PIVOT_THRESHOLD * max(abs(v) for v in row.values())
-        columns = [j for j, v in row.items() if abs(v) >= least and j not in locked]
+
+class _Rows:
+    """Sparse rows of the equations during the elimination; the arguments are those of `eliminate`."""
+
+    def __init__(
+        self,
+        n: int,
+        equations: Sequence[tuple[str, Affine]],
+        locked: set[int],
+        preferred: set[int],
+        preferred_first: bool,
+        retained: frozenset[int],
+        length: float,
+    ) -> None:
+        self.names = [name for name, _ in equations]
+        self.locked, self.preferred, self.retained = locked, preferred, retained
+        self.preferred_first = preferred_first
+        self.length = length
+        self.rows = [dict(e.terms) for _, e in equations]
+        self.constants = [e.constant for _, e in equations]
+        self.scale = max([1.0, *(abs(c) for c in self.constants)])
+        self.largest: list[tuple[float, ...]] = [(0.0, 0.0)] * len(self.rows)  # sizes of each unsolved row so far
+        self.users: list[set[int]] = [set() for _ in range(n)]  # rows with each coordinate
+        for i, row in enumerate(self.rows):
+            for j in row:
+                self.users[j].add(i)
+        self.solved: dict[int, int] = {}  # row -> column
+        self.redundant: set[int] = set()
+        self.left: set[int] = set()
+        self.heap: list[tuple[bool, int, bool, int]] = []
+        for i in range(len(self.rows)):
+            self.queue(i)
+
+    def pivot_cost(self, i: int) -> tuple[bool, int, bool, int]:
+        """Cost of the best pivot of a row, for comparison, and its column."""
+        row = {j: v for j, v in self.rows[i].items() if j not in self.retained}
+        min_size = PIVOT_THRESHOLD * max(abs(v) for v in row.values())
+        columns = [j for j, v in row.items() if abs(v) >= min_size and j not in self.locked]
         if not columns:
             raise ModelError(
-                f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; prescribe it by m.drive instead."
+                f"The joint '{self.names[i]}' fixes an angle or spin coordinate; prescribe it by m.drive instead."
             )
         is_late, count, other, j = min(
-            (preferred_first and j not in preferred, len(users[j]), j not in preferred, j) for j in columns
+            (self.preferred_first and j not in self.preferred, len(self.users[j]), j not in self.preferred, j)
+            for j in columns
         )
-        return is_late, (len(rows[i]) - 1) * (count - 1), other, j
+        return is_late, (len(self.rows[i]) - 1) * (count - 1), other, j
 
-    heap: list[tuple[bool, int, bool, int]] = []
-
-    def queue_row(i: int) -> bool:
-        """Queue an unsolved row, or check its constant if it is empty; whether it is redundant."""
-        current = _sizes(rows[i], preferred, length)
-        largest[i] = tuple(map(max, largest[i], current))
-        if rows[i] and all(size <= VANISHED * most for size, most in zip(current, largest[i], strict=True)):
-            for j in rows[i]:
-                users[j].discard(i)
-            rows[i].clear()
-        if rows[i] and retained.issuperset(rows[i]):
-            leftover_rows.add(i)
-            return False
-        if rows[i]:
-            heapq.heappush(heap, (*pivot_cost(i)[:3], i))
-            return False
-        if abs(constants[i]) > CONSISTENT * scale:
+    def queue(self, i: int) -> None:
+        """Queue an unsolved row; one without coordinates is redundant or contradicts others."""
+        row = self.rows[i]
+        sizes = _sizes(row, self.preferred, self.length)
+        self.largest[i] = tuple(map(max, self.largest[i], sizes))
+        if row and all(size <= VANISHED * largest for size, largest in zip(sizes, self.largest[i], strict=True)):
+            for j in row:
+                self.users[j].discard(i)
+            row.clear()
+        if row and self.retained.issuperset(row):
+            self.left.add(i)
+        elif row:
+            heapq.heappush(self.heap, (*self.pivot_cost(i)[:3], i))
+        elif abs(self.constants[i]) > CONSISTENT * self.scale:
             raise ModelError(
-                f"The joint '{equations[i][0]}' cannot close: what the other joints fix leaves its linear equation "
-                f"open by {abs(constants[i]):.3g} m."
+                f"The joint '{self.names[i]}' cannot close: what the other joints fix leaves its linear equation "
+                f"open by {abs(self.constants[i]):.3g} m."
             )
-        return True
+        else:
+            self.redundant.add(i)
 
-    leftover_rows: set[int] = set()
-    redundant_rows = {i for i in range(len(rows)) if queue_row(i)}
-    while heap:
-        *cost, i = heapq.heappop(heap)
-        if i in solved or i in redundant_rows or i in leftover_rows:
-            continue
-        *current, pivot = pivot_cost(i)
-        if current > cost:
-            queue_row(i)
-            continue
-        row = rows[i]
+    def next_pivot(self) -> tuple[int, int] | None:
+        """Unsolved row with the cheapest pivot, and the pivot; None if no row is left."""
+        while self.heap:
+            *cost, i = heapq.heappop(self.heap)
+            if i in self.solved or i in self.redundant or i in self.left:
+                continue
+            *current, pivot = self.pivot_cost(i)
+            if current <= cost:
+                return i, pivot
+            self.queue(i)
+        return None
+
+    def eliminate(self, i: int, pivot: int) -> None:
+        """Solve row `i` for the coordinate `pivot` and substitute it in all other rows."""
+        row = self.rows[i]
         p = row.pop(pivot)
         for j in row:
             row[j] /= p
-        constants[i] /= p
-        solved[i] = pivot
-        for k in users[pivot] - {i}:
-            other = rows[k]
-            factor = other.pop(pivot)
-            for j, v in row.items():
-                old = other.get(j)
-                if old is None:
-                    other[j] = -factor * v
-                    users[j].add(k)
-                    continue
-                new = old - factor * v
-                if abs(new) > DROP * (abs(old) + abs(factor * v)):
-                    other[j] = new
-                else:
-                    del other[j]
-                    users[j].discard(k)
-            constants[k] -= factor * constants[i]
-            if k not in solved and queue_row(k):
-                redundant_rows.add(k)
-        users[pivot] = {i}
+        self.constants[i] /= p
+        self.solved[i] = pivot
+        for k in self.users[pivot] - {i}:
+            self._subtract(k, i, self.rows[k].pop(pivot))
+            if k not in self.solved:
+                self.queue(k)
+        self.users[pivot] = {i}
 
-    row_of = {j: i for i, j in solved.items()}
-    remaining = [j for j in range(n) if j not in row_of]
-    number = {j: k for k, j in enumerate(remaining)}
-    expressions = [
-        Affine({number[j]: 1.0}) if j in number else _solution(rows[row_of[j]], constants[row_of[j]], number, scale)
-        for j in range(n)
-    ]
-    left = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(leftover_rows)]
-    return Elimination(remaining, expressions, len(redundant_rows), left)
+    def _subtract(self, k: int, i: int, factor: float) -> None:
+        """Subtract `factor` times row `i` from row `k`."""
+        row = self.rows[k]
+        for j, v in self.rows[i].items():
+            old = row.get(j)
+            if old is None:
+                row[j] = -factor * v
+                self.users[j].add(k)
+                continue
+            new = old - factor * v
+            if abs(new) > DROP * (abs(old) + abs(factor * v)):
+                row[j] = new
+            else:
+                del row[j]
+                self.users[j].discard(k)
+        self.constants[k] -= factor * self.constants[i]
+
+    def result(self) -> Elimination:
+        """All coordinates as expressions in the coordinates that no row was solved for."""
+        row_of = {j: i for i, j in self.solved.items()}
+        remaining = [j for j in range(len(self.users)) if j not in row_of]
+        number = {j: k for k, j in enumerate(remaining)}
+        expressions = [
+            Affine({number[j]: 1.0})
+            if j in number
+            else _solution(self.rows[row_of[j]], self.constants[row_of[j]], number, self.scale)
+            for j in range(len(self.users))
+        ]
+        left = [
+            (i, Affine({number[j]: v for j, v in self.rows[i].items()}, self.constants[i])) for i in sorted(self.left)
+        ]
+        return Elimination(remaining, expressions, len(self.redundant), left)
 
 
 def _solution(row: Mapping[int, float], constant: float, number: Mapping[int, int], scale: float) -> Affine:

@@ -21,7 +21,7 @@ def start_arrays(
     system: CompiledModel | None, parameters: Mapping[str, float], y: NDArray[np.float64] | None = None
 ) -> dict[str, Any]:
     """The `static_` arrays: whether a System starts in equilibrium, parameters that hold during its solution, and the
-    initial guess: coordinates of `system`, with its states where those of the equilibrium, `y`, differ.
+    initial guess: coordinates of `system`, and its states if the states `y` of the equilibrium differ.
     """
     if system is None:
         return {"static_start": [], "static_par": [], "static_value": [], "static_q": []}

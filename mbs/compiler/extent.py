@@ -39,9 +39,9 @@ def drawn_length(model: Model) -> float:
 
 
 def check_distance(model: Model, rows: Sequence[RowTerms], kinds: Sequence[str], length: float) -> None:
-    """Raise `ModelError` where a model is so far from the origin that squared coordinates lose its shape to round-off.
+    """Raise `ModelError` if a model is so far from the origin that squared coordinates lose its shape to round-off.
 
-    `kinds`: of the coordinates z of the rows; `length`: of the model as drawn, m.
+    `kinds`: kinds of the coordinates z of the rows; `length`: length of the model as drawn, m.
     """
     distance = max((float(np.linalg.norm(p)) for p in _all_points(model)), default=0.0)
     if distance <= max(1.0, length):
@@ -73,7 +73,7 @@ def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> li
 
 
 def unit_vectors(model: Model, numbers: list[int]) -> list[bool]:
-    """Whether full coordinates are components of unit vectors, those of flexible bodies and bases; others are in m."""
+    """Whether full coordinates are components of unit vectors of flexible bodies and bases; others are in m."""
     axes = {b.start + k for b in model.bodies if b.flexibility is not None or b.is_base for k in range(3, 12)}
     return [k in axes for k in numbers]
 

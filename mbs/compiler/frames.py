@@ -27,7 +27,7 @@ def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64])
         if b.flexibility is not None
     )
     tabled = tabled_coordinates(model)
-    if tabled:  # coordinates from tables are no affine functions of q
+    if tabled:  # coordinates from tables are not affine in q
         constant = constant.copy()
         constant[tabled] = np.nan
     return Frames(T, constant, model.dimension, tuple(points), tuple(vectors), rigid, tuple(scalars), flexible)

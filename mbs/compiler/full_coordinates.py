@@ -9,7 +9,7 @@ from scipy import sparse
 from mbs.common.affine import Affine
 from mbs.compiler.elimination import Elimination, eliminate
 from mbs.compiler.natural_coordinates import NaturalCoordinates
-from mbs.compiler.polynomial import RowTerms, cleaned, substitute
+from mbs.compiler.polynomial import RowTerms, drop_round_off, substitute
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.equation import Equation
 from mbs.model.model import Model
@@ -22,7 +22,7 @@ def reduce_coordinates(
 ) -> tuple[NaturalCoordinates, list[int], list[Affine], list[Affine], int, list[RowTerms]]:
     """Eliminate the linear equations.
 
-    `retained`: coordinates of flexible bodies, which are never eliminated; `length`: of the model as drawn, m.
+    `retained`: coordinates of flexible bodies, which are never eliminated; `length`: length of the model as drawn, m.
 
     Returns
     -------
@@ -63,7 +63,7 @@ def reduce_coordinates(
     left = []
     for i, expression in solution.left:
         terms = {(j, -1): v for j, v in expression.terms.items()} | {(-1, -1): expression.constant}
-        left.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
+        left.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, drop_round_off(terms)))
     return natural, solution.remaining, full, solution.expressions, solution.redundant, left
 
 

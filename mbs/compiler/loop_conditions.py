@@ -2,8 +2,8 @@
 
 The unknowns of a body are the translation of its centre of mass and its rotation (rad), in earth axes. A joint has two
 ends: a point and an axis on each of its bodies. The constants of an end are a translation of its point and a rotation
-of its axis, in the axes of the body; that of a distance is its length. All lengths are parts of the size of the loops,
-so rows, unknowns and constants are dimensionless.
+of its axis, in the axes of the body; a distance has its length as a constant. All lengths are relative to the size of
+the loops, so rows, unknowns and constants are dimensionless.
 """
 
 from __future__ import annotations

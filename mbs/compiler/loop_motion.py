@@ -20,7 +20,7 @@ MAX_STEPS = 1000
 RANK_TOLERANCE = 1e-6
 """Singular values below this part of the largest count as zero."""
 CROSSING = 0.05
-"""A branch crosses where the second smallest singular value is below this part of its median along the motion."""
+"""A branch crosses if the second smallest singular value is below this part of its median along the motion."""
 ROW_TOLERANCE = 1e-7
 """Largest error of the rows, parts of the size of the block."""
 

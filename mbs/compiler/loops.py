@@ -61,7 +61,7 @@ class Block:
     vertices: list[Vertex]
     edges: list[Edge]
     reference: Vertex
-    """Vertex to which the motion of the block is relative: the ground, else the one with most edges in the model."""
+    """Vertex to which the motion of the block is relative: the ground, or the one with most edges in the model."""
 
 
 def blocks_of_loops(model: Model) -> list[Block]:
@@ -114,7 +114,7 @@ def _graph(model: Model) -> list[Vertex]:
     numbers = {body.start: body.number for body in model.bodies}
 
     def number(body: Body) -> int:
-        """Number of the body, for a node or a body with ports that of the body it is part of; -1: ground."""
+        """Number of the body, or of the body that a node or a body with ports is part of; -1: ground."""
         return -1 if body.is_ground else numbers[body.start]
 
     def find(k: int) -> int:

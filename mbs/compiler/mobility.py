@@ -1,6 +1,6 @@
 """Mobility of closed loops: positions along their motions, and the closing errors there.
 
-Redundant conditions r of an overconstrained loop contradict each other where the drawing is not exact. With the left
+Redundant conditions r of an overconstrained loop contradict each other if the drawing is not exact. With the left
 singular vectors U of their derivatives whose singular values are almost zero, the closing error at a position is U' r,
 the misfit. A loop whose misfit is zero along its motion moves as drawn.
 """
@@ -26,24 +26,25 @@ CONVERGED = 1e-15
 
 @dataclass
 class ClosedLoops:
-    """Loops at a position where all conditions are closed but the redundant ones."""
+    """Loops at a position at which all conditions except the redundant ones are closed."""
 
     poses: Poses
     rank: int
     """Number of singular values above the tolerance."""
     values: Array
-    """Shape (n,): singular values, the largest 1, padded by zeros to the number of unknowns."""
+    """Singular values, the largest 1, padded by zeros to the number of unknowns, shape (n,)."""
     left: Array
+    """Left singular vectors of the other values, shape (m, m - rank)."""
     right: Array
-    """`left`, `right`: singular vectors of the other values, shapes (m, m - rank) and (n, n - rank)."""
+    """Right singular vectors of the other values, shape (n, n - rank)."""
     misfit: Array
-    """Shape (m - rank,): closing errors, parts of the size."""
+    """Closing errors, parts of the size, shape (m - rank,)."""
     converged: bool
     """Whether the iteration has converged."""
 
     @property
     def largest_misfit(self) -> float:
-        """Largest misfit."""
+        """Largest closing error, part of the size."""
         return float(np.max(np.abs(self.misfit), initial=0.0))
 
 
@@ -69,7 +70,7 @@ def close_loops(loops: Loops, poses: Poses, tolerance: float, g: Array | None = 
 def trace_motion(
     loops: Loops, start: ClosedLoops, tolerance: float, g: Array | None = None, seed: int = 0
 ) -> list[ClosedLoops]:
-    """Positions along the motions from a position, without those where the rank is lower."""
+    """Positions along the motions from a position, without positions of lower rank."""
     random = np.random.default_rng(seed)
     freedoms = start.right.shape[1]
     positions = [start]

@@ -49,7 +49,7 @@ MIN_POSITIONS, MAX_MISFIT = 10, 2e-3
 REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
 """Attributes of a joint that its drawing determines."""
 GROUP_RATIO = 5.0
-"""Least ratio of successive singular values of different groups: those of redundant conditions and of short links."""
+"""Least ratio of successive singular values of different groups: redundant conditions and short links."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ def closed_loops(
 ) -> Callable[[Model], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
     """A function that corrects the drawing of a model and returns a context in which the model has the corrections.
 
-    `tolerance`: see `corrected_joints`. Raises `ModelError`: the tolerance is not in its range.
+    `tolerance`: see `corrected_joints`. Raises `ModelError` if the tolerance is not in its range.
     """
     if not is_number(tolerance) or not 0.0 <= tolerance <= MAX_TOLERANCE:
         raise ModelError(
@@ -169,8 +169,8 @@ def _correct(loops: Loops, tolerance: float) -> list[Corrected]:
 
 
 def _redundancy_limits(values: Array, tolerance: float) -> list[float]:
-    """Limits below which singular values count as those of redundant conditions, ascending: limits between groups of
-    small values, and two fixed ones.
+    """Limits below which a singular value counts as a redundant condition, ascending: limits between groups of small
+    values, and two fixed ones.
     """
     limits = sorted({min(20.0 * tolerance, REDUNDANT), max(20.0 * tolerance, REDUNDANT)})
     small = np.maximum(values[values < limits[0]], 1e-2 * ZERO)
@@ -189,7 +189,7 @@ def _reduced_motion(loops: Loops, limit: float) -> list[ClosedLoops]:
 
 
 def _moves_freely(loops: Loops, positions: list[ClosedLoops], tolerance: float) -> bool:
-    """Whether the loops move as drawn without redundant conditions: small singular values are those of short links."""
+    """Whether the loops move as drawn without redundant conditions: small singular values come from short links."""
     exact = close_loops(loops, positions[1].poses, ZERO)
     small = max(c.values[c.rank] if c.rank < len(c.values) else 0.0 for c in positions)
     return bool(exact.converged and exact.rank == loops.rows and exact.right.shape[1] > 0 and small > 3.0 * tolerance)
@@ -293,7 +293,7 @@ def _corrected_joints(loops: Loops, constants: MovableConstants, tolerance: floa
 def _corrected_joint(
     loops: Loops, c: Condition, g: Array, poses: Poses, joined: bool, points: list[Array], axes: list[Array]
 ) -> Corrected:
-    """A corrected joint; `points`, `axes`: of other joints, whose numbers it takes where they are equal."""
+    """A corrected joint; `points`, `axes`: of other joints, whose numbers it takes if they are equal."""
     ends = c.joint.drawing
     assert ends is not None
     corrected_ends = loops.ends_in_space(c, poses, g)

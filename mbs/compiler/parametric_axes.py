@@ -39,7 +39,7 @@ def _frame_coordinates(axis: WrittenAxis, k: int, full: Sequence[Affine]) -> fro
 def axis_arrays(
     model: Model, signals: Any, with_dependents: Sequence[Affine], new: NDArray[np.int64]
 ) -> Mapping[str, Any]:
-    """The `axis_` arrays; `signals`: of `mbs.compiler.tables`, `new`: index of each z in elimination order."""
+    """The `axis_` arrays; `signals`: signals of the System, `new`: index of each z in elimination order."""
     tables = {id(t): k for k, t in enumerate(model.tabled)}
     axes = model.written_axes
 

@@ -21,7 +21,7 @@ def payload_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
 
 
 def add_entries(mass: sparse.csr_matrix, cliques: Sequence[Sequence[int]]) -> sparse.csr_matrix:
-    """The mass matrix with entries, zero where there were none, between all coordinates of each clique."""
+    """The mass matrix with entries between all coordinates of each clique, new ones zero."""
     old = mass.tocoo()
     rows = np.array([i for c in cliques for i in c for _ in c], dtype=np.int64)
     columns = np.array([j for c in cliques for _ in c for j in c], dtype=np.int64)

@@ -26,18 +26,21 @@ class RowTerms:
     """One constraint row over z."""
 
     name: str
+    """Name of its joint or body."""
     kind: str
-    """`name`, `kind`: name of its joint or body, and kind of its condition."""
+    """Kind of its condition."""
     joint: int
+    """Number of its joint, or -1 for rows of rigid bodies."""
     equation_number: int
-    """`joint`, `equation_number`: number of the joint and of its equation, or -1 for rows of rigid bodies."""
+    """Number of the equation of the joint, or -1 for rows of rigid bodies."""
     main: Polynomial
     """Quadratic part."""
     theta: int = -1
     """Coordinate of the angle part, or -1."""
     cosine: Polynomial = field(default_factory=dict)
+    """C of the angle part ``cos(theta) S - sin(theta) C``."""
     sine: Polynomial = field(default_factory=dict)
-    """`cosine`, `sine`: C and S of the angle part."""
+    """S of the angle part."""
     guides: list[tuple[int, int, Polynomial]] = field(default_factory=list)
     switch: int = -1
     """Number of the switch that turns it on and off, or -1."""
@@ -97,7 +100,7 @@ def add_product(polynomial: Polynomial, factor: float, a: Affine, b: Affine, lar
     largest[:] = [max(most, abs(factor) * size) for most, size in zip(largest, degrees, strict=True)]
 
 
-def cleaned(
+def drop_round_off(
     p: Polynomial, size: float = 1.0, largest: Sequence[float] = (0.0, 0.0, 0.0), error: float = 0.0
 ) -> Polynomial:
     """The polynomial without coefficients that are round-off of the largest, at coordinates of 1 m and of `size`, m.
@@ -123,7 +126,10 @@ def cleaned(
 def expand(
     products: Sequence[Product], linear: Affine, full: Sequence[Affine], size: float, error: float = 0.0
 ) -> Polynomial:
-    """Polynomial in z of a sum of products and a linear part; `size`: of the model, m; `error`: see `cleaned`."""
+    """Polynomial in z of a sum of products and a linear part.
+
+    `size`: size of the model, m; `error`: see `drop_round_off`.
+    """
     p: Polynomial = {}
     largest = [0.0, 0.0, 0.0]
     cache: dict[int, Affine] = {}
@@ -137,7 +143,7 @@ def expand(
     for factor, a, b in products:
         add_product(p, factor, of_z(a), of_z(b), largest)
     add_product(p, 1.0, substitute(linear, full), Affine({}, 1.0), largest)
-    return cleaned(p, size, largest, error)
+    return drop_round_off(p, size, largest, error)
 
 
 def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTerms:
@@ -155,7 +161,7 @@ def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTer
 def row_terms(
     equation: Equation, joint: int, equation_number: int, full: Sequence[Affine], size: float, error: float = 0.0
 ) -> RowTerms:
-    """An equation of a joint as a row over z; `size`: of the model, m; `error`: see `cleaned`."""
+    """An equation of a joint as a row over z; `size`: size of the model, m; `error`: see `drop_round_off`."""
     products = expand(equation.products, equation.linear, full, size, error)
     row = RowTerms(equation.name, equation.kind, joint, equation_number, products)
     if equation.angle is not None:

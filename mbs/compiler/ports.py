@@ -31,14 +31,14 @@ def with_ports_of(ported: System, plain: System) -> System | None:
     Parameters
     ----------
     ported : System
-        With quasi-static outputs, whose rows are those of the ports.
+        With quasi-static outputs, which read the rows of the ports.
     plain : System
         Of the same model without ports.
 
     Returns
     -------
     System or None
-        With the arrays ``ported_``; None where the models differ, or a System was read from a file without its full
+        With the arrays ``ported_``; None if the models differ, or a System was read from a file without its full
         coordinates.
     """
     ported_frames, plain_frames = ported.frames, plain.frames
@@ -85,7 +85,7 @@ def with_ports_of(ported: System, plain: System) -> System | None:
 
 
 def _multiplier_map(ported: System, plain: System, T: sparse.csc_matrix, constant: Array) -> sparse.csc_matrix | None:
-    """Matrix from multipliers of the plain System to those of the rows that are not of ports; None if the rows differ.
+    """Matrix from multipliers of the plain System to multipliers of rows that are not of ports; None if rows differ.
 
     With dependent rows it is the matrix of least norm.
     """
@@ -129,9 +129,9 @@ def _balance_forces(system: System, rows: list[int]) -> sparse.csr_matrix:
 
 
 def map_followers(systems: list[System]) -> tuple[list[System], list[int]]:
-    """Systems of an FMU, with maps where they follow another one and compute its outputs.
+    """Systems of an FMU, with maps if they follow another one and compute its outputs.
 
-    `systems`: by fidelity, with the same sensors.
+    `systems`: Systems by fidelity, with the same sensors.
 
     Returns
     -------
@@ -165,7 +165,7 @@ def _have_same_forces(ported: System, plain: System) -> bool:
 
 
 def _shared_coordinates(frames: Frames) -> list[int]:
-    """Full coordinates of rigid bodies, point masses, angles and spins, without those of ports."""
+    """Full coordinates of rigid bodies, point masses, angles and spins, without ports."""
     size = frames.dimension * (frames.dimension + 1) if frames.dimension == 3 else 4
     rigid = [i for start in frames.bodies for i in range(start, start + size)]
     rigid_set = set(rigid)

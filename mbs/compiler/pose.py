@@ -76,9 +76,9 @@ def pose_partners(
     signals: Signals,
     order: Index,
 ) -> Index:
-    """`pose_partner` in elimination order: signal of the other horizontal component, from 1, negative at x; else 0.
+    """`pose_partner` in elimination order: signal of the other horizontal component, from 1, negative at x; 0: none.
 
-    With it a scene can be moved from a position other than that of the `pose_` arrays.
+    With it a scene can be moved from another position than the `pose_` arrays have.
     """
     partners = np.zeros(len(remaining), dtype=np.int64)
     for k, i in enumerate(remaining):

@@ -101,7 +101,7 @@ class _TermLists:
 
 
 class RowArrays:
-    """The row arrays of the System file, by name in `arrays`; coefficients are those of the joints until `scale`.
+    """The row arrays of the System file, by name in `arrays`; coefficients are not scaled until `scale`.
 
     `rows`: over z before ordering; `new`: index of each z in elimination order.
     """
@@ -138,7 +138,7 @@ class RowArrays:
     ) -> tuple[Array, sparse.csr_matrix, Array]:
         """Phi, shape (nc,), Phi_q, shape (nc, nq), and Phi_t, shape (nc,), at position `q`, shape (nq,).
 
-        `guide_rates`: zero by default. A condition A qd = 0 on velocities has A in place of Phi_q, and Phi = 0.
+        `guide_rates`: zero by default. A condition A qd = 0 on velocities has A instead of Phi_q, and Phi = 0.
         """
         a = self.arrays
         start, col = a["row_ptr"], a["row_col"]
@@ -209,7 +209,7 @@ def _owners(pointer: Index) -> Index:
 
 
 def _pointer(owner: Array, n: int) -> Index:
-    """Start of the items of each of `n` owners, and their total number; `owner`: of each item, ascending."""
+    """Start of the items of each of `n` owners, and their total number; `owner`: owner of each item, ascending."""
     return np.concatenate([[0], np.cumsum(np.bincount(owner.astype(np.int64), minlength=n)[:n] if n else [])]).astype(
         np.int64
     )

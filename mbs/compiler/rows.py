@@ -13,7 +13,7 @@ import numpy as np
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector
 from mbs.compiler.local_vectors import MIN_DISTANCE, body_length, distinct
-from mbs.compiler.polynomial import Polynomial, RowTerms, add_product, cleaned, substitute
+from mbs.compiler.polynomial import Polynomial, RowTerms, add_product, drop_round_off, substitute
 from mbs.model.body import Body
 
 INDEPENDENT = 0.2
@@ -37,7 +37,7 @@ def candidate_vectors(body: Body) -> list[Vector]:
 def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[RowTerms]:
     """Rows of a rigid body over z, with rows that hold identically.
 
-    `full`: full coordinates as expressions in z; `error`: of the corrected drawing, parts of its size. A row
+    `full`: full coordinates as expressions in z; `error`: error of the corrected drawing, parts of its size. A row
     may be zero but for this error, which would lock the motion that the other rows allow.
     """
     if body.is_point:
@@ -66,7 +66,7 @@ def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[R
             for x, y in zip(v_i.components, v_j.components, strict=True):
                 add_product(p, 1.0, x, y, largest)
             p[(-1, -1)] = p.get((-1, -1), 0.0) - float(np.dot(w_i, w_j))
-            rows.append(RowTerms(body.name, "rigid", -1, -1, cleaned(p, body_length(body), largest, error)))
+            rows.append(RowTerms(body.name, "rigid", -1, -1, drop_round_off(p, body_length(body), largest, error)))
     return rows
 
 

@@ -40,7 +40,7 @@ class Group:
 
     bodies: list[Body]
     number: int = 0
-    """In depth-first order; 0 is the ground."""
+    """Number in depth-first order; 0 is the ground."""
     depth: int = 0
     """Number of joints between the ground and the group."""
     parent: Group | None = None
@@ -48,10 +48,11 @@ class Group:
     slides: bool = False
     """Whether the joint to its parent is prismatic."""
     origin: Array = field(default_factory=lambda: np.zeros(3))
+    """Drawn origin of the frame, m, shape (3,)."""
     axes: Array = field(default_factory=lambda: np.eye(3))
-    """`origin`, `axes`: drawn origin, shape (3,), m, and axes x, y, z of the frame as columns, shape (3, 3)."""
+    """Drawn axes x, y, z of the frame as columns, shape (3, 3)."""
     base: Array = field(default_factory=lambda: np.zeros(12))
-    """Shape (12,): origin and columns of the joint's frame on the parent, in the frame of the parent."""
+    """Origin, m, and columns of the joint's frame on the parent, in the frame of the parent, shape (12,)."""
 
     @property
     def height(self) -> int:
@@ -75,7 +76,7 @@ class Cut:
 def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
     """Groups in depth-first order, the ground first, and the joints that are cut.
 
-    Raises `NoTreeError`: with the reason.
+    Raises `NoTreeError` with the reason if the model has no tree.
     """
     _check_model(model)
     group_of = _weld_groups(model)
@@ -143,7 +144,7 @@ def _check_model(model: Model) -> None:
 def angle_joints(groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
     """The joints whose coordinates add up to a relative angle, by the numbers of their bodies, and their signs.
 
-    Raises `NoTreeError`: where a joint between its bodies turns about another axis.
+    Raises `NoTreeError` if a joint between its bodies turns about another axis.
     """
     assert joint.turn is not None
     axis = np.array([0.0, 0.0, 1.0]) if joint.turn.axis is None else in_space(joint.turn.axis)

@@ -71,7 +71,7 @@ def velocity(
     length: float,
 ) -> tuple[Array, str]:
     """Start velocity in elimination order, shape (nq,), from the given velocities of bodies and rates of coordinates,
-    and a sentence if they contradict each other; `length`: of the model, m.
+    and a sentence if they contradict each other; `length`: length of the model, m.
     """
     position = full_values(full, z)
     rates = np.zeros(len(full))

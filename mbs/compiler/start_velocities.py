@@ -28,7 +28,7 @@ class GivenVelocity:
     rates: Array
     """Given rates of these, shape (n,)."""
     axes: Array
-    """Axes of the body, shape (m, dimension), for an angular velocity; else empty, shape (0, n): the first n rates."""
+    """Axes of the body, shape (m, dimension), for an angular velocity; shape (0, n) for the first n rates alone."""
 
     def energy(self, rates: Array) -> float:
         """Twice the kinetic energy of rates, J."""
@@ -55,7 +55,7 @@ class GivenVelocity:
 
 
 def given_velocities(model: Model, position: Array, mass: float) -> Iterator[GivenVelocity]:
-    """Given velocities of a model; `position`: full coordinates, `mass`: of a coordinate without mass, kg."""
+    """Given velocities of a model; `position`: full coordinates, `mass`: mass of coordinates without mass, kg."""
     d, turns = model.dimension, 1 if model.dimension == 2 else 3
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]

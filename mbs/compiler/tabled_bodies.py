@@ -1,4 +1,4 @@
-"""Lookup-table bodies and numbers: dependent coordinates, numbered after those of the System, and `tabled_` arrays."""
+"""Lookup-table bodies and numbers: dependent coordinates, numbered after the coordinates, and `tabled_` arrays."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -42,7 +42,7 @@ def tabled_coordinates(model: Model) -> list[int]:
 
 
 def base_coordinates(model: Model) -> set[int]:
-    """Natural coordinates that tables depend on, those of base bodies and parameters: they are never eliminated."""
+    """Natural coordinates that tables depend on, of base bodies and parameters: they are never eliminated."""
     bases = {i for b in model.bodies if b.is_base for i in range(b.start, b.start + b.size)}
     return bases | {c.index for t in model.tabled for c in t.parameters}
 
@@ -98,7 +98,7 @@ def tabled_cliques(model: Model, with_dependents: Sequence[Affine]) -> list[list
 
 
 def expand_columns(columns: Sequence[int], dependent_columns: Sequence[Sequence[int]], nz: int) -> list[int]:
-    """Coordinates of z on which columns depend; those from `nz` on are dependents with columns `dependent_columns`."""
+    """Coordinates of z on which columns depend; number `nz` and higher are dependents, columns `dependent_columns`."""
     return sorted({j for c in columns for j in (dependent_columns[c - nz] if c >= nz else [c])})
 
 

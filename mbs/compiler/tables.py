@@ -24,7 +24,7 @@ class Signals:
     """Affine signals of z in elimination order, each stored once.
 
     `full`: full coordinates as expressions in z; `new`: index of each z in elimination order; `reserved`: coordinates
-    that expressions, by identity, have as entries even where they are zero, each as a separate signal.
+    that expressions, by identity, have as entries even if they are zero, each as a separate signal.
     """
 
     def __init__(
@@ -75,7 +75,7 @@ def pointer(counts: Sequence[int]) -> NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(np.asarray(counts, dtype=np.int64))]).astype(np.int64)
 
 
-def ragged(name: str, groups: Sequence[Sequence[float]], dtype: type) -> Arrays:
+def ragged_arrays(name: str, groups: Sequence[Sequence[float]], dtype: type) -> Arrays:
     """Arrays ``name_ptr`` and ``name`` of a list of lists."""
     flat = [v for g in groups for v in g]
     return {f"{name}_ptr": pointer([len(g) for g in groups]), name: np.array(flat, dtype=dtype)}
@@ -108,13 +108,13 @@ def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
     e = model.elements
     return {
         "el_type": np.array([int(x.type) for x in e], dtype=np.int64),
-        **ragged("el_sig", numbers, np.int64),
-        **ragged("el_real", [x.real for x in e], float),
-        **ragged("el_int", [x.integer for x in e], np.int64),
+        **ragged_arrays("el_sig", numbers, np.int64),
+        **ragged_arrays("el_real", [x.real for x in e], float),
+        **ragged_arrays("el_int", [x.integer for x in e], np.int64),
         "el_state_ptr": pointer([len(x.states) for x in e]),
         "el_out_ptr": pointer([len(x.outputs) for x in e]),
         "el_front": np.array(fronts, dtype=np.int64),
-        **ragged("el_loc", local_indices, np.int64),
+        **ragged_arrays("el_loc", local_indices, np.int64),
         "y0": np.array([v for x in e for v in x.states], dtype=float),
     }
 
@@ -160,8 +160,8 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
             ints.append([*sensor.integers, *(signals.number(s) for s in sensor.signals), *rows])
     return {
         "sen_type": np.array([s.type for s in model.sensors], dtype=np.int64),
-        **ragged("sen_int", ints, np.int64),
-        **ragged("sen_real", reals, float),
+        **ragged_arrays("sen_int", ints, np.int64),
+        **ragged_arrays("sen_real", reals, float),
     }
 
 
@@ -191,9 +191,9 @@ def channel_arrays(model: Model) -> Arrays:
         "guide_type": np.array([g.type for g in model.guides], dtype=np.int64),
         "guide_input": np.array([g.input for g in model.guides], dtype=np.int64),
         "guide_second": np.array([g.second for g in model.guides], dtype=np.int64),
-        **ragged("guide_real", [g.reals for g in model.guides], float),
+        **ragged_arrays("guide_real", [g.reals for g in model.guides], float),
         "road_type": np.array([int(r.type) for r in model.roads], dtype=np.int64),
-        **ragged("road_real", [r.real for r in model.roads], float),
+        **ragged_arrays("road_real", [r.real for r in model.roads], float),
         "par_value": np.array([p.value for p in model.parameters], dtype=float),
         "par_min": np.array([p.min for p in model.parameters], dtype=float),
         "par_max": np.array([p.max for p in model.parameters], dtype=float),

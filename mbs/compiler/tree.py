@@ -38,7 +38,7 @@ HISTORY_SIZE = 5
 def tree_arrays(
     model: Model, signals: Signals, remaining: Sequence[int], new: NDArray[np.int64]
 ) -> tuple[dict[str, Any], str]:
-    """The `tree_` arrays; none, with the reason in words, where the model has no tree.
+    """The `tree_` arrays; none, with the reason in words, if the model has no tree.
 
     `signals`: gets the signals of the bodies' frames; `remaining`: natural coordinates that form z; `new`: index of
     each z in elimination order.
@@ -73,7 +73,7 @@ def tree_arrays(
 
 
 def _check_parameters(model: Model) -> None:
-    """Raise `NoTreeError` for parameters that change inertias, armatures or axes: those of a tree are constant."""
+    """Raise `NoTreeError` for parameters that change inertias, armatures or axes, which are constant in a tree."""
     for k in written_armatures(model):
         raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")
     for body in model.written_inertias:

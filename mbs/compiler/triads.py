@@ -1,9 +1,9 @@
 """Angles at the joints of closed loops, which distinguish assembly modes.
 
 A joint J of a ring with the joints P and Q before and after it makes the triad P, J, Q. Seen along an axis n the angle
-from JP to JQ is 0 or pi where the two bodies lie in line: at a dead centre, where the motion may leave in another
-assembly mode. The axis is that of J, else that of a hinge at P or Q (a wishbone), else the line to a third joint of a
-body (a track rod on an upright).
+from JP to JQ is 0 or pi if the two bodies lie in line: at a dead centre, at which the motion may leave in another
+assembly mode. The axis is the first of: the axis of J, of a hinge at P or Q (a wishbone), the line to a third joint of
+a body (a track rod on an upright).
 """
 
 from dataclasses import dataclass

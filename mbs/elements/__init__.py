@@ -1,6 +1,6 @@
 """Force elements: their data, checked, and the records that `compile()` reads.
 
-Arguments of `record` that several elements share: `centre`, m, and `axis`, a unit vector to the left, are those of a
+Arguments of `record` that several elements share: `centre`, m, and `axis`, a unit vector to the left, belong to a
 wheel; `spin`, `left` and `right` are absolute spins of wheels, rad; `f` and `g` are orthonormal vectors of the carrier,
 f x g along the axis to the left; a `coordinate` is an angle, rad, or a length, m; a `difference` is p2 - p1 of two
 points in earth axes, two or three components, m.

@@ -22,16 +22,16 @@ from mbs.elements.wheel_signals import carrier_signals
 class AutomaticDrive(Element):
     """Drive of two wheels by an engine with a torque converter and gears that shift automatically.
 
-    The speed of the turbine is the ratio times the mean speed of the wheels, that of the engine, which has no inertia,
-    ``sqrt(w_s^2 + w_t^2)`` of stall and turbine speed. Its torque is ``min(T_max, P_max/w)`` times a linear factor of
-    the converter. Gears shift between steps, by speed or by request, and blend over the ramp; a clutch behind the
-    converter passes on at most the share of the largest torque that its pedal leaves, and slips beyond. Both wheels
-    have equal torques, the carrier their reaction. Ratio of reverse, speed and time to engage are used where there is a
+    The speed of the turbine is the ratio times the mean speed of the wheels; the speed of the engine, which has no
+    inertia, is ``sqrt(w_s^2 + w_t^2)`` of stall and turbine speed. Its torque is ``min(T_max, P_max/w)`` times a linear
+    factor of the converter. Gears shift between steps, by speed or by request, and blend over the ramp; a clutch behind
+    the converter transmits at most the part of the largest torque that its pedal leaves, and slips beyond. Both wheels
+    have equal torques, the carrier their reaction. Ratio of reverse, speed and time to engage are used only with a
     selector.
     """
 
     max_torque: NotNegative
-    """Torque of the engine, N m; full torque is the lesser of it and of the power over the speed."""
+    """Torque of the engine, N m; full torque is the lesser of it and of the power divided by the speed."""
     max_power: NotNegative
     """Power of the engine, W."""
     efficiency: NotNegative = 0.85
@@ -39,17 +39,17 @@ class AutomaticDrive(Element):
     stall_factor: NotNegative = 1.9
     """Torque ratio of the converter at stall."""
     coupling_ratio: Positive = 0.9
-    """Speed ratio of the converter from which on its torque ratio is 1."""
+    """Speed ratio of the converter above which its torque ratio is 1."""
     idle_speed: NotNegative = 90.0
     """Engine speed at rest with closed throttle, rad/s."""
     stall_speed: NotNegative = 230.0
     """Engine speed at rest with open throttle, rad/s."""
     limit_speed: NotNegative = 600.0
-    """Engine speed where the limiter sets in, rad/s."""
+    """Engine speed at which the limiter sets in, rad/s."""
     creep_torque: NotNegative = 60.0
     """Torque per driven wheel at rest with closed throttle, the selector in drive, N m; 0: neutral."""
     creep_speed: Positive = 10.0
-    """Wheel speed where the creep torque has faded, rad/s."""
+    """Wheel speed at which the creep torque has faded, rad/s."""
     drag_torque: NotNegative = 20.0
     """Torque of the engine at its limit speed with closed throttle, N m."""
     up_closed: Annotated[float, Real(not_negative, noun="upshift speed with closed throttle")] = 230.0
@@ -89,7 +89,7 @@ class AutomaticDrive(Element):
     _outputs = (
         Output("engine_speed", "rad/s", "speed of the engine", display_unit="rpm"),
         Output("gear", "1", "gear engaged", whole=True),
-        Output("wheel_torque", "N m", "torque on each of the two wheels, the mean where the differential locks"),
+        Output("wheel_torque", "N m", "torque on each of the two wheels, the mean if the differential locks"),
         Output("engine_torque", "N m", "torque of the engine"),
         *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
         *(Output(f"{side}_torque", "N m", f"torque on the {side} wheel") for side in ("left", "right")),
@@ -101,7 +101,7 @@ class AutomaticDrive(Element):
         """Each field whose gears or speeds are not in order, with a description of the fault."""
         ratios = list(self.ratios)
         if not ratios or any(b >= a for a, b in pairwise(ratios)):
-            yield "ratios", f"are {ratios}; they must fall from first gear on, with at least one"
+            yield "ratios", f"are {ratios}; they must fall from the first gear, with at least one"
             return
         if not 0.0 < self.idle_speed <= self.stall_speed < self.limit_speed:
             speeds = f"stall_speed {self.stall_speed:g} and limit_speed {self.limit_speed:g}"
@@ -131,7 +131,7 @@ class AutomaticDrive(Element):
         request: int | None = None,
         clutch: int | None = None,
     ) -> ElementRecord:
-        """The force element; the frame carries the reaction.
+        """Make the record of the element for the kernel; the frame carries the reaction.
 
         Parameters
         ----------

@@ -25,15 +25,15 @@ class BodyForce(Element):
     _integers = input_indices("first second third", missing=True)
 
     def record(self, name: str, point: AffineVector, axes: Sequence[AffineVector]) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------
         point : AffineVector
-            Where the force acts.
+            Point at which the force acts, m.
         axes : sequence of AffineVector
-            Three unit vectors in space, one in the plane (the second is it turned left); constant ones are fixed in the
-            earth.
+            Three unit vectors in space; one in the plane, whose second is the first turned left. Constant vectors are
+            fixed in the earth.
         """
         label = self._label(name)
         check_components(point, (2, 3), f"The point of {label}")

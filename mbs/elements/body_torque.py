@@ -28,7 +28,7 @@ class BodyTorque(Element):
     _integers = (*input_indices("first second third", missing=True), Integer("axes", most=1))
 
     def record(self, name: str, frame: Sequence[AffineVector]) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------

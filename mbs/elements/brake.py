@@ -30,7 +30,7 @@ class Brake(Element):
     share: NotNegative = 1.0
     """Factor on max_torque, so that a total torque and a balance may be parameters."""
     hand_torque: NotNegative = 0.0
-    """Torque at full hand brake, N m; that of the pedal is added to it."""
+    """Torque at full hand brake, N m; the torque of the pedal is added to it."""
     side: NotNegative = 1.0
     """Factor on the share, so that brakes that differ from left to right may be a parameter."""
 
@@ -60,7 +60,7 @@ class Brake(Element):
         *,
         by_size: bool = False,
     ) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------
@@ -69,7 +69,7 @@ class Brake(Element):
         hand : int, optional
             Number of the input of the hand brake, 0 to 1.
         by_size : bool
-            Whether `input` is not a pedal but any number from 0 on, and `max_torque` the torque per unit of it.
+            Whether `input` is not a pedal but any number of at least 0, and `max_torque` the torque per unit of it.
         """
         label = self._label(name)
         sized = 1 if flag(by_size, f"The by_size of {label}") else None

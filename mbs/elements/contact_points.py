@@ -22,7 +22,7 @@ from mbs.elements.record_checks import check_components, fraction
 class ContactPoints(Element):
     """Points or spheres of a body that rest, slide and bounce on a road.
 
-    Normal force over the depth d: K d^2/(2 w) up to the onset w, K (d - w/2) beyond; times ``1 + chi d'`` going in and
+    Normal force at depth d: K d^2/(2 w) up to the onset w, K (d - w/2) beyond; times ``1 + chi d'`` going in and
     ``1/(1 - chi d')`` coming out (Hunt and Crossley 1975, without their pull), so that a point that meets the road with
     v leaves it with v1, ``(chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3``. Friction is elastoplastic, a spring
     and damper in series with a slider that slips at mu times the normal force: a body at rest stays there. With hardly
@@ -40,11 +40,11 @@ class ContactPoints(Element):
     loss: NotNegative = 0.0
     """chi, s/m."""
     friction_factor: NotNegative = 1.0
-    """Coefficient of friction on a road over the friction of the road."""
+    """Ratio of the coefficient of friction on a road to the friction of the road."""
     radius: NotNegative = 0.0
     """Radius of the spheres around the points, as of tubes or edges, m."""
     restitution: Fraction = 0.0
-    """Least coefficient of restitution e, that of fast impacts: ``chi d'`` saturates at 1/e - 1; 0: it does not."""
+    """Least coefficient of restitution e, at fast impacts: ``chi d'`` saturates at 1/e - 1; 0: it does not."""
 
     _noun = "contact points"
     _signals = (("origin", 3), ("axes", 9))
@@ -87,8 +87,8 @@ class ContactPoints(Element):
         gravity : float
             m/s2.
         restitution : float
-            Coefficient of restitution at the impact speed sqrt(gravity depth), above 0 and below 1; half of it is the
-            least restitution, that of fast impacts.
+            Coefficient of restitution at the impact speed sqrt(gravity depth), above 0 and below 1; fast impacts have
+            half of it.
         """
         m, d, w = (
             positive(v, f"The {name} of contact points")
@@ -106,7 +106,7 @@ class ContactPoints(Element):
     def record(
         self, name: str, origin: AffineVector, axes: Sequence[AffineVector], points: ArrayLike, road: int
     ) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------
@@ -129,10 +129,10 @@ class ContactPoints(Element):
 
 
 def _loss(e: float) -> float:
-    """Loss times impact speed of the coefficient of restitution e, where the least one is half of it.
+    """Loss times impact speed of the coefficient of restitution e if the least one is half of it.
 
     With b = e/(2 - e) and u = chi |d'| the factors are (1 + (1 + b) u)/(1 + b u) and its inverse. Energies of
-    compression, the integral of u du over the factor from 0 to x, and of restitution, from 0 to e x, are equal.
+    compression, the integral of u/factor from 0 to x, and of restitution, from 0 to e x, are equal.
     """
     b = e / (2.0 - e)
 

@@ -16,12 +16,12 @@ from mbs.elements.wheel_signals import carrier_signals
 class ElectricDrive(Element):
     """Drive of two wheels by an electric motor: constant torque, then constant power, then the limit speed.
 
-    Speeds and torques are those of the motor where nothing else is said. Its torque T is the throttle times
-    ``min(T_max, P_max/|w|)``, to zero beyond the limit speed, less the rest of the throttle times ``min(T_r, P_r/|w|)
+    Speeds and torques are of the motor if nothing else is said. Its torque T is the throttle times
+    ``min(T_max, P_max/|w|)``, to zero beyond the limit speed, minus the rest of the throttle times ``min(T_r, P_r/|w|)
     r(w)`` of regeneration, r an odd smooth step around standstill. With the ratio N both wheels have ``N T/2``, the
-    carrier the reaction. Where a torque works against the motion the motor gives electric power: that of the battery is
-    that of the shaft over the efficiency under drive, times it in regeneration. The loss of the gears fades below 5
-    rad/s. The inertia J of the rotor is ``J N^2/2`` on each spin, see `Model.armature`.
+    carrier the reaction. The power of the battery is the power of the shaft divided by the efficiency, or times the
+    efficiency if the torque works against the motion. The loss of the gears fades below 5 rad/s. The inertia J of the
+    rotor is ``J N^2/2`` on each spin, see `Model.armature`.
     """
 
     max_torque: NotNegative
@@ -29,7 +29,7 @@ class ElectricDrive(Element):
     max_power: NotNegative
     """Largest power of the motor at its shaft, W."""
     ratio: Positive
-    """Speed of the motor over the mean speed of the wheels, a ratio."""
+    """Ratio of the speed of the motor to the mean speed of the wheels."""
     limit_speed: Positive = 1200.0
     """Speed of the motor beyond which its torque fades to zero within 5 %, rad/s."""
     efficiency: Share = 0.9
@@ -39,11 +39,11 @@ class ElectricDrive(Element):
     regeneration_torque: NotNegative = 0.0
     """Torque of the motor that brakes with closed throttle, N m."""
     regeneration_power: NotNegative = 50e3
-    """Largest power of it, W."""
+    """Largest power of regeneration, W."""
     regeneration_speed: Positive = 60.0
     """Speed of the motor below which it fades, so that the car rests, rad/s."""
     reverse_torque: NotNegative = 0.5
-    """Share of the largest torque in reverse."""
+    """Part of the largest torque available in reverse, a ratio."""
     reverse_speed: Positive = 250.0
     """Speed of the motor beyond which its torque fades in reverse, rad/s."""
     engage_speed: NotNegative = 8.0
@@ -76,7 +76,7 @@ class ElectricDrive(Element):
         throttle: int,
         selector: int | None = None,
     ) -> ElementRecord:
-        """The force element; the frame carries the reaction.
+        """Make the record of the element for the kernel; the frame carries the reaction.
 
         Parameters
         ----------

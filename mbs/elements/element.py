@@ -27,9 +27,9 @@ class Element:
     """Names of the local variables in the order of the kernel, with their numbers of components: in space, or a pair in
     space and in the plane. None: any number of variables."""
     _integers: ClassVar[tuple[Integer, ...]] = ()
-    """Inputs, roads, choices and counts."""
+    """Numbers of inputs and roads, choices and counts."""
     _states: ClassVar[tuple[float, ...]] = ()
-    """Initial values of the slots."""
+    """Initial values of the slots (internal variables)."""
     _outputs: ClassVar[tuple[Output, ...]] = ()
     """Outputs besides the force."""
     _appended: ClassVar[int | None] = 0
@@ -75,10 +75,10 @@ class Element:
         states: Sequence[float] | None = None,
         outputs: Sequence[Output] | None = None,
     ) -> ElementRecord:
-        """Make the record.
+        """Make the record of the element from the checked fields.
 
-        `integer`: values of the declared integers, None if missing; `values`, `states`, `outputs`: in place of those of
-        the fields and the class; `appended`: reals between the required and the optional ones; `has_optional`: whether
+        `integer`: values of the declared integers, None if missing; `values`, `states`, `outputs`: replace those of the
+        fields and the class; `appended`: reals between the required and the optional ones; `has_optional`: whether
         there are optional reals, if no integer is optional.
         """
         label = self._label(name)

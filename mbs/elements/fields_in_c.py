@@ -15,7 +15,7 @@ from mbs.common.checks import not_negative, number, positive
 from mbs.elements.element import Element
 from mbs.elements.integers import Integer, IntegerKind
 from mbs.elements.reals import Check, Group, Real, declared, each_real, texts_of
-from mbs.elements.record_checks import MOST, fraction, share
+from mbs.elements.record_checks import INT32_MAX, fraction, share
 from mbs.kernel.header.enumerations import ElementType
 
 FOLDER = Path(mbs.kernel.__file__).parent / "src" / "elements"
@@ -79,7 +79,7 @@ def header(kind: type[Element]) -> str:
     if kind._integers:
         lines += [f"static const ali3_integer {name}_integers[] = {{"]
         for integer in kind._integers:
-            most = "INT32_MAX" if integer.most == MOST else integer.most
+            most = "INT32_MAX" if integer.most == INT32_MAX else integer.most
             limits = f"{integer.least}, {most}, {integer.reals}, {integer.states}"
             lines += [f'  {{{integer.kind.value}, {limits}, "{_sentence(integer, noun)}"}},']
         lines += ["};"]

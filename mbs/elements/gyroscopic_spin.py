@@ -25,5 +25,5 @@ class GyroscopicSpin(Element):
     _signals = (("f", 3), ("g", 3), ("spin", 1))
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """The force element."""
+        """Make the record of the element for the kernel."""
         return self._record(name, (*carrier_signals(f, g, self._label(name)), spin))

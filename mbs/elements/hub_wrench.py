@@ -1,4 +1,4 @@
-"""Force and moment on the hub of a wheel, given by inputs in place of a tyre."""
+"""Force and moment on the hub of a wheel, given by inputs instead of a tyre."""
 
 from __future__ import annotations
 
@@ -29,6 +29,6 @@ class HubWrench(Element):
     _outputs = (Output("power", "W", "power of force and moment on wheel and carrier together"),)
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine) -> ElementRecord:
-        """The force element."""
+        """Make the record of the element for the kernel."""
         label = self._label(name)
         return self._record(name, wheel_signals(centre, axis, spin, label), check_inputs(self.inputs, 6, label))

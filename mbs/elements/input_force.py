@@ -30,7 +30,7 @@ class InputForce(Element):
     _tangent = False
 
     def record(self, name: str, signals: Sequence[Affine]) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------

@@ -6,7 +6,7 @@ from enum import Enum
 
 from mbs.common.checks import capital, shown, whole
 from mbs.common.errors import ModelError
-from mbs.elements.record_checks import MOST, index
+from mbs.elements.record_checks import INT32_MAX, index
 
 
 class IntegerKind(Enum):
@@ -26,7 +26,7 @@ class Integer:
     kind: IntegerKind = IntegerKind.NUMBERS
     least: int = 0
     """Least value; -1 of an input that may be missing."""
-    most: int = MOST
+    most: int = INT32_MAX
     optional: bool = False
     """Whether it may be omitted; optional integers are the last ones."""
     noun: str = ""
@@ -42,7 +42,7 @@ class Integer:
         return self.noun or f"the {self.name.replace('_', ' ')}"
 
     def checked(self, value: int | None, label: str) -> int:
-        """Return a valid value; None stands for a missing input. `label`: of the element, for messages."""
+        """Return a valid value; None stands for a missing input. `label`: label of the element, for messages."""
         if value is None and self.least == -1:
             return -1
         subject = f"{capital(self.phrase)} of {label}"

@@ -19,14 +19,14 @@ from mbs.elements.wind import Wind
 class Lift(Element):
     """Lift rho A v^2 / 2 of a body in the air; several, one per axle, make a pitching moment too.
 
-    It acts along the upward axis of the body; v is the speed of the point along the forward one, with two inputs that
-    over air that moves at the speed and to the heading that they give.
+    It acts along the upward axis of the body; v is the speed of the point along the forward axis, relative to the wind
+    if there is one.
     """
 
     lift_area: Number
     """Lift coefficient times frontal area, m^2; a negative one gives downforce."""
     air_density: NotNegative = 1.225
-    """kg/m^3."""
+    """Density of the air, kg/m^3."""
 
     _noun = "a lift"
     _signals = tuple((name, SPACE_OR_PLANE) for name in ("point", "forward", "up"))
@@ -36,17 +36,17 @@ class Lift(Element):
     def record(
         self, name: str, point: AffineVector, forward: AffineVector, up: AffineVector, wind: Wind | None = None
     ) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------
         point : AffineVector
-            Where the force acts, two or three components, in wind three.
+            Point at which the force acts, m, two or three components, in wind three.
         forward, up : AffineVector
             Unit vectors of the body, as many components: v is the speed of the point along the first, the force acts
             along the second.
         wind : Wind, optional
-            How the air moves; by default it is still.
+            Inputs of the speed and heading of the wind; by default the air is still.
         """
         label = self._label(name)
         check_components(point, (2, 3), f"The point of {label}")

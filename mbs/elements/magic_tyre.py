@@ -24,11 +24,11 @@ VERSIONS = {"PAC2002": 52, "MF52": 52, "MF61": 61, "MF62": 62}
 COMBINATIONS = ("none", "weighting", "ellipse")
 """How longitudinal and lateral slip act together, in the order of the kernel."""
 SIGNS = {"iso": (1.0, 1.0, 1.0), "sae": (-1.0, 1.0, -1.0), "adapted_sae": (1.0, 1.0, -1.0)}
-"""Signs of slip angle, camber, and lateral force with aligning moment, from ISO axes to those of the coefficients."""
+"""Signs of slip angle, camber, and lateral force with aligning moment, from ISO axes to the axes of a file."""
 FACTORS = ("lmux", "lmuy", "lkx", "lky")
 """Fields that multiply the scaling factors of the file."""
 Bounds = Annotated[Pair, Real(number, ("least", "most"))]
-_LARGEST_ANGLE = 1.5706
+_MAX_ANGLE = 1.5706
 """Slip angle whose tangent is finite, rad."""
 
 
@@ -55,7 +55,7 @@ class MagicTyre(Element):
     progression: Number = 0.0
     """Vertical force of the squared deflection, N/m^2."""
     damping: NotNegative = 0.0
-    """Vertical, N s/m; it sets in over the first 5 mm."""
+    """Vertical, N s/m; it grows from zero along the first 5 mm."""
     bottoming_stiffness: NotNegative = 0.0
     """Of the rim, N/m."""
     reference_friction: Positive = 1.0
@@ -71,7 +71,7 @@ class MagicTyre(Element):
     lky: Annotated[float, Real(positive, noun="factor on LKY")] = 1.0
     """Factor on LKY of the file, the cornering stiffness."""
     pressure: Number = 0.0
-    """Inflation pressure over the nominal one, less 1, a ratio."""
+    """Deviation of the inflation pressure from the nominal pressure, a ratio to the latter."""
     settling: Positive = 0.006
     """Damping over stiffness of the carcass at rest, s."""
     combination: str = "weighting"
@@ -90,7 +90,7 @@ class MagicTyre(Element):
     largest_load: Positive = 1e5
     """Likewise, N; the vertical force itself goes on."""
     bore: Annotated[TyreBore | None, BORE] = None
-    """Torque against turning on the spot; it fades out up to 1 m/s, from where the formula has the moments."""
+    """Torque against turning on the spot; it fades out up to 1 m/s, above which the formula gives the moments."""
 
     _noun = "a tyre"
     _signals = WHEEL
@@ -107,15 +107,15 @@ class MagicTyre(Element):
 
     @property
     def along(self) -> tuple[float, float]:
-        """Slip stiffness along the heading at the nominal load, N, and stiffness of the carcass, N/m: of the file, or
-        the slip stiffness over the relaxation length, where there is none over half a radius.
+        """Slip stiffness along the heading at the nominal load, N, and stiffness of the carcass, N/m: from the file, or
+        the slip stiffness divided by the relaxation length (by default half a radius).
         """
         c = {**MAGIC_COEFFICIENTS, **self.coefficients}
         slip_stiffness = c["PKX1"] * c["LKX"] * self.lkx * self.nominal_load
         return slip_stiffness, c["LONGITUDINAL_STIFFNESS"] or slip_stiffness / ((c["PTX1"] or 0.5) * self.radius)
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Raises
         ------
@@ -130,7 +130,7 @@ class MagicTyre(Element):
         angles = vector(self.angle_range, 2, f"the angle range of {label}").tolist()
         values = {
             "signs": [-sign if self.mirrored else sign for sign in signs],
-            "angle_range": [tan(min(max(angle, -_LARGEST_ANGLE), _LARGEST_ANGLE)) for angle in angles],
+            "angle_range": [tan(min(max(angle, -_MAX_ANGLE), _MAX_ANGLE)) for angle in angles],
         }
         integers = (road, version, combination, None if self.bore is None else 1)
         record = self._record(name, signals, integers, values=values, appended=self._coefficients(label))

@@ -50,7 +50,7 @@ class Group:
     optional: bool = False
     """Whether the field may be None, which has no numbers."""
     separate: bool = False
-    """Whether its numbers follow those of all fields, under their own names without the name of the field."""
+    """Whether its numbers follow the numbers of all fields, under their own names without the name of the field."""
 
     def name(self, field: str, number: str) -> str:
         """Name of one number of the group in a field."""
@@ -103,14 +103,14 @@ def texts_of(kind: type) -> dict[str, str]:
     }
 
 
-def reals_of(thing: object, label: str, values: Mapping[str, object] | None = None) -> Reals:
+def reals_of(owner: object, label: str, values: Mapping[str, object] | None = None) -> Reals:
     """Checked numbers of an element or a road, in the order of the kernel.
 
-    `label`: of the element or road, for messages; `values`: in place of fields, by name.
+    `label`: label of the element or road, for messages; `values`: values by name that replace fields.
     """
     reals: Reals = {}
-    for name, real in declared(type(thing)).items():
-        value = values[name] if values and name in values else getattr(thing, name)
+    for name, real in declared(type(owner)).items():
+        value = values[name] if values and name in values else getattr(owner, name)
         if isinstance(real, Group):
             field_noun = name.replace("_", " ")
             if not (value is None and real.optional):

@@ -10,13 +10,15 @@ from mbs.kernel.header.enumerations import ElementType
 
 @dataclass(frozen=True)
 class Output:
-    """An output of an element besides its force; `display_unit` is the customary unit, if it is not `unit`."""
+    """An output of an element besides its force."""
 
     name: str
     unit: str
     description: str
     whole: bool = False
+    """Whether its values are whole numbers."""
     display_unit: str = ""
+    """Customary unit, if it is not `unit`."""
 
 
 @dataclass(frozen=True)
@@ -29,14 +31,15 @@ class ElementRecord:
     signals: Sequence[Affine]
     """Local variables u, in the order of the type."""
     real: Sequence[float] = ()
+    """Numbers, in the order of the type."""
     real_names: Sequence[str] = ()
-    """Names of the first entries of `real`, so that a parameter can be tied to one."""
+    """Names of the first entries of `real`, by which parameters write to them."""
     real_checks: Sequence[Check] = ()
-    """Check of each of these entries, also for values of parameters; without one any finite number is valid."""
+    """Check of each of these entries, also for values of parameters; without a check any finite number is valid."""
     integer: Sequence[int] = ()
     """Numbers of inputs and roads, and sizes."""
     states: Sequence[float] = ()
-    """Initial values of its slots."""
+    """Initial values of its slots (internal variables)."""
     outputs: Sequence[Output] = ()
     """Outputs besides the force."""
     tangent: bool = True
@@ -46,5 +49,6 @@ class ElementRecord:
 
 
 def columns(reals: Reals, *more: float) -> tuple[tuple[float, ...], tuple[str, ...], tuple[Check, ...]]:
-    """`real`, `real_names` and `real_checks` of a record; `more` are numbers without a name."""
-    return (*(x for x, _ in reals.values()), *more), tuple(reals), tuple(check for _, check in reals.values())
+    """`real`, `real_names` and `real_checks` of a record; `more`: numbers without a name."""
+    values = tuple(x for x, _ in reals.values())
+    return (*values, *more), tuple(reals), tuple(check for _, check in reals.values())

@@ -11,15 +11,15 @@ from mbs.common.affine import AffineVector
 from mbs.common.checks import capital, not_negative, number, positive, shown, whole
 from mbs.common.errors import ModelError
 
-MOST = 2**31 - 1
+INT32_MAX = 2**31 - 1
 """Largest number of the System file."""
 
 
 def index(value: int, subject: str) -> int:
     """Return the index of an input or a road."""
     n = whole(value, subject, 0)
-    if n > MOST:
-        raise ModelError(f"{capital(subject)} is {shown(value)}; it must be a whole number, at most {MOST}.")
+    if n > INT32_MAX:
+        raise ModelError(f"{capital(subject)} is {shown(value)}; it must be a whole number, at most {INT32_MAX}.")
     return n
 
 

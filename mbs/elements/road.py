@@ -25,7 +25,7 @@ class _NamedNumbers(ABC):
     real_checks: ClassVar[tuple[Check, ...]]
 
     def __init_subclass__(cls, order: Sequence[str] = (), **others: Check) -> None:
-        """`order`: of the names, if not that of the fields; `others`: checks of numbers that are not fields."""
+        """`order`: names in order, by default the fields; `others`: checks of numbers that are not fields."""
         checks = {name: real.check for name, real, _ in each_real(cls)} | others
         cls.real_names = tuple(order or checks)
         cls.real_checks = tuple(checks[name] for name in cls.real_names)
@@ -52,9 +52,9 @@ class PlaneRoad(Summarised, _NamedNumbers):
     grade_y: Number = 0.0
     """Slope dz/dy, a ratio."""
     friction: NotNegative = 0.9
-    """Coefficient of friction; a tyre has the forces of its curves times it over its own `reference_friction`."""
+    """Coefficient of friction; the forces of a tyre are its curves times this, divided by its `reference_friction`."""
     friction_factor: NotNegative = 1.0
-    """Multiplies the friction, also that of a road file in place of this road."""
+    """Factor on the friction, also on the friction of a road file instead of this road."""
     type: ClassVar[RoadType] = RoadType.PLANE
 
     def _reals(self) -> Reals:
@@ -81,7 +81,7 @@ class KerbRoad(
     friction: NotNegative = 0.9
     """Coefficient of friction everywhere, as in `PlaneRoad`."""
     friction_factor: NotNegative = 1.0
-    """Multiplies the friction, also that of a road file in place of this road."""
+    """Factor on the friction, also on the friction of a road file instead of this road."""
     type: ClassVar[RoadType] = RoadType.KERB
 
     def _reals(self) -> Reals:
@@ -165,8 +165,8 @@ class RoadOfFile(Summarised, ABC):
     path: str | os.PathLike[str]
     """The file."""
     road: PlaneRoad | KerbRoad | GridRoad
-    """In its place while an equilibrium is sought, and where the file is taken away."""
+    """The road while an equilibrium is sought, and if the file is taken away."""
 
     @abstractmethod
     def check(self) -> None:
-        """Refuse what is not there or no road. Raises `RoadFileError` with the file and what is wrong with it."""
+        """Raise `RoadFileError`, which names the file and its fault, if the file is missing or not a road."""

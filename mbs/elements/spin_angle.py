@@ -1,4 +1,4 @@
-"""Angle by which a wheel that is reduced to one coordinate has turned on its carrier."""
+"""Angle of a wheel with one coordinate on its carrier."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from mbs.elements.wheel_signals import carrier_signals
 
 @dataclass(frozen=True)
 class SpinAngle(Element):
-    """Angle of an axisymmetric wheel on its carrier since the start, summed over the steps; it has no force.
+    """Angle of an axisymmetric wheel on its carrier since the start, summed by steps; it has no force.
 
-    The coordinate of a spin is the integral of the absolute rate about its axis; where the carrier turns about that
-    axis too, or the axis itself is turned around, the angle between wheel and carrier is another. It is the sum of
-    ``Omega - e.w`` with the angular velocity w of the carrier: the coordinate minus the turn of the carrier about the
-    axis e beyond the smallest rotation that brings e from one step to the next.
+    The coordinate of a spin is the integral of its absolute rate Omega about the axis e. It differs from the angle
+    between wheel and carrier if the carrier turns about e too, or e turns. The angle is the integral of ``Omega - e.w``
+    with the angular velocity w of the carrier: the coordinate minus the rotations of the carrier about e, which remain
+    after the smallest rotation that moves e from each step to the next.
     """
 
     _noun = "an angle of a spinning wheel"
@@ -27,7 +27,7 @@ class SpinAngle(Element):
     _tangent = False
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """The element.
+        """Make the record of the element for the kernel.
 
         Returns
         -------

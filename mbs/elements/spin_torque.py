@@ -32,5 +32,5 @@ class SpinTorque(Element):
     )
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """The force element."""
+        """Make the record of the element for the kernel."""
         return self._record(name, (*carrier_signals(f, g, self._label(name)), spin), (self.input,))

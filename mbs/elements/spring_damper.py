@@ -25,11 +25,11 @@ LINE_OUTPUTS = (
 class EndStops:
     """Stops that act beyond two lengths; a stiffness of 0 switches one off.
 
-    Over the compression x beyond its length a stop has the force ``k x (1 + (x/L)^2)``, and beyond its travel that of
-    metal on metal too, which sets in as a parabola. Times ``1 + chi x'`` while it is compressed and
-    ``1/(1 - chi x')`` while it is let go (K. H. Hunt, F. R. E. Crossley, Journal of Applied Mechanics 42, 1975,
-    440-445, without their pull), it takes energy and never pulls. At the compression L the stiffness is four times k.
-    With L = 0 a stop is linear, with a stiffness of 0 there is no metal; so it is without the last eight numbers.
+    At a compression x beyond its length a stop has the force ``k x (1 + (x/L)^2)``, and beyond its travel the force of
+    metal on metal too, which sets in as a parabola. The factor ``1 + chi x'`` in compression and ``1/(1 - chi x')`` in
+    release (K. H. Hunt, F. R. E. Crossley, Journal of Applied Mechanics 42, 1975, 440-445, without their pull) takes
+    energy and never pulls. At the compression L the stiffness is four times k. With L = 0 a stop is linear, with a
+    stiffness of 0 there is no metal; so it is without the last eight numbers.
     """
 
     bump_length: NotNegative = 0.0
@@ -119,7 +119,7 @@ class SpringDamper(Element):
     _elastic = True
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Raises
         ------

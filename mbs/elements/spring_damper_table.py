@@ -32,7 +32,7 @@ class SpringDamperTable(Element):
     """Spring and damper along the line between two points, each by a number or by points of its curve.
 
     Between the points the curve is a monotone cubic (F. N. Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis
-    17, 1980, 238-246; the slopes are those of scipy's PchipInterpolator), beyond the ends a straight line. The energy
+    17, 1980, 238-246; slopes as in scipy's PchipInterpolator), beyond the ends a straight line. The energy
     of the spring is the integral of the curve, its mean over a step by Simpson's rule on each piece, exact.
     """
 
@@ -58,12 +58,12 @@ class SpringDamperTable(Element):
     _elastic = True
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Returns
         -------
         ElementRecord
-            For `Model.add`; its reals stiffness and damping are there where they are numbers.
+            For `Model.add`; it has the reals stiffness and damping if these are numbers.
 
         Raises
         ------

@@ -23,7 +23,7 @@ class TorsionBar(Element):
     damping: NotNegative = 0.0
     """Torsional damping of column and torsion bar, N m s/rad."""
     assistance: NotNegative = 0.0
-    """Torque of the power assistance on the pinion per torque of the torsion bar, a ratio, where it is far below its
+    """Torque of the power assistance on the pinion per torque of the torsion bar, a ratio, while it is far below its
     limit."""
     assistance_limit: NotNegative = 0.0
     """Largest torque of the power assistance on the pinion, N m."""
@@ -37,7 +37,7 @@ class TorsionBar(Element):
     _elastic = True
 
     def record(self, name: str, wheel: Affine, pinion: Affine) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------

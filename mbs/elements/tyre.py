@@ -64,11 +64,11 @@ class TyreCurve:
     max_force: AtTwoLoads
     """Largest force on a road of the reference friction, N; otherwise proportional to the friction."""
     max_slip: AtTwoLoads
-    """Slip where it is reached, a ratio."""
+    """Slip at which it is reached, a ratio."""
     slide_force: AtTwoLoads
     """Force of full sliding, N; proportional to the friction too."""
     slide_slip: AtTwoLoads
-    """Slip from which on it slides, a ratio."""
+    """Slip above which it slides, a ratio."""
 
 
 Curve = Annotated[TyreCurve, Group(TyreCurve, "a TyreCurve", "curve")]
@@ -80,7 +80,7 @@ WITH_BORE = Integer("with_bore", least=1, most=1, optional=True, noun="the numbe
 class Tyre(Element):
     """Tyre of a wheel that meets the road as a disc.
 
-    Pairs hold at the nominal load and at twice of it, those of the carcass along and across the heading.
+    Pairs hold at the nominal load and at twice the nominal load; pairs of the carcass along and across the heading.
     """
 
     radius: Positive
@@ -90,7 +90,7 @@ class Tyre(Element):
     stiffness: Positive
     """Radial stiffness, N/m."""
     damping: NotNegative
-    """Radial damping, N s/m; it sets in over the first 5 mm."""
+    """Radial damping, N s/m; it grows from zero along the first 5 mm."""
     longitudinal: Curve
     """Longitudinal force over longitudinal slip."""
     lateral: Curve
@@ -98,9 +98,9 @@ class Tyre(Element):
     trail: SignedAtTwoLoads
     """Dynamic trail over contact length at zero slip, a ratio."""
     trail_zero: Annotated[Pair, Real(positive, LOADS, "slip of zero trail")]
-    """Lateral slip where the trail first vanishes, a ratio."""
+    """Lateral slip at which the trail first vanishes, a ratio."""
     trail_end: Annotated[Pair, Real(positive, LOADS, "end slip of the trail")]
-    """Lateral slip where it ends, a ratio."""
+    """Lateral slip at which it ends, a ratio."""
     carcass_stiffness: AlongAxes
     """Longitudinal and lateral stiffness of the carcass, N/m."""
     carcass_damping: AlongAxes
@@ -133,7 +133,7 @@ class Tyre(Element):
     _c_prefix = "TYRE_"
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Raises
         ------

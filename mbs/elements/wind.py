@@ -1,16 +1,16 @@
-"""Air that moves over the ground."""
+"""Wind from inputs."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Wind:
-    """Air that moves over the ground, by two inputs."""
+    """Velocity of the air over the ground from two inputs."""
 
     speed: int
+    """Number of the input of the speed, m/s."""
     heading: int
-    """`speed`, `heading`: numbers of the inputs: speed of the air, m/s, and the heading that it moves to, rad from the
-    x axis of the earth to the left."""
+    """Number of the input of the heading to which the air moves, rad from the x axis of the earth to the left."""
 
     @property
     def inputs(self) -> tuple[int, int]:

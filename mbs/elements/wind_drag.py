@@ -15,26 +15,23 @@ from mbs.elements.wind import Wind
 
 @dataclass(frozen=True, kw_only=True)
 class WindDrag(Drag):
-    """Drag of a point in space over air that moves over the ground.
-
-    That of `Drag` with the velocity over air that moves at the speed and to the heading of two inputs.
-    """
+    """Drag F = -rho CdA |v - w| (v - w) / 2 of a point in space with velocity v in wind of velocity w."""
 
     wind: Wind
-    """How the air moves."""
+    """Inputs of the speed and heading of the wind."""
 
     _signals = (("point", 3),)
     _integers = WIND
 
     def record(self, name: str, point: AffineVector) -> ElementRecord:
-        """The force element.
+        """Make the record of the element for the kernel.
 
         Parameters
         ----------
         point : AffineVector
-            Where the force acts, three components.
+            Point at which the force acts, m, three components.
         """
         label = self._label(name)
         check_components(point, (3,), f"The point in wind of {label}")
-        air = instance_of(Wind, self.wind, f"The wind of {label}", "a Wind").inputs
-        return self._record(name, point.components, air)
+        wind = instance_of(Wind, self.wind, f"The wind of {label}", "a Wind")
+        return self._record(name, point.components, wind.inputs)

@@ -31,8 +31,7 @@ def anti_roll_bar(
 ) -> ElementRecord:
     """A torsion spring between two arms; its torque on the left one is the output ``force`` of the element.
 
-    Drop links between the arms and the suspension are `distance` joints; without them the arms are those of the
-    suspension.
+    Drop links between the arms and the suspension are `distance` joints; without them the suspension carries the arms.
 
     Parameters
     ----------

@@ -87,8 +87,8 @@ class BodyVocabulary(Register):
         mass : float
             kg; may be 0.
         point : AffineVector, optional
-            Carries it in place of the body's own point there: such as a mean of several points of the body, which then
-            share its force.
+            Point that carries it instead of the body's own point there, such as a mean of several points of the body,
+            which then share its force.
 
         Raises
         ------
@@ -113,7 +113,7 @@ class BodyVocabulary(Register):
                     f"The {subject} is at {location.tolist()}, but its point is drawn at {drawn_point.tolist()}."
                 )
             carrier = point
-        else:  # the origin of a floating frame is no material point, a node is
+        else:  # the origin of a floating frame is not a material point, a node is
             carrier = body.at(location, subject).point(location)
         return self.enter("payload", self.payloads, Payload(name, body, location, carrier, m, point is not None))
 

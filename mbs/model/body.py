@@ -23,7 +23,7 @@ SAME_PLACE = 1e-6
 def same_place(p: Vector, place: Vector, size: float) -> bool:
     """Whether two points are one: at most `SAME_PLACE` apart, times `size` below 1 m, or apart by round-off.
 
-    `size`: of their body, m.
+    `size`: size of their body, m.
     """
     round_off = 8.0 * float(np.finfo(float).eps) * max(size, float(np.abs([p, place]).max()))
     return bool(np.linalg.norm(p - place) <= max(SAME_PLACE * min(1.0, size), round_off))

@@ -50,15 +50,19 @@ class Spin(Coordinate):
 
     carrier: Body
     centre: AffineVector
+    """Wheel centre, m."""
     axis: AffineVector
+    """Axis f x g, a unit vector of the carrier. Nothing else has the same three objects of axis, f and g."""
     f: AffineVector
+    """Unit vector of the carrier, perpendicular to the axis."""
     g: AffineVector
-    """`centre`, `axis`, `f`, `g`: wheel centre and unit vectors of the carrier with axis = f x g; nothing else has the
-    expressions of these."""
+    """Unit vector of the carrier, perpendicular to the axis and f."""
     spin_inertia: float
+    """Moment of inertia about the axis, kg m2."""
     diametral_inertia: float
+    """Moment of inertia about diameters, kg m2."""
     rolling_radius: float
-    """Radius, m, from which the spin of a pose with a speed follows (positive speed along +x); 0: none."""
+    """Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none."""
     drawn: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
     """f, g and axis in the drawing."""
 
@@ -88,7 +92,7 @@ class WrittenAxis:
     reals: tuple[float, float]
     """In the order of `AXIS_REALS`."""
     leaning: float
-    """Increase of the rolling radius per unit of one over the cosine of the elevation, m."""
+    """Increase of the rolling radius per unit of 1/cos(elevation), m."""
 
     @property
     def vectors(self) -> tuple[AffineVector, AffineVector, AffineVector]:

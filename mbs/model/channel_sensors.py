@@ -102,7 +102,7 @@ class ChannelSensorVocabulary(SensorVocabulary):
         kind : {"motion", "excess", "force"}
             The motion; of a guide from `guide_inputs` the excess of the sum of its inputs over the limits, zero within
             them; or the force with which it moves its joints, also by guides that follow it by a table,
-            in the direction of its motion: its power over its rate.
+            in the direction of its motion: its power divided by its rate.
         order : {0, 1, 2}
             Of the motion: the value, its rate or its second rate.
         joints : sequence of Joint, optional
@@ -110,7 +110,7 @@ class ChannelSensorVocabulary(SensorVocabulary):
         scale : float
             Factor on it.
         unit : str
-            By default that of the guide, or of its rate where it is in m or rad; of a force N or N m.
+            By default the unit of the guide, or of its rate if the guide is in m or rad; for a force N or N m.
 
         Raises
         ------

@@ -14,7 +14,7 @@ from mbs.model.carried_parts import Spin
 
 @dataclass(frozen=True)
 class Turning:
-    """A drawn part that turns about an axis of a body, such as a steering wheel; it is no body of the model."""
+    """A drawn part that turns about an axis of a body, such as a steering wheel; it is not a body of the model."""
 
     name: str
     carrier: Body | Turning

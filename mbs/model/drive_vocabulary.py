@@ -30,7 +30,7 @@ class DriveVocabulary(BodyVocabulary):
     def travel(self, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
         """A coordinate as a variable of tables, 0 as drawn.
 
-        Its inertia is that of the parts that it moves; there must be one, or a drive must hold it.
+        Its inertia is the inertia of the parts that it moves; there must be one, or a drive must hold it.
 
         Parameters
         ----------

@@ -20,7 +20,7 @@ ENERGIES = ("kinetic", "gravity", "elastic", "total")
 
 @dataclass(frozen=True)
 class _WorkIntegers(Sequence[int]):
-    """Integers of a work sensor of all elements from number `first` on, including elements that are added later."""
+    """Integers of a work sensor of all elements beginning with `first`, including elements that are added later."""
 
     elements: Sequence[ElementRecord]
     first: int
@@ -41,7 +41,7 @@ class EnergySensorVocabulary(SensorVocabulary):
     """Sensors of energy, mass and work of the whole model."""
 
     book_of_added: tuple[str, str] | None = None
-    """Name and description of a sensor of the work of all elements added from now on; it is added with the first."""
+    """Name and description of a sensor of the work of all elements added later; it is added with the first of them."""
 
     def add(self, element: ElementRecord) -> ElementRecord:
         """Add a force element by its record.
@@ -77,7 +77,7 @@ class EnergySensorVocabulary(SensorVocabulary):
         Parameters
         ----------
         kind : {"kinetic", "gravity", "elastic", "total", "work", "nonconservative", "by inputs", "with guides"}
-            The elastic energy is that of springs and flexible bodies. Work is that of all forces of the elements;
+            The elastic energy is stored in springs and flexible bodies. Work is the work of all forces of the elements;
             nonconservative together with the change of their own potential energy, so that springs have none, but for
             the work of jumps of inputs, as of a `PortRoad`, which is "by inputs" (with the method "ali3p" and
             generalised-alpha; with others it stays nonconservative). Work that is lost, in a damper or a brake, is

@@ -1,4 +1,4 @@
-"""Constraint equations of joints over the full coordinates."""
+"""Constraint equations of joints in the full coordinates."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -138,7 +138,7 @@ class FlexibleBody(Body):
     def interface_at(self, position: ArrayLike, subject: str) -> Interface:
         """The node at a place. `position`: earth axes in the reference configuration, m, shape (3,).
 
-        Raises `ModelError`: no node is there.
+        Raises `ModelError` if no node is there.
         """
         location = vector(position, 3, f"the point of {subject} on flexible body '{self.name}'")
         gaps = np.linalg.norm(self.node_positions - location, axis=1)
@@ -155,7 +155,7 @@ class FlexibleBody(Body):
     def point(self, position: ArrayLike) -> AffineVector:
         """The node at a place, or the origin of the frame.
 
-        `position`: earth axes in the reference configuration, m, shape (3,). Raises `ModelError`: no node is there.
+        `position`: earth axes in the reference configuration, m, shape (3,). Raises `ModelError` if no node is there.
         """
         location = vector(position, 3, f"a point of flexible body '{self.name}'")
         if self.at_place(location, self.com):
@@ -199,7 +199,7 @@ class FlexibleBody(Body):
         return np.concatenate([super().reference(), np.zeros(self.n_modes)])
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        # those of the undeformed body
+        # velocities of the undeformed body
         arm = position[3:12].reshape(3, 3).T @ self.first_moment / self.mass
         rigid = super().velocity(linear - np.cross(angular, arm), angular, position)
         return np.concatenate([rigid, np.zeros(self.n_modes)])
@@ -207,7 +207,7 @@ class FlexibleBody(Body):
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
         """Refused: masses belong to the nodes of the finite-element model.
 
-        `mass`: in kg; `centre`: in m, shape (3,); `second_moment`: in kg m2, shape (3, 3). Raises `ModelError`: always.
+        `mass`: kg; `centre`: m, shape (3,); `second_moment`: kg m2, shape (3, 3). Always raises `ModelError`.
         """
         raise ModelError(
             f"Flexible body '{self.name}' cannot take a mass of {mass:g} kg; give it to a node of its model."
@@ -229,7 +229,7 @@ class FlexibleBody(Body):
 
 
 class Interface(Body):
-    """A node of a flexible body, which joints, springs and sensors take in place of a body.
+    """A node of a flexible body, which joints, springs and sensors take instead of a body.
 
     Its points are fixed to the node as by rigid arms, its vectors turn with the node. Coordinates and rows come with
     the first use: three for the node, three for its rotation, three for each vector.
@@ -268,7 +268,7 @@ class Interface(Body):
         )
 
     def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
-        """See `Body.carried`: of the node itself, where it has no coordinates."""
+        """See `Body.carried`; only the node itself is carried, and only if it has no coordinates."""
         location = vector(position, 3, f"a point of interface '{self.name}'")
         if self._point is not None or not self.owner.at_place(location, self.com) or not np.any(self.translation):
             return None
@@ -359,7 +359,7 @@ def _rotate_integrals(s: ShapeIntegrals, R: NDArray[np.float64]) -> ShapeIntegra
 def _check_rotational_inertia(name: str, positions: np.ndarray, masses: np.ndarray) -> None:
     """Raise `ModelError` for a body whose mass lies on a line, about which it has no inertia.
 
-    `positions`: of the mass points, m, shape (n, 3); `masses`: kg, shape (n,).
+    `positions`: positions of the mass points, m, shape (n, 3); `masses`: kg, shape (n,).
     """
     x = positions - masses @ positions / masses.sum()
     moments, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", masses, x, x))

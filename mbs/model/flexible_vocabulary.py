@@ -38,7 +38,7 @@ class FlexibleVocabulary(SensorVocabulary):
         reduced : ModalBody
             A `ReducedBody`, for instance of `mbs.flexible.craig_bampton`.
         origin : array_like, shape (3,)
-            Where the origin of the finite-element model is in the reference configuration, earth axes, m.
+            Origin of the finite-element model in the reference configuration, earth axes, m.
         axes : array_like, shape (3, 3), optional
             Columns: axes of the finite-element model in earth axes there; by default the same.
 
@@ -50,7 +50,7 @@ class FlexibleVocabulary(SensorVocabulary):
         Raises
         ------
         ModelError
-            The model is planar, the axes are no rotation, or all mass lies on a line.
+            The model is planar, the axes are not a rotation, or all mass lies on a line.
         """
         subject = f"flexible body {shown(name)}"
         if self.dimension != 3:
@@ -78,7 +78,7 @@ class FlexibleVocabulary(SensorVocabulary):
         Returns
         -------
         PortedBody
-            To be used in place of the body.
+            Use it instead of the body.
 
         Raises
         ------
@@ -110,7 +110,7 @@ class FlexibleVocabulary(SensorVocabulary):
         Parameters
         ----------
         relief : InertiaRelief
-            Interfaces in the order of the ports, axes those of the earth in the reference configuration.
+            Interfaces in the order of the ports, in earth axes in the reference configuration.
         output : int
             Row of its matrices.
         origin : array_like, shape (3,)
@@ -119,7 +119,7 @@ class FlexibleVocabulary(SensorVocabulary):
         Raises
         ------
         ModelError
-            The body has no ports, or the matrices have other ports or no such row.
+            The body has no ports, or the matrices have other ports or lack the row.
         """
         subject = f"sensor '{name}'"
         if not isinstance(self.owned(body, f"The {subject}"), PortedBody):

@@ -6,7 +6,7 @@ import math
 
 from mbs.common.checks import flag, limit, number, shown, text
 from mbs.common.errors import ModelError
-from mbs.elements.record_checks import MOST
+from mbs.elements.record_checks import INT32_MAX
 from mbs.model.records import Input, Role
 from mbs.model.register import Register
 
@@ -48,10 +48,10 @@ def new_input(
 def _check_whole(name: str, numbers: dict[str, float], unit: str) -> None:
     """Raise `ModelError` for an integer input that FMI does not allow: 32 bits, no unit."""
     for limit_name, value in numbers.items():
-        if math.isfinite(value) and not (value == round(value) and -MOST - 1 <= value <= MOST):
+        if math.isfinite(value) and not (value == round(value) and -INT32_MAX - 1 <= value <= INT32_MAX):
             raise ModelError(
                 f"The {limit_name} of input '{name}' is {value:g}; a whole-number input needs whole numbers, "
-                f"at most {MOST}."
+                f"at most {INT32_MAX}."
             )
     if unit != "1":
         raise ModelError(f"The input '{name}' is a whole number in {shown(unit)}; whole numbers have the unit '1'.")

@@ -16,7 +16,7 @@ FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | Body"
 End: TypeAlias = "tuple[Body, ArrayLike] | Body | SlidingPoint"
 """A fixed end, or a point that a guide slides."""
 PointPair: TypeAlias = "ArrayLike | tuple[ArrayLike, ArrayLike]"
-"""A point, or one per body where the drawing does not close."""
+"""A point, or one per body if the drawing does not close."""
 
 
 def body_and_point(
@@ -24,8 +24,8 @@ def body_and_point(
 ) -> tuple[Body, ArrayLike]:
     """Body and point of an end that does not slide; a body alone is its centre of mass.
 
-    Neither is checked to be of the model. Raises `ModelError`: the end is something else; `expected`: description of a
-    valid one.
+    Neither is checked to be of the model. `expected`: description of a valid end. Raises `ModelError` if the end is
+    something else.
     """
     if isinstance(end, Body):
         return end, end.com

@@ -55,7 +55,7 @@ class JointSensorVocabulary(SensorVocabulary):
         on : {"first", "second"}
             The body that the moment acts on, in the order in which the joint was given its bodies.
         axes : {"earth"} or Body
-            Axes of the component: those of the earth, or moving ones of a body.
+            Axes of the component: fixed axes of the earth, or moving axes of a body.
         point : array_like, shape (dimension,), optional
             Place (earth axes, reference configuration, m) of the body that it acts on, about which the moment is taken;
             by default the point of the joint on that body.

@@ -43,7 +43,7 @@ def joins(make: Callable[Concatenate[M, P], Joint]) -> Callable[Concatenate[M, P
 class JointVocabulary(BodyVocabulary):
     """Joints; each method returns the joint, for sensors.
 
-    Points and axes are given in earth axes in the reference configuration. Where the drawing does not close, `point`
+    Points and axes are given in earth axes in the reference configuration. If the drawing does not close, `point`
     (or `axis`) may be a pair, one per body.
     """
 

@@ -85,7 +85,7 @@ class Model(
     ground : Body
         The earth, for joints, forces and sensors.
     floating : bool
-        Set it where the whole scene may be placed by a `Pose`: nothing ties it to the ground but roads.
+        Set it if the whole scene may be placed by a `Pose`: nothing ties it to the ground but roads.
     start_in_equilibrium : bool
         Set it to start in the static equilibrium instead of as drawn.
     with_ports : callable, optional

@@ -35,7 +35,7 @@ class MotionSensorVocabulary(SensorVocabulary):
     ) -> Sensor:
         """Component of the position of a point, m, of its velocity, m/s, or of its acceleration, m/s2.
 
-        Velocity and acceleration are those in the earth, resolved along the axes; the acceleration is without that of
+        Velocity and acceleration are relative to the earth, resolved along the axes; the acceleration does not include
         gravity. A node of a flexible body is read without coordinates of its own.
 
         Parameters
@@ -92,7 +92,7 @@ class MotionSensorVocabulary(SensorVocabulary):
         scale : float
             Factor on it.
         unit : str
-            By default that of the coordinate, "1" of an expression.
+            By default the unit of the coordinate, "1" for an expression.
         display_unit : str
             Customary unit in engineering, if that is not the unit.
         """

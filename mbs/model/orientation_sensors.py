@@ -68,7 +68,7 @@ class OrientationSensorVocabulary(SensorVocabulary):
 
         The angle of a wheel is 0 at the start, positive as the rate of the spin counts, and not wrapped: the wheel is
         oriented like its carrier after a turn by it. (The coordinate of a spin differs: its rate is the absolute one.)
-        The first call for a spin adds an element without force, whose states sum the angle over the steps; methods for
+        The first call for a spin adds an element without force, whose states sum the angle step by step; methods for
         Systems without states then do not apply.
 
         Parameters

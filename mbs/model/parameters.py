@@ -209,7 +209,7 @@ class ParameterVocabulary(Register):
         Parameters
         ----------
         value : float
-            As the model is compiled, in `unit`.
+            Value in the compiled model, in `unit`.
         min, max : float
             Limits, in `unit`.
         unit : str
@@ -223,13 +223,13 @@ class ParameterVocabulary(Register):
             Whether it may be set while the model moves; False: before the start only, as masses of payloads, ratios of
             armatures and switches must be.
         works : (float, float), optional
-            Range, in `unit`, in which such models work; an FMU and a `Simulation` warn when another value is set.
+            Range of validity of the model, in `unit`; an FMU and a `Simulation` warn if another value is set.
 
         Raises
         ------
         ModelError
-            The value is not between the limits, a target does not exist or is another parameter's, or what it writes at
-            one of the limits is no value that the target can have.
+            The value is not between the limits, a target does not exist or is another parameter's, or it cannot have
+            the number that one of the limits writes.
         """
         subject = f"parameter {shown(name)}"
         start = number(value, f"The value of {subject}")

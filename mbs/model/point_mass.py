@@ -1,4 +1,4 @@
-"""Particles: a position and a mass."""
+"""Particles, which have a position and a mass."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, vector
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
+
+_SAME_PLACE = 1e-9  # m, or part of the distance from the origin: distance of points that count as one
 
 
 class PointMass(Body):
@@ -27,16 +29,16 @@ class PointMass(Body):
         Parameters
         ----------
         position : array_like, shape (dimension,), optional
-            May only be its own place, m.
+            Its own position, m; no other is possible.
 
         Raises
         ------
         ModelError
-            It is another place.
+            The position is another one.
         """
         if position is not None:
             point = vector(position, self.dimension, f"the point of point mass '{self.name}'")
-            if np.linalg.norm(point - self.com) > 1e-9 * max(1.0, float(np.linalg.norm(self.com))):
+            if np.linalg.norm(point - self.com) > _SAME_PLACE * max(1.0, float(np.linalg.norm(self.com))):
                 raise ModelError(
                     f"Point mass '{self.name}' is at {self.com.tolist()}; it has no point at {point.tolist()}."
                 )
@@ -48,22 +50,22 @@ class PointMass(Body):
         Parameters
         ----------
         components : array_like, shape (dimension,)
-            Earth axes in the reference configuration.
+            Components along earth axes in the reference configuration.
 
         Raises
         ------
         ModelError
             Always.
         """
-        raise ModelError(f"Point mass '{self.name}' has no axes; use a body where directions matter.")
+        raise ModelError(f"Point mass '{self.name}' has no axes; use a body if directions matter.")
 
     def mass_block(self) -> NDArray[np.float64]:
-        """Mass matrix, shape (dimension, dimension)."""
+        """Mass matrix, kg, shape (dimension, dimension)."""
         return np.array(self.mass * np.eye(self.dimension))
 
     def reference(self) -> NDArray[np.float64]:
-        """Position in the reference configuration."""
+        """Position in the reference configuration, m, shape (dimension,)."""
         return self.com
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        return linear
+        return linear  # a particle does not turn

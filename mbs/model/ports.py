@@ -43,7 +43,7 @@ class PortedBody(Body):
             self._points.append((position, owner.point(owner.com) + arm_vector))
 
     def point(self, position: ArrayLike) -> AffineVector:
-        """The port at a position, else the point of the body.
+        """The port at a position, or the point of the body if no port is there.
 
         `position`: earth axes in the reference configuration, m, shape (3,).
         """

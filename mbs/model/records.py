@@ -35,7 +35,7 @@ class Role(IntEnum):
 
 @dataclass(frozen=True)
 class Input:
-    """A number that a host sets; `index`: in the System, `port`: whether another program sets it at every step.
+    """A number that a host sets; `index`: number in the System, `port`: whether another program sets it at every step.
 
     An FMU checks inputs with a `role` by the sensor `near` and those after it; its trial runs change them by `tried`
     from the start.
@@ -69,7 +69,7 @@ class Ahead:
 
 @dataclass(frozen=True)
 class Switch:
-    """A switch of constraint rows; `index`: in the System, `on`: whether it is on at the start."""
+    """A switch of constraint rows; `index`: number in the System, `on`: whether it is on at the start."""
 
     name: str
     index: int
@@ -90,7 +90,7 @@ class Armature:
 
 @dataclass(frozen=True)
 class Guide:
-    """A prescribed motion; `reals`: as in the System file, `second`: number of a second input or -1."""
+    """A prescribed motion; `reals`: numbers as in the System file, `second`: number of a second input or -1."""
 
     name: str
     index: int
@@ -108,9 +108,11 @@ class Parameter:
 
     name: str
     value: float
+    """Compiled value, in `unit`."""
     min: float
+    """Lower limit, in `unit`."""
     max: float
-    """`value`, `min`, `max`: compiled value and limits, in `unit`."""
+    """Upper limit, in `unit`."""
     unit: str
     description: str
     targets: tuple[tuple[int, int, int, float, float, bool], ...]
@@ -118,7 +120,7 @@ class Parameter:
     tunable: bool = True
     """Whether it may be set while the model moves."""
     works: tuple[float, float] | None = None
-    """Least and largest value in the range for which the model is intended."""
+    """Range of validity of the model, smallest and largest value in `unit`."""
 
     @property
     def whole(self) -> bool:
@@ -128,7 +130,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class RoadFileParameter:
-    """A parameter that is text: the file in place of a road."""
+    """A parameter that is text: the file of a road."""
 
     name: str
     road: int

@@ -40,7 +40,7 @@ class Register(ModelCoordinates):
     """Lists of all objects of a model, filled by the vocabulary and read by `compile`.
 
     There is one list for each kind; the index of an object in its list is its number in the System. A public method of
-    a model that raises changes nothing: `atomic_call` wraps those of each vocabulary class when it is defined.
+    a model that raises changes nothing: `atomic_call` wraps the methods of each vocabulary class when it is defined.
     """
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
@@ -100,7 +100,7 @@ class Register(ModelCoordinates):
         Raises
         ------
         ModelError
-            The name is empty, cannot be written to a file, is that of the time, or is taken.
+            The name is empty, cannot be written to a file, is the name of the time, or is taken.
         """
         key = family, named(name, f"a {family}")
         if name == TIME and family in ("sensor", "input", "parameter", "constant"):
@@ -163,7 +163,7 @@ class Register(ModelCoordinates):
 
     @atomic_call
     def add(self, element: ElementRecord) -> ElementRecord:
-        """Add a force element by its record. `element`: from the ``record`` method of an element of `mbs.elements`."""
+        """Add a force element by its record. `element`: result of ``record`` of an element of `mbs.elements`."""
         instance_of(ElementRecord, element, "The element of Model.add", "an ElementRecord")
         for signal in element.signals:
             self.expression(signal, f"The element '{element.name}'")

@@ -24,8 +24,8 @@ class RoadVocabulary(BodyVocabulary):
         file : str, optional
             Name of a parameter, as ``"road.file"``, that exchanges this road for one of a file before a start: of an
             FMU a variable of type String, of runs `parameters={"road.file": "path.road"}`. Its start value is the
-            path of a `RoadFile`, else nothing: then the road is the one given here. A `RoadFile` without a name has
-            ``"road.file"``, from the second road on with its number, ``"road_1.file"``.
+            path of a `RoadFile`, otherwise nothing: then the road is the one given here. A `RoadFile` without a name
+            has ``"road.file"``, later roads with their number, ``"road_1.file"``.
 
         Returns
         -------

@@ -35,7 +35,7 @@ class SensorVocabulary(BodyVocabulary):
     """
 
     def _unit(self, unit: str, default: str) -> str:
-        """The given unit, else the default."""
+        """The given unit, or the default if it is empty."""
         return default if isinstance(unit, str) and not unit else unit
 
     def _sense(

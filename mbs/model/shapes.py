@@ -114,7 +114,7 @@ class ShapeVocabulary(BodyVocabulary):
             (`radius`, `at`, `axis`) or none.
         at : array_like, shape (dimension,), optional
             Middle of the shape, of a mesh its origin, m; by default the centre of mass, of a mesh the origin of the
-            drawing. All places are in earth axes in the reference configuration, like those of joints; in the plane two
+            drawing. All places are in earth axes in the reference configuration, as for joints; in the plane two
             numbers or three.
         size : array_like, shape (3,)
             Lengths of the edges, m; in the plane two will do.
@@ -122,13 +122,13 @@ class ShapeVocabulary(BodyVocabulary):
             Columns: axes of the box or the mesh in earth axes as drawn; by default these. In the plane shape (2, 2)
             will do.
         axis : array_like, shape (3,), optional
-            Of a wheel: its axle, of any length; by default that of the spin, else y, in the plane z.
+            Axle of a wheel, of any length; by default the axis of the spin, otherwise y, in the plane z.
         ends, points : sequence of array_like, or of (body, array_like)
             Places on the body, or with another body: a tube through points of several bodies follows all of them, a
             spring is compressed. A tube has two points or more, a plate three or more.
         radius : float
-            Of sphere, cylinder, tube, coil or wheel, m; that of tubes, springs and dampers follows the size of the
-            drawing where it is left out.
+            Radius of a sphere, cylinder, tube, coil or wheel, m; for tubes, springs and dampers by default from the
+            size of the drawing.
         thickness : float, optional
             Of a plate, m.
         width, rim : float
@@ -144,7 +144,7 @@ class ShapeVocabulary(BodyVocabulary):
         scale : float, optional
             Metres of a unit of the file, 0.001 for millimetres.
         name : str, optional
-            For the list of shapes; that of a spring or rod takes the place of its default.
+            For the list of shapes; the shape of a spring or rod replaces its default.
         color : str, optional
             ``"#rrggbb"``.
         material : str, optional

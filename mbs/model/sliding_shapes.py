@@ -17,7 +17,7 @@ from mbs.model.shapes import ShapeVocabulary, local_place
 
 @dataclass(frozen=True)
 class Sliding(Turning):
-    """A drawn part that slides along a line of a body, such as a rack; it is no body of the model.
+    """A drawn part that slides along a line of a body, such as a rack; it is not a body of the model.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class SlidingVocabulary(ShapeVocabulary):
         Parameters
         ----------
         at : array_like, shape (dimension,)
-            Its origin where the way is 0, earth axes in the reference configuration, m.
+            Its origin at way 0, earth axes in the reference configuration, m.
         direction : array_like, shape (3,)
             Of any length.
         way : str
@@ -71,7 +71,7 @@ class SlidingVocabulary(ShapeVocabulary):
         triangles : array_like of int, shape (k, 3)
             Their corners, counter-clockwise from outside.
         color, material, opacity
-            As of `shape`.
+            As in `shape`.
         cover : bool
             Whether it hides what is within, and pages can make it see-through.
         """

@@ -24,7 +24,8 @@ def smooth_table(axes: object, values: object, functions: tuple[int, ...], subje
     """The smooth table through values at points.
 
     `axes`: one or two, each of four or more points, ascending and equally spaced; `values`: shape (n0, *functions) or
-    (n0, n1, *functions); `functions`: shape of the values at a point. Raises `ModelError`: axes or values are invalid.
+    (n0, n1, *functions); `functions`: shape of the values at a point. Raises `ModelError` if axes or values are not
+    valid.
     """
     if not isinstance(axes, (list, tuple)) and not (isinstance(axes, np.ndarray) and axes.ndim == 2):
         raise ModelError(f"The axes of {subject} are {shown(axes)}; they must be one or two sequences of points.")
@@ -70,7 +71,7 @@ def _control_points(values: Array) -> Array:
 def pose_functions(base: Body, places: Array, rotations: Array) -> Array:
     """Functions of a tabled body, shape (..., 12), from positions of its centre of mass and rotations on the base.
 
-    `places`: m, shape (..., 3); `rotations`: from the drawn axes, shape (..., 3, 3).
+    `places`: m, shape (..., 3); `rotations`: rotation matrices from the drawn axes, shape (..., 3, 3).
     """
     axes = np.swapaxes(rotations, -1, -2).reshape(*rotations.shape[:-2], 9)
     return np.concatenate([places - base.com, axes], axis=-1)

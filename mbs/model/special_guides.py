@@ -81,7 +81,7 @@ class SpecialGuideVocabulary(GuideVocabulary):
         table : array_like, shape (n, 2)
             Rows of the value of `source`, rising, and of the guide.
         slopes : array_like, shape (n,), optional
-            At the rows, where they are known; the cubics are then not held monotone.
+            At the rows, if known; the cubics are then not held monotone.
         unit : str
             Of the guide, rad or m.
 

@@ -62,7 +62,7 @@ class SpinVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            The model is planar, the carrier is not rigid, or no wheel has these inertias.
+            The model is planar, the carrier is not rigid, or the inertias are impossible for a wheel.
         """
         subject = f"spin '{name}'"
         if self.dimension == 2:
@@ -118,8 +118,8 @@ class SpinVocabulary(BodyVocabulary):
         spin : Spin
             The wheel, made by `Model.spin`.
         leaning : float
-            Growth of its rolling radius with 1 over the cosine of the elevation, m: a hub that stays at its
-            height is farther from where a leaning wheel stands.
+            Growth of its rolling radius with 1/cos(elevation), m: a hub that stays at its height is farther from the
+            point at which a leaning wheel stands.
 
         Raises
         ------

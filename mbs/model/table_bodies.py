@@ -1,9 +1,9 @@
 """Lookup-table bodies and numbers: their motion is a table of one or two coordinates.
 
 They add no coordinates and no rows to the equations: position on the base and axes, Y p(a, b) and Y R(a, b) with the
-axes Y of the base, are dependent coordinates, which forces and sensors use like those of other bodies. The functions
-are uniform cubic B-splines through the points of the table; their error is of fourth order in the spacing. Outside the
-table they continue along their tangents; a step that starts there is refused.
+axes Y of the base, are dependent coordinates, which forces and sensors use like coordinates of other bodies. The
+functions are uniform cubic B-splines through the points of the table; their error is of fourth order in the spacing.
+Outside the table they continue along their tangents; a step that starts there is refused.
 """
 
 from dataclasses import dataclass
@@ -61,7 +61,7 @@ class TabledBody(Body):
     parameters: tuple[Coordinate, ...]
     """Variables of its table."""
     table: SmoothTable
-    """Along the axes of the base: p, the position of `com` from that of the base, then the columns of R, its axes."""
+    """Along the axes of the base: p, from the `com` of the base to its `com`, then the columns of R, its axes."""
 
     def coordinates(self) -> list[CoordinateInfo]:
         """Dependent coordinates of the body: of the position, then of each axis."""

@@ -56,7 +56,7 @@ class TableVocabulary(BodyVocabulary):
         com : array_like, shape (3,)
             Centre of mass as drawn, m.
         inertia : array_like, shape (3,) or (3, 3)
-            As of `body`.
+            As in `body`.
 
         Raises
         ------
@@ -104,9 +104,9 @@ class TableVocabulary(BodyVocabulary):
         Parameters
         ----------
         parameters : Coordinate or sequence of Coordinate
-            As of `tabled_body`.
+            As in `tabled_body`.
         axes : sequence of array_like
-            As of `tabled_body`, shape (n,) each.
+            As in `tabled_body`, shape (n,) each.
         values : array_like, shape (n0,) or (n0, n1)
             At the points.
         unit : str

@@ -19,9 +19,9 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-MOST_COST = float(MOST_PARTS * MOST_PARTS)  # largest cost of refined runs, in runs, unless `estimate_error` is a number
+MAX_COST = float(MOST_PARTS * MOST_PARTS)  # largest cost of refined runs, in runs, unless `estimate_error` is a number
 GOAL_ERROR = AGREED * WRONG_ERROR  # target of a suggested step, and largest error of the energy
-CLEAR = 0.03  # share of the range: largest error, by order one, of a run that is right
+CLEAR = 0.03  # of the range: largest error, by order one, of a run that is right
 RIGHT = "A refined run, in which they do not, shows that what is compared is right all the same."
 COARSER, FINER = "coarser", "finer"
 
@@ -35,28 +35,29 @@ class Accuracy:
     """Estimated error of a run."""
 
     energy_balance: float | None
-    """Work of constraint forces and projections over the energy of the motion; it should be zero. None if the method
-    does not measure it (see `Report.energy_error`)."""
+    """Ratio of the work of constraint forces and projections to the energy of the motion; it should be zero. None if
+    the method does not measure it (see `Report.energy_error`)."""
     energy_error: float | None
     """That work, J."""
     halvings_per_step: float
     """Mean number of halvings per step."""
     compared_step: float | None = None
-    """Step of the last further run, s; None if there was none. It is larger than that of the run for a coarser run."""
+    """Step of the last further run, s; None if there was none. It is larger than the step of the run for a coarser run.
+    """
     check_cost: float = 0.0
-    """Cost of the check: steps of all further runs over those of the run."""
+    """Cost of the check: ratio of the steps of all further runs to the steps of the run."""
     order: float | None = None
-    """Order of the errors, from the energies of the two runs or, if these are not measured, that of the method."""
+    """Order of the errors, from the energies of the two runs or, if these are not measured, order of the method."""
     units: dict[str, float] = field(default_factory=dict)
-    """Largest estimated error over the largest range, by compared unit ("1": coordinates of the System)."""
+    """Ratio of the largest estimated error to the largest range, by compared unit ("1": coordinates of the System)."""
     sensors: dict[str, float] = field(default_factory=dict)
     """Largest estimated errors of the compared sensors, in their units, by name."""
     message: str = ""
     """Evidence against the result, with a remedy; empty if there is none."""
     notice: str = ""
-    """A sentence about an open energy balance of a run that its refined run confirms; else empty."""
+    """A sentence about an open energy balance of a run that its refined run confirms; otherwise empty."""
     branch: str = ""
-    """A sentence about a change of the assembly mode that the refined run does not make; else empty."""
+    """A sentence about a change of the assembly mode that the refined run does not make; otherwise empty."""
 
     @property
     def error(self) -> float | None:
@@ -74,7 +75,7 @@ class Accuracy:
             sentences.append(f"estimated error {', '.join(errors)}")
         if self.check_cost > 0.0:
             sentences.append(
-                f"checked by runs of {self.check_cost:.2g} times its steps (at most {MOST_COST:g} unless "
+                f"checked by runs of {self.check_cost:.2g} times its steps (at most {MAX_COST:g} unless "
                 "estimate_error=N; none with estimate_error=False)"
             )
         return "; ".join(sentences)
@@ -96,8 +97,8 @@ def required_check(report: Report, method: str) -> str:
 
 
 def missed_over_peak(report: Report) -> float:
-    """Changes of velocity that ``v + h a`` misses, over the largest velocity."""
-    # a constant velocity is no motion that steps could miss
+    """Changes of velocity that ``v + h a`` misses, relative to the largest velocity."""
+    # steps cannot miss a constant velocity
     speed = min(report.speed_peak, report.velocity_path) or math.inf
     return report.predictor_path / speed
 
@@ -109,10 +110,10 @@ def energy_drift(report: Report) -> float:
     return balance * (1.0 + rotation)
 
 
-def missed_share(report: Report, method: str) -> float:
+def missed_fraction(report: Report, method: str) -> float:
     """Changes of velocity that ``v + h a`` misses, over all changes: ``h w/2`` of a vibration or impact of w, rad/s.
 
-    Methods of order above two take sums of squares, in which a short event among many smooth steps keeps its share.
+    Methods of order above two take sums of squares, in which a short event among many smooth steps keeps its weight.
     """
     missed, total = report.predictor_path, report.velocity_path
     if METHOD_TABLE[method].order > 2:
@@ -158,14 +159,14 @@ def balance_text(report: Report) -> str:
 
 def energy_text(report: Report, system: System, method: str) -> str:
     """Sentence about a change of the energy of a free System, with a remedy; empty if the energy is conserved."""
-    share = report.energy_change
-    if abs(share) <= GOAL_ERROR:
+    change = report.energy_change
+    if abs(change) <= GOAL_ERROR:
         return ""
     is_excluded = any(len(system.arrays[name]) for name in ("tabled_size", "flex_frame")) or method == "energy_momentum"
     continuation = "and goes on so" if report.energy_growth else "from its start to its mean, and does not go on so"
     return (
         f"Nothing acts on {system.name!r} but forces with a potential, so its energy should stay, but it "
-        f"{'grows' if share > 0.0 else 'falls'} by {_percent(abs(share))} of the largest kinetic energy in "
+        f"{'grows' if change > 0.0 else 'falls'} by {_percent(abs(change))} of the largest kinetic energy in "
         f"{report.steps} steps, {continuation}; {OTHER_STEPS if is_excluded else OTHER_METHOD}."
     )
 
@@ -182,11 +183,11 @@ def needed_step(h: float, accuracy: Accuracy) -> float | None:
 def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:
     """Sentence with a remedy for an inaccurate result.
 
-    `tried`: steps of refined runs, s, the finest last, and their estimated errors over the range.
+    `tried`: steps of refined runs, s, the finest last, and their estimated errors relative to the range.
     """
     sufficient = next(((step, error) for step, error in tried if error <= CLEAR), None)
     if sufficient is None:
-        tolerance_advice = "simulate(..., tolerance=1e-3) in place of a step finds sufficient steps."
+        tolerance_advice = "simulate(..., tolerance=1e-3) instead of a step finds sufficient steps."
         if not tried:
             return f"Which step is sufficient was not tried: {tolerance_advice}"
         step, error = tried[-1]
@@ -208,20 +209,21 @@ def error_text(accuracy: Accuracy, sizes: Mapping[str, float], compared: Mapping
     `sizes`: ranges of the compared quantities, in their units, by name.
     """
     name = max(accuracy.sensors, key=lambda n: accuracy.sensors[n] / sizes[n])
-    unit, share = compared[name].unit, accuracy.sensors[name] / sizes[name]
-    qualifier = "at least" if share > RESOLVED else "about"
+    unit, error = compared[name].unit, accuracy.sensors[name] / sizes[name]
+    qualifier = "at least" if error > RESOLVED else "about"
     kind, unit_suffix = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
     difference_text, size_text = f"{accuracy.sensors[name]:.3g}{unit_suffix}", f"{sizes[name]:.3g}{unit_suffix}"
     return (
-        f"The result is off by {qualifier} {_percent(share)} of the largest range, as a refined run with steps of "
+        f"The result is off by {qualifier} {_percent(error)} of the largest range, as a refined run with steps of "
         f"{accuracy.compared_step:g} s shows: {kind} '{name}' by {difference_text} of {size_text}."
     )
 
 
-def budget_text(accuracy: Accuracy, step: float, most: float, needed: float) -> str:
-    """Sentence about a check that ended at the budget of `most` runs, with a remedy.
+def budget_text(accuracy: Accuracy, step: float, max_cost: float, needed: float) -> str:
+    """Sentence about a check that ended at the budget of `max_cost` runs, with a remedy.
 
-    `accuracy`: by the last refined run; `step`: of the next one, s; `needed`: cost of all that may follow, in runs.
+    `accuracy`: accuracy by the last refined run; `step`: step of the next run, s; `needed`: cost of all that may
+    follow, in runs.
     """
     reason = "there is no estimate"
     if accuracy.error is not None:
@@ -231,8 +233,8 @@ def budget_text(accuracy: Accuracy, step: float, most: float, needed: float) -> 
         )
     return (
         f"Whether the result is off was not checked: a refined run with steps of {step:g} s would cost more than the "
-        f"budget of {most:g} runs ({reason}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give it "
-        "tolerance=1e-3 in place of a step."
+        f"budget of {max_cost:g} runs ({reason}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give it "
+        "tolerance=1e-3 instead of a step."
     )
 
 
@@ -249,8 +251,8 @@ def _higher_orders(system: System, method: str) -> list[str]:
     return [explicit] + (["radau_5"] if len(arrays["velocity_row"]) == 0 else [])
 
 
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.2g} %" if not 0.995 <= share < 100.0 else f"{100.0 * share:.0f} %"
+def _percent(ratio: float) -> str:
+    return f"{100.0 * ratio:.2g} %" if not 0.995 <= ratio < 100.0 else f"{100.0 * ratio:.0f} %"
 
 
 def _range_text(unit: str) -> str:

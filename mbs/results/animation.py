@@ -84,7 +84,8 @@ class Animation:
         path : path
             ``.glb`` or ``.gltf``.
         **settings
-            Of `viewer.gltf.write_gltf`: ``rate``, ``speed``, ``road``, ``deformation`` (else that of the options).
+            Arguments of `viewer.gltf.write_gltf`: ``rate``, ``speed``, ``road``, ``deformation`` (by default from the
+            options).
 
         Returns
         -------
@@ -109,7 +110,8 @@ class Animation:
         path : path
             ``.mp4``, or ``.webp`` and ``.gif`` for documents.
         **settings
-            Of `viewer.video.write_mp4`: ``fps``, ``size``, ``camera``, ``speed``, ``begin``, ``end``, ``progress``.
+            Arguments of `viewer.video.write_mp4`: ``fps``, ``size``, ``camera``, ``speed``, ``begin``, ``end``,
+            ``progress``.
 
         Returns
         -------
@@ -147,7 +149,7 @@ def animate(
     path : path, optional
         Where to save the page at once, as ``animate(run).save(path)`` does.
     names : sequence of str, optional
-        Of the runs, one each; by default that of the model, of ghosts with their number.
+        Names of the runs, one each; by default the name of the model, for ghosts with their number.
     scene : System or mapping, optional
         Scene for runs that have none because they were read from a file.
     **options

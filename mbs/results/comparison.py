@@ -46,7 +46,7 @@ class Compared:
     place: bool = False
     """Whether it is a position, a length, an angle or a coordinate; otherwise it is a rate or a load."""
     load: bool = False
-    """Whether it is a force: its size is the largest value, as it may be constant; that of others is the range."""
+    """Whether it is a force: its size is the largest value, as it may be constant; the size of others is the range."""
     always: bool = True
     """False for rates and motor forces, which may jump: compared only if no position moves by itself."""
     wrapped: bool = False
@@ -86,7 +86,7 @@ class Comparison:
     before : mapping of str to ComparedFields, optional
         `ends` of the runs that this one continues.
     energy : float
-        Forces with less work over the length, and moments with less over a radian, are zero, J.
+        Forces with less work along the length, and moments with less along a radian, are zero, J.
     """
 
     def __init__(
@@ -210,7 +210,7 @@ def select_compared(
     """Values of a run that are compared, by name, as the kernel selects them.
 
     `at_rest`: no coordinate moves, so that rates and motor forces are excluded; `guided`: two motions decide whether a
-    position moves by itself, see `differences`; `length`, `before`, `energy`: as of `Comparison`.
+    position moves by itself, see `differences`; `length`, `before`, `energy`: as in `Comparison`.
     """
     comparison = Comparison(
         {n: quantity for n, quantity in compared.items() if quantity.always or not at_rest}, length, before, energy
@@ -269,7 +269,7 @@ def differences(
     Returns
     -------
     units : dict of str to float
-        Largest difference over its size, per unit; units without motion are omitted.
+        Largest difference relative to its size, per unit; units without motion are omitted.
     sensors : dict of str to float
         Largest difference per sensor.
     sizes : dict of str to float
@@ -289,7 +289,7 @@ def differences(
 def errors_by_unit(
     errors: Mapping[str, float], sizes: Mapping[str, float], compared: Mapping[str, Compared]
 ) -> dict[str, float]:
-    """Largest error over its size, per unit, of errors of sensors by name."""
+    """Largest error relative to its size, per unit, of errors of sensors by name."""
     units = dict[str, float]()
     for name, error in errors.items():
         unit = compared[name].unit
@@ -298,7 +298,7 @@ def errors_by_unit(
 
 
 def missed_load(one: Array, other: Array) -> float:
-    """Largest excess of a load of one run over its range in the other within `WIDTH` samples.
+    """Largest excess of a load of one run beyond its range in the other within `WIDTH` samples.
 
     Means of `WIDTH` samples are compared: an impact that is a sample later, or whose peak lies between two samples, has
     the same mean. 0 for runs that are too short.

@@ -16,13 +16,13 @@ from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings
 
-LEAST_ORDER = 0.5  # measured: below it, differences do not show the error
+MIN_ORDER = 0.5  # measured: below it, differences do not show the error
 
 
 def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
-    """Order of the errors: that of the energy if both runs measured it, at most that of the method.
+    """Order of the errors: the order of the energy errors if both runs measured them, at most the method's.
 
-    `ratio`: step of the coarse run over that of the fine one.
+    `ratio`: ratio of the step of the coarse run to the step of the fine one.
     """
     method_order = float(METHOD_TABLE[method].order)
     first, second = abs(coarse.energy_error), abs(fine.energy_error)
@@ -34,7 +34,7 @@ def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> f
 def observed_order(
     first_difference: float, near_difference: float, near_divisor: int, finest_divisor: int, method_order: float
 ) -> float:
-    """Observed order of three runs, from `LEAST_ORDER` to `method_order`.
+    """Observed order of three runs, from `MIN_ORDER` to `method_order`.
 
     `first_difference`, `near_difference`: differences of the first run, and of that with its step over `near_divisor`,
     from the run with its step over `finest_divisor`.
@@ -48,13 +48,14 @@ def observed_order(
 
     if residual(method_order) <= 0.0:
         return method_order
-    return float(brentq(residual, LEAST_ORDER, method_order)) if residual(LEAST_ORDER) < 0.0 else LEAST_ORDER
+    return float(brentq(residual, MIN_ORDER, method_order)) if residual(MIN_ORDER) < 0.0 else MIN_ORDER
 
 
 def may_change_verdict(known: Accuracy, errors: Mapping[str, float]) -> bool:
     """Whether the errors of a refined run could change the verdict on the errors of the first run.
 
-    `known`: errors of the first run by the refined one; `errors`: those of the refined run over the range, by unit.
+    `known`: errors of the first run by the refined one; `errors`: errors of the refined run relative to the range, by
+    unit.
     """
     margins = [(error - WRONG_ERROR, errors.get(unit, 0.0)) for unit, error in known.units.items()]
     surely_wrong = any(margin >= error for margin, error in margins)
@@ -73,7 +74,7 @@ def extrapolate_error(
     That order holds after abrupt events too: stops are located, and parts of steps shrink with the step.
 
     `tables`: samples (n,), by name, of the run and of the last two refined ones, of which the last has half the step;
-    `before`, `length`: as of `Comparison`. Result: the sizes of the sensors too, see `Comparison.sizes`.
+    `before`, `length`: as in `Comparison`. Result: the sizes of the sensors too, see `Comparison.sizes`.
     """
     run, coarse, fine = tables
     weight = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)

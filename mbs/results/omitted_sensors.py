@@ -37,7 +37,7 @@ class OmittedSensors:
     def column(self, name: str) -> Array:
         """Values of a sensor; all are computed with the first.
 
-        Raises `KeyError`: they cannot be computed.
+        Raises `KeyError` if they cannot be computed.
         """
         if self._compute is not None and self._values is None:
             self._values = self._compute(self._every)

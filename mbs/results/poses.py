@@ -14,14 +14,14 @@ from mbs.common.checks import shown
 from mbs.system.drawing import POSE, POSE_UNITS, BodyPlace, Places, twist
 
 Array = NDArray[np.float64]
-MOST_SAMPLES, MOST_COORDINATES = 100_000, 4_000_000
+MAX_SAMPLES, MAX_COORDINATES = 100_000, 4_000_000
 """Largest numbers of samples and of coordinates (32 MB) of recorded poses."""
 
 
 def pose_interval(samples: int, nq: int, every: int = 1) -> int:
     """Interval of the samples with poses, a multiple of `every`."""
-    most_samples = max(100, min(MOST_SAMPLES, MOST_COORDINATES // max(nq, 1)))
-    return every * max(1, math.ceil(samples / every / most_samples))
+    max_samples = max(100, min(MAX_SAMPLES, MAX_COORDINATES // max(nq, 1)))
+    return every * max(1, math.ceil(samples / every / max_samples))
 
 
 class Poses(Mapping[str, Array]):
@@ -128,7 +128,7 @@ class Poses(Mapping[str, Array]):
     def recorded(
         self, columns: Mapping[str, Array], units: Mapping[str, str]
     ) -> tuple[dict[str, Array], dict[str, str]]:
-        """Columns and units of sensors, followed by those of the poses under their names in recordings and files."""
+        """Columns and units of sensors, followed by the poses under their names in recordings and files."""
         places = self._places
         names = dict(zip(self._columns, [c for b in places.bodies for c in b.columns], strict=False))
         names |= {f"{turn.name}.angle": turn.column for turn in places.turns}

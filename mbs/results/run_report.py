@@ -8,9 +8,9 @@ from dataclasses import dataclass, fields
 
 from mbs.kernel.header.steps import Balance
 
-LEAST_CORRELATION = 0.5
+MIN_CORRELATION = 0.5
 """Least squared correlation of energy and time of a growth: one period of an oscillation has 0.6, two have 0.15."""
-LEAST_ROTATION = 12.0  # rad of the motion from which growth and oscillation are distinguished
+MIN_ROTATION = 12.0  # rad of the motion from which growth and oscillation are distinguished
 
 
 @dataclass(frozen=True)
@@ -41,15 +41,15 @@ class Report:
     work : float
         Work of inputs, drives, dampers and tyres, the sum of their shares of the steps, J.
     kinetic_peak : float
-        Largest kinetic energy, J; at least that of 1e-6 m/s, so that round-off at rest is no error.
+        Largest kinetic energy, J; at least the energy at 1e-6 m/s, so that round-off at rest does not count.
     speed_peak, velocity_path, predictor_path : float
         In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, length of the path of the velocity, and the
-        sum over the steps of its distance from ``v + h a`` of their start; of methods of order above two the larger of
-        the distances from start and end.
+        sum over steps of its distance from ``v + h a`` at their start; for methods of order above two the larger of the
+        distances from start and end.
     velocity_squares, predictor_squares : float
         Sums of the squares of the steps' contributions to the last two, kg m^2/s^2.
     energy_floor : float
-        Work of gravity over the tolerance of the residual, J; a smaller `energy_error` is not significant.
+        Work of gravity along the tolerance of the residual, J; a smaller `energy_error` is not significant.
     free_states : int
         Number of observed states of a System on which only forces with a potential act, so that its energy is
         constant; 0 for other Systems, and after a change of parameters or switches.
@@ -144,21 +144,21 @@ class Report:
 
     @property
     def energy_growth(self) -> float:
-        """Growth of the energy of a free System over the run, J, by linear regression.
+        """Growth of the energy of a free System during the run, J, by linear regression.
 
         0 if the line explains less than half of the variance: the energy then oscillates.
         """
         scatter = math.sqrt(self.free_steps_squares) * math.sqrt(self.free_energy_squares)
         if (
-            not abs(self.free_product) > math.sqrt(LEAST_CORRELATION) * scatter
-            or self.velocity_path < LEAST_ROTATION * self.speed_peak
+            not abs(self.free_product) > math.sqrt(MIN_CORRELATION) * scatter
+            or self.velocity_path < MIN_ROTATION * self.speed_peak
         ):
             return 0.0
         return self.free_product / self.free_steps_squares * self.steps
 
     @property
     def energy_change(self) -> float:
-        """Error of the energy of a free System over the largest kinetic energy.
+        """Error of the energy of a free System relative to the largest kinetic energy.
 
         It is the growth of the energy or, without growth, its mean minus the energy at the start.
         """

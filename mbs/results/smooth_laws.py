@@ -26,10 +26,10 @@ SMOOTH = {
 STOPS = (6, 8)  # indices of the stiffnesses of the stops among the reals of a spring-damper
 
 
-def unresolved_share(
+def unresolved_fraction(
     system: System, method: str, span: tuple[float, float], inputs: Mapping[str, Signal] | None = None
 ) -> float:
-    """Missed share above which steps do not resolve the changes of the velocities.
+    """Missed fraction above which steps do not resolve the changes of the velocities, see `missed_fraction`.
 
     With h w = 1 a period has six steps; three are enough for a method of order above two without abrupt changes.
 

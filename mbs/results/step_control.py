@@ -23,22 +23,24 @@ class Control:
     reason: str
     """Reason for this method; empty if the caller named it."""
     error: float
-    """Estimate of the largest error of positions over the run, over `length`: the distance from a coarser run times the
-    ratio of their step errors, at least a tenth of the tolerance, as smaller estimates are unreliable. In nine of ten
+    """Estimate of the largest error of positions, relative to `length`: the distance from a coarser run times the ratio
+    of their step errors, at least a tenth of the tolerance, as smaller estimates are unreliable. In nine of ten
     runs it is within ten times the error; errors of both runs are not included, and if guides prescribe all motion it
     is 0. NaN if the step was given: no runs were compared."""
     h: float | None
     """The fixed step, s; None: steps under error control."""
     steps: int
+    """Accepted steps of the returned run."""
     rejected: int
+    """Steps that were repeated because their error was too large."""
     failed: int
-    """`steps`, `rejected`, `failed`: steps of the returned run; steps that were repeated because their error was too
-    large, and because they did not converge."""
+    """Steps that were repeated because they did not converge."""
     forced: int
-    """Steps that exceed their share of the tolerance at any length."""
+    """Steps that exceed their part of the tolerance at any length."""
     smallest: float
+    """Smallest accepted step, s."""
     largest: float
-    """`smallest`, `largest`: smallest and largest accepted step, s."""
+    """Largest accepted step, s."""
     side_steps: int
     """Steps to times between the steps at which no polynomial through the steps was accurate enough."""
     runs: int
@@ -46,8 +48,8 @@ class Control:
     moved: float = math.nan
     """Largest displacement of a coordinate, m; NaN if the step was given."""
     sensors: Mapping[str, float] = field(default_factory=dict)
-    """Estimated errors of the sensors with a tolerance, in their units, by name; `error` is then the largest of them
-    over its tolerance, times `tolerance`."""
+    """Estimated errors of the sensors with a tolerance, in their units, by name; `error` is then the largest ratio of
+    error to tolerance, times `tolerance`."""
 
     @property
     def kept(self) -> bool:

@@ -58,13 +58,13 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     notices : sequence of str
         Notices of the scene, see `Model.notice`; evaluated at the recorded times.
     branch_change : str
-        A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
+        A sentence about the first change of the assembly mode of a closed loop; empty if there was none.
     control : Control, optional
         Record of the choice of method and steps, if `simulate` chose them.
     drawing : Drawing, optional
         Scene of the model, for `mbs.animate`.
     roads : mapping of int to road or str, optional
-        Roads of the run that are not those of the drawing, by their numbers: moved by parameters, or paths of files.
+        Roads of the run that differ from the drawing, by their numbers: moved by parameters, or paths of files.
     left_out : OmittedSensors, optional
         Sensors among `names` that the run did not compute; their columns of `values` are ignored.
     """
@@ -140,9 +140,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Parameters
         ----------
         scene : mapping, optional
-            Scene to draw; by default that of the run.
+            Scene to draw; by default the scene of the run.
         name : str
-            Name of the recording; by default that of the model.
+            Name of the recording; by default the name of the model.
 
         Returns
         -------
@@ -208,7 +208,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
 
     def thinned(self, every: int) -> Trajectory:
-        """Keep every n-th sample, from the first on, with the same report, settings and accuracy.
+        """Keep every n-th sample, including the first, with the same report, settings and accuracy.
 
         Parameters
         ----------
@@ -268,7 +268,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             File to write; an existing one is replaced only by a complete one.
         poses : bool
             Whether to add the poses of all bodies, ``rod.x [m]`` to ``rod.qz [1]``, from which `from_csv`,
-            ``animate(..., scene=system)`` and ``ali3 view`` draw the run. Where a sensor has such a name, the columns
+            ``animate(..., scene=system)`` and ``ali3 view`` draw the run. If a sensor has such a name, the columns
             are ``rod.pose.x`` to ``rod.pose.qz``.
 
         Raises

@@ -4,7 +4,7 @@ Read from the paper: AB 0.12, BC 0.24, CD 0.12, AD 0.24 m, the axis of joint C t
 0.33, 3000 kg/m3, 1 rad/s at the crank, 10 s, no gravity. Not in the paper, taken from the published benchmark of the
 same kind (a flexible four-bar with a defect): cranks upright at the start, clockwise, and the axis of C tilted
 towards the coupler. The "5 mm" of the round section are its radius: a diameter of 5 mm gives moments of 0.6 N m, a
-radius those of the paper's Figure 5, from -10 to 6 N m.
+radius the moments of the paper's Figure 5, from -10 to 6 N m.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Slider-crank with equal arms: its motion bifurcates where the crank is upright and the rod lies on it.
+"""Slider-crank with equal arms: its motion bifurcates when the crank is upright and the rod lies on it.
 
-There the slider moves on, or stays while both arms rotate together.
+Then the slider moves on, or stays while both arms rotate together.
 """
 
 from __future__ import annotations

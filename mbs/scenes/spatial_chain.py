@@ -17,7 +17,7 @@ SPIN = 1.5  # rad/s, about each of the first two pins at the start
 
 
 def build(links: int = LINKS) -> Model:
-    """Straight, tilted in the x-z plane, swinging about its first pin and, from the second on, sideways too."""
+    """Straight, tilted in the x-z plane, swinging about its first pin and, from the second link, sideways too."""
     links = whole(links, "The number of links", 1)
     m = Model(f"chain of {links} links", dimension=3)
     axis, normal, lateral = directions()
@@ -30,7 +30,7 @@ def build(links: int = LINKS) -> Model:
         centre = start + 0.5 * LENGTH * axis
         link = m.body(f"link {k}", mass=MASS, com=centre, inertia=inertia)
         m.revolute(f"pin {k}", parent, link, point=start, axis=lateral if k % 2 == 0 else normal)
-        # the whole chain rotates about the first pin, and from the second link on also about the second pin
+        # the whole chain rotates about the first pin, all links but the first also about the second pin
         angular_velocity = rate if k == 0 else rate + SPIN * normal
         pivot = np.zeros(3) if k == 0 else LENGTH * axis
         linear = np.cross(rate, pivot) + np.cross(angular_velocity, centre - pivot)

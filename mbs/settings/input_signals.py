@@ -23,9 +23,9 @@ class InputSignals:
     ----------
     signals : mapping of str to signal
         Per input a constant, a function of time in s, or a pair (times, values) of equal length: linear in between,
-        held outside. A time given twice is a jump; at that very instant the value before it counts, because the step
-        that ends there lies before it. A function depends on time alone, because `breaks` asks it ahead. An input of
-        whole numbers keeps each value of a table until the next one.
+        held outside. A time given twice is a jump; at this time the input has the value before the jump, as the step
+        that ends there lies before it. A function depends on time alone, because `breaks` samples it ahead. An input
+        of whole numbers keeps each value of a table until the next one.
     declared : sequence of mapping
         Entries `name`, `unit`, `min`, `max` (None: open), `whole` of every input of the System, in order.
     """
@@ -38,12 +38,12 @@ class InputSignals:
         self._whole = np.array([bool(d.get("whole")) for d in declared])
         self._signals: dict[int, Signal] = {}
         self._jumps: dict[int, list[tuple[float, float]]] = {}
-        for name, signal in signals.items():
+        for name, given in signals.items():
             if not isinstance(name, str) or name not in self._names:
                 available = ", ".join(self._names) or "none"
                 raise ValueError(f"There is no input {shown(name)}; the System has: {available}.")
             i = self._names.index(name)
-            signal = _check_signal(name, signal)
+            signal = _check_signal(name, given)
             if self._whole[i] and isinstance(signal, tuple):
                 self._check(i, *_table(signal))
                 signal = _staircase(signal)
@@ -54,7 +54,7 @@ class InputSignals:
         return list(self._signals)
 
     def breaks(self, t0: float, t_end: float, h: float) -> NDArray[np.float64]:
-        """Times, s, at which steps of `h` from `t0` are divided; the jumps of functions are stored for `attach`."""
+        """Find the times, s, at which steps of `h` from `t0` are divided; store jumps of functions for `attach`."""
         tables = [_table(signal) for signal in self._signals.values() if isinstance(signal, tuple)]
         break_times = [input_breaks(tables, t0, t_end, h)]
         for i, signal in self._signals.items():
@@ -150,21 +150,24 @@ class InputSignals:
             right = bisect_right(times, t + tolerance) if after else bisect_left(times, t - tolerance)
             if right == 0 or right == len(times):
                 return float(values[right and -1])
-            begin, span = times[right - 1], times[right] - times[right - 1]
-            share = min(1.0, max(0.0, (t - begin) / span)) if span > 0.0 else 0.0
-            return float(values[right - 1] + share * (values[right] - values[right - 1]))
+            start, span = times[right - 1], times[right] - times[right - 1]
+            fraction = min(1.0, max(0.0, (t - start) / span)) if span > 0.0 else 0.0
+            return float(values[right - 1] + fraction * (values[right] - values[right - 1]))
 
         return interpolate_table
 
     def _check(self, i: int, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+        """Raise `ValueError` for the first of `values` at times `t`, s, that input `i` cannot have."""
         inside = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
         is_valid = inside & (values == np.floor(values)) if self._whole[i] else inside
         if not is_valid.all():
             k = int(np.argmin(is_valid))
-            requirement = (
-                f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
-            )
-            requirement = "be a whole number" if inside[k] else requirement
+            if inside[k]:
+                requirement = "be a whole number"
+            elif np.isfinite(values[k]):
+                requirement = f"lie between {self._min[i]:g} and {self._max[i]:g}"
+            else:
+                requirement = "be finite"
             value = f"{values[k]:g}{unit_text(self._units[i])}"
             raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {requirement}.")
 
@@ -191,7 +194,7 @@ def _function_value(name: str, signal: Callable[[float], float], t: float) -> fl
 
 
 def _check_signal(name: str, signal: Signal) -> Signal:
-    """Return a signal with floats; raise `ValueError` if it is none of the three kinds."""
+    """Return a signal with floats; raise `ValueError` if it is not a constant, function or table."""
     if callable(signal):
         return signal
     if not isinstance(signal, tuple):
@@ -220,7 +223,7 @@ def _check_signal(name: str, signal: Signal) -> Signal:
 def _interpolate(
     t: NDArray[np.float64], times: NDArray[np.float64], values: NDArray[np.float64], tolerance: float, after_jump: bool
 ) -> NDArray[np.float64]:
-    """Values of a table at times `t` (n,), s; `tolerance`, `after_jump`: as of `InputSignals.at`."""
+    """Values of a table at times `t` (n,), s; `tolerance`, `after_jump`: as in `InputSignals.at`."""
     if after_jump:
         right = np.searchsorted(times, t + tolerance, side="right")
     else:
@@ -228,6 +231,6 @@ def _interpolate(
     left = np.clip(right - 1, 0, len(times) - 1)
     right = np.clip(right, 0, len(times) - 1)
     span = times[right] - times[left]
-    share = np.where(span > 0.0, (t - times[left]) / np.where(span > 0.0, span, 1.0), 0.0)
-    interpolated: NDArray[np.float64] = values[left] + np.clip(share, 0.0, 1.0) * (values[right] - values[left])
+    fraction = np.where(span > 0.0, (t - times[left]) / np.where(span > 0.0, span, 1.0), 0.0)
+    interpolated: NDArray[np.float64] = values[left] + np.clip(fraction, 0.0, 1.0) * (values[right] - values[left])
     return interpolated

@@ -16,12 +16,13 @@ class Method:
     order: int = 2
     """Order of convergence with fixed steps."""
     project: bool | None = None
-    """Value of the setting `project` that the name implies; None: that of the settings."""
+    """Value of the setting `project` that the name implies; None: as in the settings."""
     conservative_only: bool = False
+    """Whether it accepts only Systems without damping."""
     tree_only: bool = False
+    """Whether it accepts only Systems with a spanning tree."""
     positions_only: bool = False
-    """`conservative_only`, `tree_only`, `positions_only`: whether it accepts only Systems without damping, with a
-    spanning tree, without constraints on velocities."""
+    """Whether it accepts only Systems without constraints on velocities."""
     cost: float = 1.0
     """Cost of one unit of work of a controlled run (`ControlledRun.work`), in evaluations of a Runge-Kutta method."""
 
@@ -88,4 +89,4 @@ METHOD_TABLE = {
         cost=5.5,  # measured: three stages in one tangent are three times as wide
     ),
 }
-"""The only list of methods in Python; numbers and orders of changing steps are those of the kernel."""
+"""The only list of methods in Python; numbers and orders of changing steps are defined by the kernel."""

@@ -18,7 +18,7 @@ LIMITED = ("ali3p", "ali3p_no_projection", "ali3p_generalised_alpha")
 
 @dataclass(frozen=True)
 class Settings:
-    """Method and solver settings of a run; the defaults are those of the kernel.
+    """Method and solver settings of a run; the defaults are the kernel's.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Settings:
     method : str
         One of `METHODS`; `docs/stability.md` says where each must not be used.
 
-        - "ali3p", the default: that of the paper, trapezoidal rule with projections; takes every System.
+        - "ali3p", the default: method of the paper, trapezoidal rule with projections; takes every System.
         - "ali3p_no_projection": the same without projections, for comparison.
         - "ali3p_generalised_alpha": the same with the dissipative rule of Chung and Hulbert.
         - "energy_momentum": conserves the energy of a conservative model; in any other only the dampers dissipate.
@@ -66,7 +66,7 @@ class Settings:
     step_iterations : int
         Of ALi3-P and generalised-alpha: most Newton iterations of a step with its parts, so that its work is bounded;
         of each part also `max_iterations`. The iterate that is reached then is accepted as it is, steps are halved at
-        abrupt forces only, where there is room below the limit, and `Report.capped` and `Report.capped_residual` are
+        abrupt forces only, if there is room below the limit, and `Report.capped` and `Report.capped_residual` are
         their number and the largest residual, m. 0, the default: no such limit.
     rho_infinity : float
         Of generalised-alpha: spectral radius at infinite frequency, 0 to 1.

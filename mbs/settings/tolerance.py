@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 
 from mbs.common.checks import is_finite, shown
 
-LEAST_TOLERANCE = 1e-11
-MOST_TOLERANCE = 0.5
+MIN_TOLERANCE = 1e-11
+MAX_TOLERANCE = 0.5
 DEFAULT_TOLERANCE = 1e-3
 """Tolerance of runs with chosen equal steps, and largest one of positions in runs with tolerances of sensors."""
 
@@ -18,27 +18,27 @@ DEFAULT_TOLERANCE = 1e-3
 class Tolerance:
     """Accepted error of a run."""
 
-    share: float
-    """Largest error of positions over the length of the model."""
+    position: float
+    """Largest error of positions relative to the length of the model."""
     sensors: Mapping[str, float] = field(default_factory=dict)
-    """Largest errors of sensors, in their units, by name; they replace that of positions."""
+    """Largest errors of sensors, in their units, by name; they replace the error of positions."""
 
 
 def check_tolerance(tolerance: object, units: Mapping[str, str], length: float) -> Tolerance:
     """Return the tolerance of a run, given as a number or as numbers by sensor.
 
-    `units`: of the sensors that the System computes, by name; `length`: of the model, m. Raises `ValueError`: it is not
-    valid.
+    `units`: units of the sensors that the System computes, by name; `length`: length of the model, m. Raises
+    `ValueError` if the tolerance is not valid.
     """
     if isinstance(tolerance, Mapping):
         return _check_sensor_tolerances(tolerance, units, length)
     value = float(tolerance) if is_finite(tolerance) else math.nan  # type: ignore[arg-type]
-    if LEAST_TOLERANCE <= value <= MOST_TOLERANCE:
+    if MIN_TOLERANCE <= value <= MAX_TOLERANCE:
         return Tolerance(value)
-    reason = "it is below what round-off leaves; " if 0.0 < value < LEAST_TOLERANCE else ""
+    reason = "it is below what round-off leaves; " if 0.0 < value < MIN_TOLERANCE else ""
     raise ValueError(
-        f"The tolerance is {shown(tolerance)}; {reason}it must be a number between {LEAST_TOLERANCE:g} and "
-        f"{MOST_TOLERANCE:g}: the largest error of positions in parts of the model's length; or errors of sensors in "
+        f"The tolerance is {shown(tolerance)}; {reason}it must be a number between {MIN_TOLERANCE:g} and "
+        f"{MAX_TOLERANCE:g}: the largest error of positions in parts of the model's length; or errors of sensors in "
         "their units, by name."
     )
 
@@ -52,5 +52,5 @@ def _check_sensor_tolerances(tolerances: Mapping[object, object], units: Mapping
     if not tolerances:
         raise ValueError("The tolerance names no sensor; give one error by name, or a number.")
     errors = {str(name): float(value) for name, value in tolerances.items()}  # type: ignore[arg-type]
-    shares = [value / length for name, value in errors.items() if units[name] == "m"]
-    return Tolerance(min(max(min(shares, default=DEFAULT_TOLERANCE), LEAST_TOLERANCE), DEFAULT_TOLERANCE), errors)
+    positions = [value / length for name, value in errors.items() if units[name] == "m"]
+    return Tolerance(min(max(min(positions, default=DEFAULT_TOLERANCE), MIN_TOLERANCE), DEFAULT_TOLERANCE), errors)

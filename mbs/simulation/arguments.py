@@ -21,14 +21,14 @@ from mbs.system.system import System
 
 LATEST = 1e10
 """Largest absolute time, s; there double precision resolves two microseconds."""
-LEAST_STEP = 1e3
-"""Least step in units of the round-off of the time."""
-MOST_VALUES = 10**9
+MIN_STEP = 1e3
+"""Shortest step in units of the round-off of the time."""
+MAX_VALUES = 10**9
 """Largest number of values that one run may record: 8 gigabytes."""
-LARGEST_COST = 1e6
+MAX_ESTIMATE_COST = 1e6
 """Largest number for `estimate_error`, in runs."""
-MOST_OMITTED_SHARE = 0.01
-"""Largest share of a run that equal steps may omit at its end without a warning."""
+MAX_OMITTED_FRACTION = 0.01
+"""Largest fraction of a run that equal steps may omit at its end without a warning."""
 
 
 def check_step(h: float) -> float:
@@ -60,40 +60,40 @@ def check_end(t0: float, t_end: float) -> float:
 def check_estimate(value: object) -> bool | float | None:
     """Return `estimate_error` of `simulate`: a flag, None or a largest cost; raise `ValueError` for anything else."""
     cost = float(value) if is_finite(value) else 0.0  # type: ignore[arg-type]
-    if 0.0 < cost <= LARGEST_COST:
+    if 0.0 < cost <= MAX_ESTIMATE_COST:
         return cost
     if value is not None and not isinstance(value, (bool, np.bool_)):
         raise ValueError(
             f"estimate_error = {shown(value)}; it must be True, False or None (suspects only), or a number above 0, up "
-            f"to {LARGEST_COST:g}: what refined runs may cost, in runs."
+            f"to {MAX_ESTIMATE_COST:g}: what refined runs may cost, in runs."
         )
     return None if value is None else bool(value)
 
 
 def check_every(every: int) -> int:
     """Return the interval of the record, in steps; raise `ValueError` unless it is a positive whole number."""
-    if not is_finite(every) or int(every) != every or not 1 <= every <= MOST_VALUES:
+    if not is_finite(every) or int(every) != every or not 1 <= every <= MAX_VALUES:
         raise ValueError(
-            f"every = {shown(every)}; it must be at least 1, a whole number of steps up to {MOST_VALUES:g}."
+            f"every = {shown(every)}; it must be at least 1, a whole number of steps up to {MAX_VALUES:g}."
         )
     return int(every)
 
 
 def check_resolution(t: float, h: float) -> None:
     """Raise `ValueError` for a step `h`, s, that is lost in the round-off of the time `t`, s."""
-    least_step = LEAST_STEP * math.ulp(t)
-    if h < least_step:
+    min_step = MIN_STEP * math.ulp(t)
+    if h < min_step:
         raise ValueError(
             f"At t = {t:g} s a step of {h:g} s is lost in the round-off of the time; start nearer to zero or take a "
-            f"step above {least_step:.1g} s."
+            f"step above {min_step:.1g} s."
         )
 
 
 def count_steps(t0: float, t_end: float, h: float) -> int:
     """Number of whole steps of `h` from `t0` to `t_end`, s, up to round-off.
 
-    Raises `ValueError`: the end is before the start, or the step is longer than the run or lost in the round-off of the
-    time.
+    Raises `ValueError` if the end is before the start, or the step is longer than the run or lost in the round-off of
+    the time.
     """
     end = check_end(t0, t_end)
     steps = math.floor((end - t0) / h + 1e-6)
@@ -105,11 +105,11 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
 
 
 def warn_of_end(t0: float, t_end: float, h: float) -> None:
-    """Warn, for the caller's caller, if whole steps omit more than `MOST_OMITTED_SHARE` of the run at its end."""
+    """Warn, for the caller's caller, if whole steps omit more than `MAX_OMITTED_FRACTION` of the run at its end."""
     covered, duration = count_steps(t0, t_end, h) * h, t_end - t0
-    if duration - covered > MOST_OMITTED_SHARE * duration + 1e-6 * h:
+    if duration - covered > MAX_OMITTED_FRACTION * duration + 1e-6 * h:
         warnings.warn(
-            f"The run ends at {t0 + covered:g} s, a whole number of steps of {h:g} s, in place of {t_end:g} s; h = "
+            f"The run ends at {t0 + covered:g} s, a whole number of steps of {h:g} s, instead of {t_end:g} s; h = "
             f"{duration / math.ceil(duration / h):.9g} ends there.",
             AccuracyWarning,
             stacklevel=3,
@@ -117,10 +117,10 @@ def warn_of_end(t0: float, t_end: float, h: float) -> None:
 
 
 def check_record(samples: int, sensors: int) -> None:
-    """Raise `ValueError` for a record of more than `MOST_VALUES` values."""
-    if samples * max(sensors, 1) > MOST_VALUES:
+    """Raise `ValueError` for a record of more than `MAX_VALUES` values."""
+    if samples * max(sensors, 1) > MAX_VALUES:
         raise ValueError(
-            f"The run would record {samples:.3g} samples of {sensors} sensors, more than {MOST_VALUES:g} values; "
+            f"The run would record {samples:.3g} samples of {sensors} sensors, more than {MAX_VALUES:g} values; "
             "record less often (every), take longer steps or an earlier end (t_end)."
         )
 
@@ -131,7 +131,7 @@ def check_system(system: System, subject: str) -> System:
 
 
 def check_settings(settings: Settings | None) -> Settings:
-    """Return the settings, by default those of the kernel."""
+    """Return the settings, by default the kernel's."""
     return Settings() if settings is None else instance_of(Settings, settings, "The settings", "Settings(...)")
 
 
@@ -163,7 +163,7 @@ def check_progress(progress: bool | Callable[[float], None] | None) -> None:
 
 
 def record_times(t0: float, t_end: float, h: float | None, every: int, times: ArrayLike | None) -> NDArray[np.float64]:
-    """Instants of the record, s, shape (n,), beginning with `t0`; `h` and `every` or `times`: as of `simulate`."""
+    """Instants of the record, s, shape (n,), beginning with `t0`; `h`, `every` and `times` as in `simulate`."""
     check_end(t0, t_end)
     if times is not None and h is not None:
         raise ValueError("Both times and h are given; one of them says where to record.")
@@ -186,7 +186,7 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
 
 def requested_tolerance(system: System, tolerance: object) -> Tolerance:
     """Return the tolerance of a run of the System; raise `ValueError` if it is not valid."""
-    sensors = prepared(system)[1]["sensors"]
+    sensors = prepared(system).meta["sensors"]
     units = {sensor["name"]: sensor["unit"] for sensor in sensors if sensor.get("computed", True)}
     return check_tolerance(tolerance, units, length_of(system))
 

@@ -38,7 +38,7 @@ def run_chosen_steps(
     """Run in equal steps; choose the step if `h` is None, the method if it is 'auto', for the default tolerance.
 
     `start`: makes a SteppedSystem for a step, s, and settings; `run`: makes a run of a step, settings and
-    `estimate_error`; the other arguments as of `simulate`.
+    `estimate_error`; the other arguments as in `simulate`.
     """
     check_end(t0, t_end)
     reason, wall, runs, error = "", 0.0, 0, math.nan

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED
 from mbs.results import accuracy
-from mbs.results.accuracy import CLEAR, Accuracy, mean_parts, missed_share
+from mbs.results.accuracy import CLEAR, Accuracy, mean_parts, missed_fraction
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, needs_two_motions
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
@@ -36,18 +36,20 @@ def coarser_step_factors(
 ) -> list[int]:
     """Factors of the step of coarser runs, in the order in which they are tried.
 
-    A factor is used if it times the missed share of the run is at most `unresolved`, see `unresolved_share`.
+    A factor is used if it times the missed fraction of the run is at most `unresolved`, see `unresolved_fraction`.
     """
     single_iteration = uses_one_iteration(settings, compared, has_states)
     long_factors = [MOST_PARTS, MOST_PARTS // 2] if unresolved > RESOLVED else [MOST_PARTS] if single_iteration else []
-    resolved = [factor for factor in [*long_factors, 2] if factor * missed_share(report, settings.method) <= unresolved]
+    resolved = [
+        factor for factor in [*long_factors, 2] if factor * missed_fraction(report, settings.method) <= unresolved
+    ]
     return [factor for factor in resolved if factor in (resolved[0], 2)]
 
 
 def largest_difference(known: Accuracy, method: str, ratio: float) -> float:
-    """Difference of a run from the coarser one by which `known` was estimated, over the range.
+    """Difference of a run from the coarser one by which `known` was estimated, relative to the range.
 
-    `ratio`: step of the coarser run over that of the run.
+    `ratio`: ratio of the step of the coarser run to the step of the run.
     """
     order = known.order or float(METHOD_TABLE[method].order)
     return 0.0 if known.error is None else known.error * (ratio**order - 1.0)
@@ -87,10 +89,10 @@ class CoarserRuns:
     def run(self, factor: int, iterations: int, limit: float) -> tuple[Accuracy, float] | None:
         """Accuracy by a run with steps about `factor` times as long, and the ratio of both steps.
 
-        The estimate counts the steps that were made; the ratio is no smaller than that of the steps before halvings,
-        so that a run that is halved almost to the same steps has to be nearer.
+        The estimate counts the steps that were made; the ratio is not smaller than the ratio of the steps before
+        halvings, so that a run that is halved almost to the same steps has to be nearer.
 
-        None if the steps are too few or were halved to those of the first run, the run fails or ends at another time,
+        None if the steps are too few or were halved to the first run's, the run fails or ends at another time,
         or a sensor differs by more than `limit` of its range. `iterations`: largest number of Newton iterations per
         step; 0: no limit.
         """

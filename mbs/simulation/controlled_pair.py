@@ -22,7 +22,7 @@ class ControlledPair:
     def differences(self) -> dict[str, float]:
         """Largest differences of the sensors with their own tolerance, in their units."""
         system = self.run.simulation.system
-        compared, names = compared_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
+        compared, names = compared_sensors(system), [s["name"] for s in prepared(system).meta["sensors"]]
         differences = dict[str, float]()
         for name in self.tolerance.sensors:
             fine, coarse = (run.values[:, names.index(name)] for run in (self.run, self.coarser))
@@ -31,19 +31,21 @@ class ControlledPair:
 
     @property
     def error_ratio(self) -> float:
-        """Error of the run over that of the coarser one, as the ratio of the sums of their step errors, at most 1."""
+        """Ratio of the error of the run to that of the coarser one, from the sums of their step errors, at most 1."""
         coarse = self.coarser.fields.error_sum
         return min(1.0, self.run.fields.error_sum / coarse) if coarse > 0.0 else 1.0
 
     @property
     def distance(self) -> float:
-        """Distance of both runs over the length.
+        """Distance of both runs relative to the length.
 
-        With sensors: their largest difference over its tolerance, times the tolerance of positions.
+        With sensors: their largest ratio of difference to tolerance, times the tolerance of positions.
         """
         if not self.tolerance.sensors:
             return self.run.distance(self.coarser)
-        return self.tolerance.share * max(gap / self.tolerance.sensors[name] for name, gap in self.differences.items())
+        return self.tolerance.position * max(
+            gap / self.tolerance.sensors[name] for name, gap in self.differences.items()
+        )
 
     @property
     def errors(self) -> dict[str, float]:

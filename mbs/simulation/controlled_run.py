@@ -20,11 +20,11 @@ from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
 CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
-LONGEST, LONGEST_WITH_FUNCTIONS = 0.1, 0.02  # largest steps as shares of the run, without and with input functions
-SCAN_STEP = 1e-3  # share of the run: interval at which input functions are scanned for jumps and peaks
-ROWS, BALANCE = 1e-7, 1e-6  # tolerances of Newton's iteration over that of the run, both times the length
-MOST_FORCED, MOST_FORCED_SHARE = 300, 0.05  # steps of the least size that may exceed their share: number, share of all
-MOST_OVER_SHARE, MOST_OVER_SHARE_PART = 3000, 0.3  # steps that may exceed their share: number, share of all
+MAX_STEP, MAX_STEP_WITH_FUNCTIONS = 0.1, 0.02  # of the run: longest steps, without and with input functions
+SCAN_STEP = 1e-3  # of the run: interval at which input functions are scanned for jumps and peaks
+ROWS, BALANCE = 1e-7, 1e-6  # of the tolerance of the run: tolerances of Newton's iteration, both times the length
+MAX_FORCED, MAX_FORCED_FRACTION = 300, 0.05  # steps of the least size that may err too much: number, part of all
+MAX_OVER_SHARE, MAX_OVER_SHARE_FRACTION = 3000, 0.3  # steps that may err too much: number, part of all
 ROUND_OFF = 1e-13  # round-off of coordinates of 1 m, m
 
 
@@ -33,8 +33,9 @@ class Task:
     """Duration, record and inputs that all runs of one call have."""
 
     t0: float
+    """First time, s."""
     t_end: float
-    """`t0`, `t_end`: s."""
+    """Last time, s."""
     times: Array
     """Instants of the record, s, shape (n,), ascending, after `t0`."""
     signals: InputSignals
@@ -53,7 +54,7 @@ class Task:
 
 
 class StalledError(RuntimeError):
-    """Steps of the least size still exceed their share of the error: round-off is reached."""
+    """Steps of the least size still exceed their part of the error: round-off is reached."""
 
 
 class ControlledRun:
@@ -66,15 +67,15 @@ class ControlledRun:
     settings : Settings
         With the method; the tolerances of its Newton iteration are reduced as the run needs.
     tolerance : float
-        Largest error of positions over the length of the model.
-    longest : float
-        Largest step as a multiple of the usual one.
+        Largest error of positions relative to the length of the model.
+    step_factor : float
+        Factor on the longest step.
     """
 
     def __init__(
-        self, simulation: SteppedSystem, task: Task, settings: Settings, tolerance: float, longest: float = 1.0
+        self, simulation: SteppedSystem, task: Task, settings: Settings, tolerance: float, step_factor: float = 1.0
     ) -> None:
-        meta = prepared(simulation.system)[1]
+        meta = prepared(simulation.system).meta
         self.simulation, self.task = simulation, task
         self.length = length_of(simulation.system)
         self.settings = tighten_tolerances(
@@ -89,7 +90,7 @@ class ControlledRun:
             length=self.length,
             span=task.span,
             rate=max(math.sqrt(meta.get("gravity", 0.0) / self.length), 1.0 / task.span),
-            longest=longest * (LONGEST_WITH_FUNCTIONS if task.signals.has_functions else LONGEST) * task.span,
+            longest=step_factor * (MAX_STEP_WITH_FUNCTIONS if task.signals.has_functions else MAX_STEP) * task.span,
         )
         n = len(task.times)
         self.values = np.empty((n, len(meta["sensors"])))
@@ -104,21 +105,21 @@ class ControlledRun:
         return not self._stops
 
     @property
-    def share(self) -> float:
-        """Completed share of the duration."""
+    def fraction(self) -> float:
+        """Completed fraction of the duration."""
         return (self.simulation.time - self.task.t0) / self.task.span
 
     @property
     def work(self) -> int:
-        """Evaluations or factorizations so far, whichever are more, including those of rejected steps."""
+        """Evaluations or factorizations so far, whichever are more, also in rejected steps."""
         report = self.simulation.instance.report()
         return int(max(report["factorizations"], report["iterations"]))
 
     def advance(self, steps: int) -> None:
         """Make at most `steps` accepted steps, no further than to the end.
 
-        Raises `KernelError`: a step of the least size fails; `StalledError`: many steps of the least size exceed their
-        share of the error.
+        Raises `KernelError` if a step of the least size fails, `StalledError` if many steps of the least size exceed
+        their part of the error.
         """
         instance, task = self.simulation.instance, self.task
         time_tolerance = 1e-9 * task.span
@@ -139,8 +140,8 @@ class ControlledRun:
                 if self.simulation.time >= stop:
                     self._stops.pop(0)
                 control = self.fields
-                if control.forced > max(MOST_FORCED, MOST_FORCED_SHARE * control.accepted) or control.over_share > max(
-                    MOST_OVER_SHARE, MOST_OVER_SHARE_PART * control.accepted
+                if control.forced > max(MAX_FORCED, MAX_FORCED_FRACTION * control.accepted) or control.over_share > max(
+                    MAX_OVER_SHARE, MAX_OVER_SHARE_FRACTION * control.accepted
                 ):
                     raise StalledError
         finally:
@@ -148,12 +149,12 @@ class ControlledRun:
             instance.set_input_function(None)
 
     def finish(self, update: Callable[[float], None]) -> None:
-        """Step to the end in calls of about `CHUNK_SECONDS`. `update`: callback of the completed share."""
+        """Step to the end in calls of about `CHUNK_SECONDS`. `update`: callback of the completed fraction."""
         steps = FIRST_CHUNK
         while not self.finished:
             wall_before = self.wall
             self.advance(steps)
-            update(min(1.0, self.share))
+            update(min(1.0, self.fraction))
             steps = max(1, int(steps * min(8.0, CHUNK_SECONDS / max(self.wall - wall_before, 1e-9))))
 
     @property
@@ -162,7 +163,7 @@ class ControlledRun:
         return float(np.max(np.ptp(self.positions, axis=0) * self.scale, initial=0.0))
 
     def distance(self, other: ControlledRun) -> float:
-        """Largest distance of the positions of two runs over the length."""
+        """Largest distance of the positions of two runs relative to the length."""
         return distance(self.simulation.system, self.positions, other.positions)
 
 
@@ -174,14 +175,14 @@ def tighten_tolerances(settings: Settings, error: float, q: Array, fineness: flo
     """
     round_off = ROUND_OFF * max(1.0, float(np.max(np.abs(q), initial=0.0))) / fineness
     error /= fineness
-    row_share = 0.0 if METHOD_TABLE[settings.method].tree_only else ROWS
+    row_factor = 0.0 if METHOD_TABLE[settings.method].tree_only else ROWS
     return replace(
         settings,
         tolerance_r=min(settings.tolerance_r, max(round_off, BALANCE * error)),
-        tolerance_phi=min(settings.tolerance_phi, max(round_off, row_share * error)),
+        tolerance_phi=min(settings.tolerance_phi, max(round_off, row_factor * error)),
     )
 
 
 def signals_of(inputs: Mapping[str, Signal], simulation: SteppedSystem) -> InputSignals:
     """Signals of the inputs of the System, from functions, tables or constants by name."""
-    return InputSignals(inputs, prepared(simulation.system)[1]["inputs"])
+    return InputSignals(inputs, prepared(simulation.system).meta["inputs"])

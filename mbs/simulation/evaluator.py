@@ -11,7 +11,7 @@ from mbs.simulation.system_instance import SystemInstance
 Array = NDArray[np.float64]
 
 SHIFT = 1e-6  # shift of coordinates (m), velocities (m/s) and element states in central differences
-RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the largest count as zero
+RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this part of the largest count as zero
 STATE_STEP = 1e-5  # s; element step from which the rates of element states are computed
 SHORT_STEP = 1e-9  # s; element step over which a state keeps its value
 
@@ -20,7 +20,7 @@ class Evaluator:
     """Evaluation of rows, forces and tangents of a simulation for linearisation; its state is not changed.
 
     Elements step their slots (internal variables) and do not state their rates: these are the limit of short steps.
-    A slot that does not keep its value over a short step is no state; it takes the value after such a step.
+    A slot that does not keep its value over a short step is not a state; it takes the value after such a step.
     """
 
     def __init__(self, simulation: SystemInstance) -> None:
@@ -97,7 +97,7 @@ class Evaluator:
         return np.reshape(self.instance.mass_matrix(q.tolist()), (len(q),) * 2)
 
     def _with_settled_slots(self, q: Array, qd: Array, y: Array) -> Array:
-        """Slots `y`, with those that are no states at their values after a short step."""
+        """Slots `y`; slots that are not states take their values after a short step."""
         settled = self._element_step(q, qd, y, SHORT_STEP)
         settled[self.slots] = y[self.slots]
         return settled

@@ -50,11 +50,11 @@ def run_fixed_steps(
 ) -> Trajectory:
     """Run in steps of `h`, s, with further runs that estimate its error, see `estimate_accuracy`.
 
-    `start`: makes the simulation for a step, s; `before`, `divisor`: as of `RefinedRuns`; `warned`: list to which
-    warnings except `Accuracy.message` are added, also if the run fails; None: they are issued.
+    `start`: function that makes the simulation for a step, s; `before`, `divisor`: as in `RefinedRuns`; `warned`: list
+    to which warnings except `Accuracy.message` are added, also if the run fails; None: they are issued.
     """
     is_checked = estimate_error is not False
-    most_cost = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
+    max_cost = accuracy.MAX_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
     records_coordinates = is_checked or before is not None
     sample_interval = accuracy.sampling_interval(every, count_steps(t0, t_end, h)) if is_checked else every
     thinning = every // sample_interval
@@ -88,13 +88,13 @@ def run_fixed_steps(
 
     try:
         with progress_for(progress) as bar:
-            first_share = 1.0 / 3.0 if estimate_error is True else 1.0
+            first_fraction = 1.0 / 3.0 if estimate_error is True else 1.0
             run = march_from_start(
-                h, sample_interval, lambda share: bar.update(first_share * share), records_coordinates
+                h, sample_interval, lambda done: bar.update(first_fraction * done), records_coordinates
             )
             run_accuracy = run[0].accuracy
             refined = refined_run.RefinedRuns(
-                system, run, march_from_start, h, sample_interval, bar.update, before, divisor, inputs, most_cost, path
+                system, run, march_from_start, h, sample_interval, bar.update, before, divisor, inputs, max_cost, path
             )
             if is_checked:
                 run_accuracy = estimate_accuracy(refined, always=estimate_error is True)
@@ -156,7 +156,7 @@ def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accurac
         further_costs = [refined.h / refined.tried * factor for factor in (1, 2, 4, MOST_PARTS)]
         needed = refined.cost + sum(cost for cost in further_costs if cost < (MOST_PARTS + 0.5) * refined.parts)
         estimate = refined.known or estimate
-        text = accuracy.budget_text(estimate, refined.tried, refined.most, needed)
+        text = accuracy.budget_text(estimate, refined.tried, refined.max_cost, needed)
         return replace(estimate, check_cost=refined.cost, message=f"{balance} {text}".strip())
     except SimulationError as error:
         text = (
@@ -167,7 +167,7 @@ def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accurac
         return replace(estimate, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
     error_text = refined.text(estimate) if (estimate.error or 0.0) > WRONG_ERROR else ""
-    # an open balance is evidence against the run if that of the finest run is wrong too
+    # an open balance is evidence against the run if the balance of the finest run is wrong too
     if not (error_text or (balance and refined.finest.balance == Balance.WRONG)):
         notice = f"{balance} {accuracy.RIGHT}" if balance else ""
         return replace(estimate, branch=branch, notice=notice)

@@ -18,8 +18,8 @@ from mbs.common.frames import FlexibleShapes, Frames
 
 Array = NDArray[np.float64]
 
-MOST_TURN = 0.04  # rad; largest rotation of a node in its floating frame
-SHARE = 0.25  # error at the end of the soft pendulum over that turn times its length
+MAX_TURN = 0.04  # rad; largest rotation of a node in its floating frame
+END_ERROR = 0.25  # error at the end of the soft pendulum, relative to the turn times its length
 
 
 class BendingWarning(UserWarning):
@@ -27,9 +27,9 @@ class BendingWarning(UserWarning):
 
 
 class BendingWatch:
-    """Largest rotation of a node in its floating frame over the observed states.
+    """Largest rotation of a node in its floating frame among the observed states.
 
-    `frames`: of the System; None or without flexible bodies: nothing is observed.
+    `frames`: frames of the System; None or without flexible bodies: nothing is observed.
     """
 
     def __init__(self, frames: Frames | None) -> None:
@@ -56,19 +56,19 @@ class BendingWatch:
 
     @property
     def message(self) -> str:
-        """Text of the warning with a remedy if a body bent too far, else empty."""
-        if self.body is None or self.turn <= MOST_TURN:
+        """Text of the warning with a remedy if a body bent too far, otherwise empty."""
+        if self.body is None or self.turn <= MAX_TURN:
             return ""
-        divisions = int(np.ceil(self.turn / MOST_TURN))
+        divisions = int(np.ceil(self.turn / MAX_TURN))
         return (
             f"The flexible body {self.body.name!r} bends by {self.turn:.2g} rad in its floating frame at "
             f"t = {self.time:.4g} s. Its modes are linear: they leave out its shortening and the stiffening by axial "
-            f"forces, so positions of its ends may be off by {SHARE * self.turn:.1%} of its length. Divide it into "
+            f"forces, so positions of its ends may be off by {END_ERROR * self.turn:.1%} of its length. Divide it into "
             f"{divisions} or more bodies welded end to end."
         )
 
     def message_once(self) -> str:
-        """Return the message on the first call that has one, else an empty text."""
+        """Return the message on the first call that has one, otherwise an empty text."""
         text = "" if self._was_reported else self.message
         self._was_reported = self._was_reported or bool(text)
         return text

@@ -64,9 +64,9 @@ class Variant:
     parameters: Mapping[str, Any] = field(default_factory=dict)
     """Values that differ from their declaration."""
     inputs: Mapping[str, Signal] = field(default_factory=dict)
-    """Inputs over time, as of `simulate`."""
+    """Inputs over time, as in `simulate`."""
     pose: Pose | None = None
-    """Start of a scene that is not tied to the ground."""
+    """Initial pose of a model without a connection to the ground."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class _Run:
     def __init__(
         self, system: System, variant: Variant, settings: Settings, t0: float, h: float, steps: int, every: int
     ) -> None:
-        meta = prepared(system)[1]
+        meta = prepared(system).meta
         signals = InputSignals(variant.inputs, meta["inputs"])
         self.system, self.variant, self.settings = system, variant, settings
         self.signals, self.h, self.t0, self.steps, self.every = signals, h, t0, steps, every
@@ -117,7 +117,7 @@ class _Run:
     def _start(self, h: float) -> Simulation:
         """Make the simulation for steps of `h`, s, and record the warnings of its start."""
         first = self.signals.at(np.array([self.t0]), 1e-6 * h, after_jump=True)[0]
-        declared = prepared(self.system)[1]["inputs"]
+        declared = prepared(self.system).meta["inputs"]
         names = [declared[i]["name"] for i in self.signals.columns()]
         with _STARTING, warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -209,14 +209,14 @@ def simulate_many(
     variants : sequence of Variant
         Parameters, inputs and the pose of each run.
     t_end, h, settings, every, t0
-        As of `simulate`; the method is 'ali3p'. Systems without switches, with projections, the linearised update and
+        As in `simulate`; the method is 'ali3p'. Systems without switches, with projections, the linearised update and
         no `step_iterations`, are stepped together, others one by one.
     lanes : int, optional
         2, 4 or 8 runs at once; by default what the processor has instructions for, and no more than the variants fill.
     threads : int, optional
         Groups at once; by default one for each core.
     progress : bool or callable, optional
-        As of `simulate`; refined runs are not in it.
+        As in `simulate`; refined runs are not in it.
     estimate_error : {None, False}, optional
         None checks each run as `simulate` does: one that is not plainly smooth is repeated alone and with other steps,
         which costs two runs or more. False checks none.
@@ -255,7 +255,7 @@ def simulate_many(
         )
     instance_of(Iterable, variants, "The variants", "a list of Variant(...)")
     variants = [_check_variant(k, v) for k, v in enumerate(variants)]
-    check_record(max(1, len(variants)) * (steps // every + 1), len(prepared(system)[1]["sensors"]))
+    check_record(max(1, len(variants)) * (steps // every + 1), len(prepared(system).meta["sensors"]))
     width = _choose_lanes(lanes, len(variants))
     workers = os.cpu_count() or 1 if threads is None else whole(threads, "the threads", least=1, error=ValueError)
     order = _order_by_inputs(system, variants)
@@ -323,7 +323,7 @@ def _run_group(
                 results[k] = _Result(None, error, 0, [])
             except ValueError as error:
                 raise ValueError(f"Variant {k}: {error}") from error
-        many, running, completed, chunk = Many(prepared(system)[0], width), list(runs.values()), 0, every
+        many, running, completed, chunk = Many(prepared(system).loaded, width), list(runs.values()), 0, every
         while completed < steps and running and report_progress(completed):
             n = min(chunk, steps - completed)
             blocks = [run.rows(completed, n) for run in running]
@@ -374,7 +374,7 @@ def _choose_lanes(lanes: int | None, variants: int) -> int:
 def _order_by_inputs(system: System, variants: Sequence[Variant]) -> list[int]:
     """Numbers of the variants, sorted so that those with equal inputs are neighbours."""
     groups: dict[Any, list[int]] = {}
-    declared = prepared(system)[1]["inputs"]
+    declared = prepared(system).meta["inputs"]
     for k, variant in enumerate(variants):
         try:
             InputSignals(variant.inputs, declared)

@@ -46,14 +46,14 @@ def march(
     samples_per_pose: int = 1,
     watch: Callable[[Array], bool] | None = None,
 ) -> tuple[Trajectory, list[Array]]:
-    """Run `simulation` in steps of `h`, s, to `t_end`, s; `inputs`, `every` and `progress` as of `simulate`.
+    """Run `simulation` in steps of `h`, s, to `t_end`, s; `inputs`, `every` and `progress` as in `simulate`.
 
     Parameters
     ----------
     records_coordinates : bool
         Whether to return the coordinates at the instants at which two runs are compared.
     samples_per_pose : int
-        Poses are kept for one of so many samples at most.
+        Poses are kept for one of this many samples at most.
     watch : callable, optional
         Receives the samples so far after each eighth of the run and returns whether the run ends there.
 
@@ -71,7 +71,7 @@ def march(
     t0, h = simulation.time, check_step(h)
     steps, every = count_steps(t0, t_end, h), check_every(every)
     check_progress(progress)
-    meta, instance = prepared(simulation.system)[1], simulation.instance
+    meta, instance = prepared(simulation.system).meta, simulation.instance
     check_record(steps // every + 1, len(meta["sensors"]))
     simulation.step_tried = h
     checked_inputs = check_values(inputs, "The inputs")

@@ -47,7 +47,7 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
     if np.any(system.arrays["guide_type"] != GuideType.OF_TIME):
         return ["ali3p"], "guides through a filter"
     coarse = ["ali3p"] if tolerance >= COARSE else []
-    if not prepared(system)[1]["report"]["no_tree"]:
+    if not prepared(system).meta["report"]["no_tree"]:
         return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5", *coarse], "a tree of joints"
     if len(system.arrays["velocity_row"]) > 0:
         return ["runge_kutta_8", *coarse], "wheels that roll"
@@ -59,7 +59,7 @@ def choose(
 ) -> MethodChoice:
     """Choose the method for a tolerance by runs of all candidates at the tolerance `coarse`.
 
-    Each runs as long as it can still be the fastest. Raises `SimulationError`: none reaches the end.
+    Each runs as long as it can still be the fastest. Raises `SimulationError` if none reaches the end.
     """
     system = start().system
     names, property_text = candidates(system, tolerance)
@@ -78,7 +78,7 @@ def choose(
     if not best:
         raise SimulationError(
             f"None of {', '.join(runs)} reaches the end of the run from t = {task.t0:g} to {task.t_end:g} s, not even "
-            f"at {coarse:g} in place of the tolerance of {tolerance:g} that was asked for; name a method to see where "
+            f"at {coarse:g} instead of the tolerance of {tolerance:g} that was asked for; name a method to see where "
             "and why it fails.",
             task.t0,
             Status.NOT_CONVERGED,
@@ -93,7 +93,7 @@ def choose(
 def _advance_until_fastest(runs: dict[str, ControlledRun], weights: dict[str, float]) -> set[str]:
     """Advance all runs until one ends and the others exceed its weighted work; return the names of failed runs.
 
-    `weights`: factors of the work of the coarse runs, which give that of runs to the tolerance.
+    `weights`: factors of the work of the coarse runs, which give the work of runs to the tolerance.
     """
     failed: set[str] = set()
     budget = FIRST_BUDGET

@@ -45,7 +45,7 @@ def omitted_of_run(
     def compute(samples: int, stride: int) -> dict[str, Array]:
         omitted, rerun = OmittedSensorSystem(system), restore_system(system, settings, roads, state)
         rows, t0 = [omitted.values(rerun.instance)], rerun.time
-        signals = InputSignals(inputs, prepared(system)[1]["inputs"])
+        signals = InputSignals(inputs, prepared(system).meta["inputs"])
         signals.attach_to_steps(rerun.instance, t0, t0 + (samples - 1) * every * h, h)
         for _ in range((samples - 1) // stride):
             rerun.instance.run(h, every * stride)

@@ -16,7 +16,7 @@ NO_PORTS = "there is no model with ports that follows it. Compile one that compu
 
 def omitted_names(system: System) -> list[str]:
     """Names of the sensors that the System does not compute."""
-    return [s["name"] for s in prepared(system)[1]["sensors"] if not s.get("computed", True)]
+    return [s["name"] for s in prepared(system).meta["sensors"] if not s.get("computed", True)]
 
 
 def _loaded_with_ports(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
@@ -32,7 +32,7 @@ def _loaded_with_ports(system: System) -> tuple[LoadedSystem, dict[str, int]] | 
 class OmittedSensorSystem:
     """A second System with ports that follows the states of a simulation.
 
-    `sensor`: the requested one, for the error. Raises `KeyError`: there is no System with ports.
+    `sensor`: name of the requested sensor, for the error. Raises `KeyError` if there is no System with ports.
     """
 
     def __init__(self, system: System, sensor: str = "") -> None:
@@ -45,7 +45,7 @@ class OmittedSensorSystem:
     def values(self, instance: Instance) -> list[float]:
         """Values of the omitted sensors at the state of `instance`, which is not changed.
 
-        Raises `SimulationError`: the forces at the ports cannot be computed.
+        Raises `SimulationError` if the forces at the ports cannot be computed.
         """
         try:
             self._instance.follow(instance)
@@ -59,7 +59,7 @@ class OmittedSensorSystem:
 class Readings(dict[str, float]):
     """Sensor values of a state by name; omitted ones are computed when one is first read.
 
-    `values`: of the sensors that the System computes; `instance`: at the state, may be advanced later.
+    `values`: values of the sensors that the System computes; `instance`: instance at the state, may be advanced later.
     """
 
     def __init__(self, values: Mapping[str, float], system: System, instance: Instance) -> None:

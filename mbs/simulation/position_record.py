@@ -32,13 +32,13 @@ class PositionRecord:
             self._q[0] = q
 
     def rows(self, first: int, count: int) -> Array | None:
-        """Array (count, nq) to which the kernel writes the samples from `first` on; None: not needed."""
+        """Array (count, nq) to which the kernel writes the samples beginning with `first`; None: not needed."""
         if self._q is None:
             return None
         return self._q[first : first + count] if self.every == 1 else np.empty((count, self._q.shape[1]))
 
     def store(self, first: int, rows: Array | None) -> None:
-        """Store the samples from `first` on that were written to `rows`, the array of the method `rows`."""
+        """Store the samples, beginning with `first`, that were written to `rows`, the array of the method `rows`."""
         if self._q is None or rows is None or self.every == 1:
             return
         begin = -first % self.every

@@ -18,7 +18,7 @@ from mbs.system.system import System
 from mbs.system.text import notices_before
 
 Array = NDArray[np.float64]
-NO_FORCE = 1e-6  # share of the weight below which a force is zero, as in `ali3_no_force`
+NO_FORCE = 1e-6  # of the weight: force below which it counts as zero, as in `ali3_no_force`
 
 
 def recorded_trajectory(
@@ -35,10 +35,10 @@ def recorded_trajectory(
 ) -> Trajectory:
     """Trajectory of a run that ended in `simulation`: `values` (n, ns) at the times `t` (n,), s.
 
-    `wall`: time in the kernel, s; `omitted`: sensors that were not computed; `notices`: sentences beside those of the
-    System; empty ones are dropped.
+    `wall`: time in the kernel, s; `omitted`: sensors that were not computed; `notices`: sentences that are added to the
+    System's; empty ones are dropped.
     """
-    sensors = prepared(simulation.system)[1]["sensors"]
+    sensors = prepared(simulation.system).meta["sensors"]
     return Trajectory(
         t,
         values,
@@ -59,11 +59,11 @@ def recorded_trajectory(
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
-    """Notices of a run: those of the System, and those of sensors that must be zero and are not.
+    """Notices of a run: the System's, and notices of sensors that must be zero and are not.
 
     `values` (n, ns): samples at the times `t` (n,), s.
     """
-    meta = prepared(system)[1]
+    meta = prepared(system).meta
     notices, sensors = notices_before(meta), meta["sensors"]
     for k, sensor in enumerate(sensors):
         threshold = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mbs.kernel.header.limits import MOST_PARTS, RESOLVED, WRONG_ERROR
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
-from mbs.results.accuracy import MOST_COST, Accuracy
+from mbs.results.accuracy import MAX_COST, Accuracy
 from mbs.results.comparison import (
     COORDINATES,
     Compared,
@@ -23,10 +23,10 @@ from mbs.results.comparison import (
     shows_motion,
     sizes_of,
 )
-from mbs.results.convergence import LEAST_ORDER, extrapolate_error, may_change_verdict, measured_order, observed_order
+from mbs.results.convergence import MIN_ORDER, extrapolate_error, may_change_verdict, measured_order, observed_order
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
-from mbs.results.smooth_laws import is_smooth, unresolved_share
+from mbs.results.smooth_laws import is_smooth, unresolved_fraction
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
@@ -48,10 +48,10 @@ class RefinedRuns:
     Parameters
     ----------
     run : tuple of Trajectory and list of ndarray
-        The first run, and its coordinates if these are compared in place of sensors.
+        The first run, and its coordinates if these are compared instead of sensors.
     march : callable
         Makes a run; arguments: step, s, steps between two samples, callback of its progress from 0 to 1, whether
-        coordinates are recorded, most Newton iterations of a step (0: those of the settings), and a callback that sees
+        coordinates are recorded, limit of Newton iterations per step (0: as in the settings), and a callback that sees
         its samples and may end it.
     h : float
         Step of the first run, s.
@@ -62,10 +62,10 @@ class RefinedRuns:
     before : dict of str to ComparedFields, optional
         Extreme values in the runs that this one continues, by name.
     divisor : int
-        Divisor of the step if the refined run continues that of the previous run and is the only one; 0 otherwise.
+        Divisor of the step if the refined run continues the previous refined run and is the only one; 0 otherwise.
     inputs : dict of str to Signal, optional
         Inputs that are functions of time.
-    most : float
+    max_cost : float
         Largest cost of all refined runs, in units of the first run.
     path : sequence of tuple of int and mapping
         Numbers of samples during the first run, and the report of the kernel at each; empty if no coarser run may end
@@ -88,10 +88,10 @@ class RefinedRuns:
     parts : int
         Divisor of the step for the refined run with half the steps that were actually made.
     unresolved : float
-        Missed share above which steps do not resolve the changes of the velocities.
+        Missed fraction above which steps do not resolve the changes of the velocities.
     has_order : bool
-        Whether a run with half the step is sufficient if its missed share has halved too: the order is above two, and
-        nothing abrupt can happen.
+        Whether a run with half the step is sufficient if its missed fraction has halved too: the order is above two,
+        and nothing abrupt can happen.
     """
 
     system: System
@@ -103,7 +103,7 @@ class RefinedRuns:
     before: dict[str, ComparedFields] | None = None
     divisor: int = 0
     inputs: Mapping[str, Signal] | None = None
-    most: float = MOST_COST
+    max_cost: float = MAX_COST
     path: Sequence[tuple[int, Mapping[str, float]]] = ()
 
     def __post_init__(self) -> None:
@@ -115,7 +115,7 @@ class RefinedRuns:
         assert report is not None
         self.parts = accuracy.step_divisor(report.steps, report.halvings)
         self.method, span = settings.method, (self.run[0].t[0], self.run[0].t[-1])
-        self.unresolved = unresolved_share(self.system, self.method, span, self.inputs)
+        self.unresolved = unresolved_fraction(self.system, self.method, span, self.inputs)
         self.has_order = self.unresolved > RESOLVED
         angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
         self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
@@ -141,7 +141,7 @@ class RefinedRuns:
     def refine(self, parts: int) -> Accuracy:
         """Make a refined run with the step divided by `parts`, and return the accuracy estimated from it.
 
-        Raises `SimulationError`: the run fails; `TooDearError`: it exceeds the remaining budget.
+        Raises `SimulationError` if the run fails, `TooDearError` if it exceeds the remaining budget.
         """
         refined = self._refined[parts] = self.rerun(self.h / parts, self.every * parts, float(parts))
         self.left_alone = bool(self.run[0].branch_change) and not refined[0].branch_change
@@ -178,8 +178,8 @@ class RefinedRuns:
         if self.divisor:
             return max(self.divisor, self.parts)
         missed, factor = self._missed(self.run) / self.unresolved, 1
-        most = 2 if self.has_order else 4
-        while missed > factor and factor < most and 2 * factor * self.parts <= self.most - self.cost:
+        max_factor = 2 if self.has_order else 4
+        while missed > factor and factor < max_factor and 2 * factor * self.parts <= self.max_cost - self.cost:
             factor *= 2
         return self.parts * factor
 
@@ -189,7 +189,7 @@ class RefinedRuns:
         The step is halved, down to a 16th, while the refined run is coarse or its own error could change the verdict;
         with a `divisor` there is one run. If the last run is still uncertain, its possible error is added.
 
-        Raises `SimulationError`: a run fails; `TooDearError`: a run would exceed the remaining budget.
+        Raises `SimulationError` if a run fails, `TooDearError` if a run would exceed the remaining budget.
         """
         parts = self.first_divisor
         verdict = self.refine(parts)
@@ -221,7 +221,7 @@ class RefinedRuns:
         unit_differences, _ = self._differences(
             self._refined[parts // 2] if has_coarser else self.run, self._refined[parts]
         )
-        factor = 1.0 if has_coarser else 1.0 / (2.0**LEAST_ORDER - 1.0)
+        factor = 1.0 if has_coarser else 1.0 / (2.0**MIN_ORDER - 1.0)
         return may_change_verdict(known, {unit: factor * difference for unit, difference in unit_differences.items()})
 
     def _differences(self, one: Run, other: Run) -> tuple[dict[str, float], dict[str, float]]:
@@ -286,35 +286,35 @@ class RefinedRuns:
     def rerun(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
         """Run the motion in steps of `h`, s, with a sample every `every` steps, and add the cost.
 
-        Raises `TooDearError`: the cost exceeds the remaining budget.
+        Raises `TooDearError` if the cost exceeds the remaining budget.
         """
         spent_cost = 1.0 + self.cost
         self.tried = h
-        share = 0.0
-        if self.cost + cost > self.most:
+        fraction = 0.0
+        if self.cost + cost > self.max_cost:
             raise TooDearError
         self.cost += cost
         total_cost = 1.0 + self.cost
 
         def update(completed: float) -> None:
-            nonlocal share
-            share = completed
+            nonlocal fraction
+            fraction = completed
             self.update((spent_cost + cost * completed) / total_cost)
 
         try:
             return self.march(h, every, update, bool(self.run[1]), iterations, watch)
         except SimulationError:  # the whole cost counts
-            share = 1.0
+            fraction = 1.0
             raise
         finally:
             if watch is not None:
-                self.cost -= cost * (1.0 - share)
+                self.cost -= cost * (1.0 - fraction)
 
     def _missed(self, run: Run) -> float:
         """Share of the changes of the velocities that the steps of a run miss."""
         report = run[0].report
         assert report is not None
-        return accuracy.missed_share(report, self.method)
+        return accuracy.missed_fraction(report, self.method)
 
     def _table(self, run: Run) -> Mapping[str, NDArray[np.float64]]:
         """Compared sensors and coordinates of a run, by name."""
@@ -335,7 +335,7 @@ class RefinedRuns:
     def estimate(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
         """Accuracy of the run `first` from a run `other` in steps of `h`, s.
 
-        `ratio`: mean step of `first` over that of `other`, below 1 if `other` is coarser.
+        `ratio`: ratio of the mean step of `first` to the mean step of `other`, below 1 if `other` is coarser.
         """
         run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None

@@ -14,10 +14,10 @@ from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
 
-MOST_NAMES = 3  # largest number of names in one sentence
+MAX_NAMES = 3  # largest number of names in one sentence
 NEAR_AN_END = (Status.NOT_CONVERGED, Status.TOO_DEAR, Status.TOO_STIFF, Status.UNRESOLVED)
 """Failures of steps where drives reach the end of the motion of a loop: there speeds grow without bound."""
-CLOSED = 1e-6  # largest residual of closed rows over that of the driven step: solved rows reach round-off
+CLOSED = 1e-6  # of the residual of the driven step: largest residual of closed rows; solved rows reach round-off
 ITERATIONS, HALVINGS = 30, 12  # largest numbers: of Newton's iterations for positions, of bisections of the time
 STIFF_STEP = 1.0  # largest product of rate and step with which an explicit method is accurate
 
@@ -69,20 +69,20 @@ def _status_text(simulation: SteppedSystem, status: int) -> str:
     if status in (Status.WRONG_METHOD, Status.NO_TREE):
         method, reason = simulation.settings.method, simulation.instance.method_excludes()
         if status == Status.NO_TREE:
-            return f" Here {prepared(simulation.system)[1]['report']['no_tree']}. The method is {method!r}."
+            return f" Here {prepared(simulation.system).meta['report']['no_tree']}. The method is {method!r}."
         return f" {method!r} takes no {reason}."
     if status == Status.START_REFUSED:
         height, element, reason = simulation.instance.start_excess()
-        name = prepared(simulation.system)[1]["elements"][element]["name"]
+        name = prepared(simulation.system).meta["elements"][element]["name"]
         return f" '{name}' {reason}. {height:.3g} m higher (z of the pose) it would be clear of it."
     if status == Status.ROAD_LOST:
         return f" Of the road {simulation.instance.road_lost()}."
     if status == Status.WHEEL_IN_ROAD:
         element, reason = simulation.instance.wheel_in_road()
-        return f" '{prepared(simulation.system)[1]['elements'][element]['name']}': {reason}."
+        return f" '{prepared(simulation.system).meta['elements'][element]['name']}': {reason}."
     if status == Status.BEYOND_TABLE:
         column, value, first, last = simulation.instance.beyond_table()
-        name = prepared(simulation.system)[1]["coordinates"][column]
+        name = prepared(simulation.system).meta["coordinates"][column]
         return f" {name!r} is {value:.4g}; its table goes from {first:.4g} to {last:.4g}."
     if status == Status.NO_EQUILIBRIUM:
         return _changed_parameters_text(simulation)
@@ -113,11 +113,11 @@ def end_of_motion_text(simulation: SteppedSystem, ahead: float) -> str:
     for _ in range(HALVINGS):
         middle = 0.5 * (lower + upper)
         lower, upper = (middle, upper) if _can_close(evaluator, middle) else (lower, middle)
-    meta = prepared(simulation.system)[1]
+    meta = prepared(simulation.system).meta
     names = [repr(meta["rows"][row]["name"]) for row in rows]
-    suffix = f" and {len(names) - MOST_NAMES} others" if len(names) > MOST_NAMES else ""
+    suffix = f" and {len(names) - MAX_NAMES} others" if len(names) > MAX_NAMES else ""
     return (
-        f" Shorter steps do not help: driven by {', '.join(names[:MOST_NAMES])}{suffix} the joints can be closed until "
+        f" Shorter steps do not help: driven by {', '.join(names[:MAX_NAMES])}{suffix} the joints can be closed until "
         f"about t = {simulation.time + lower:.5g} s, where two ways to close them meet, and not behind it. End the "
         f"run before, or drive it less far."
     )
@@ -139,20 +139,20 @@ def _can_close(evaluator: Evaluator, ahead: float) -> bool:
 def _changed_parameters_text(simulation: SteppedSystem) -> str:
     """Sentence about the parameters that were changed by the largest shares of their ranges."""
     changed = []
-    for k, entry in enumerate(prepared(simulation.system)[1]["parameters"]):
+    for k, entry in enumerate(prepared(simulation.system).meta["parameters"]):
         value, span = simulation.instance.get_parameter(k), entry["max"] - entry["min"]
         if value != entry["value"]:
-            change_text = f"{entry['name']!r} is {value:g}{unit_text(entry['unit'])} in place of {entry['value']:g}"
+            change_text = f"{entry['name']!r} is {value:g}{unit_text(entry['unit'])} instead of {entry['value']:g}"
             changed.append((abs(value - entry["value"]) / span if span < math.inf else math.inf, change_text))
     changed.sort(key=lambda item: -item[0])
-    changes_text = "; ".join(change_text for _, change_text in changed[:MOST_NAMES])
-    suffix = f" (and {len(changed) - MOST_NAMES} others)" if len(changed) > MOST_NAMES else ""
+    changes_text = "; ".join(change_text for _, change_text in changed[:MAX_NAMES])
+    suffix = f" (and {len(changed) - MAX_NAMES} others)" if len(changed) > MAX_NAMES else ""
     return f" {changes_text}{suffix}." if changes_text else ""
 
 
 def _worst_equations_text(simulation: SteppedSystem, report: dict[str, float]) -> str:
     """Sentences about the constraint row and the balance with the largest residuals."""
-    meta, text = prepared(simulation.system)[1], ""
+    meta, text = prepared(simulation.system).meta, ""
     row_text = open_row(report, [row["name"] for row in meta["rows"]])
     if row_text:
         text += f" Worst constraint: {row_text}."

@@ -12,8 +12,8 @@ from mbs.system.system import System
 def restore_system(system: System, settings: Settings, road_paths: Mapping[int, str], state: bytes) -> SteppedSystem:
     """Make a second instance of a System at a saved state.
 
-    `road_paths`: road files by the number of the road; `state`: by `Instance.save`. Raises `SimulationError`: a road
-    file cannot be read any more.
+    `road_paths`: road files by the number of the road; `state`: bytes from `Instance.save`. Raises `SimulationError` if
+    a road file cannot be read any more.
     """
     simulation = SteppedSystem(system, settings)
     try:

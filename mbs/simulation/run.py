@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -38,6 +38,8 @@ from mbs.simulation.stepping import Simulation
 from mbs.simulation.tolerance_run import to_tolerance
 from mbs.system.system import System
 
+_TIME_AFTER_JUMP = 1e-6  # of a step: time after a jump of an input at which its value is the new one
+
 
 def simulate(
     system: System,
@@ -63,67 +65,66 @@ def simulate(
     t_end : float
         Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
     h : float, optional
-        Step, s. With a tolerance: interval of the record, by default a 200th of the run. Without h and tolerance a step
-        is chosen whose error is below 1e-3 of the model's length (`Trajectory.control` reports it).
+        Step, s. With a tolerance: interval of the record, by default 1/200 of the duration. Without h and tolerance a
+        step is chosen whose error is below 1e-3 of the model's length (`Trajectory.control` reports it).
     inputs : mapping of str to signal, optional
         Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
-        use the value at the end of a step, the other methods those at the times of their stages; parts of a step end
-        where one jumps or peaks, with the value before the jump, and begin with the one behind it. With a tolerance the
-        points of tables, jumps and peaks are ends of steps. A function must depend on time alone: it is sampled ahead,
-        16 times a step.
+        use the value at the end of a step, the other methods the values at their stages. Steps are divided where an
+        input jumps or peaks; with a tolerance also at the points of tables. A function must depend on time alone: it is
+        sampled ahead, 16 times per step, and called again for further runs.
     settings : Settings, optional
         How steps are solved. With a tolerance `tolerance_r` and `tolerance_phi` are tightened as far as it needs.
     parameters : mapping of str to float, optional
-        Values that differ from their declaration.
+        Values that differ from the model.
     every : int
-        Record the state after every that many steps, or intervals of the record.
+        Record every n-th step, or every n-th interval of the record.
     progress : bool or callable, optional
-        None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives the
-        share that is done. A refined run belongs to the run: where it becomes necessary the share goes back once.
+        None shows a bar if the run takes longer than two seconds, True at once, False never; a function receives the
+        fraction done. The fraction drops once if a refined run becomes necessary.
     t0 : float
         First time, s.
     pose : Pose, optional
-        Start of a scene that is not tied to the ground.
+        Initial pose of a model without a connection to the ground.
     method : str, optional
-        Name of the method, see `Settings`; in place of the one that `settings` names. "auto" takes the one that suits
-        System and tolerance best; so does a tolerance without a method.
+        Name of the method, see `Settings`; replaces the method of `settings`. "auto" takes the method that suits System
+        and tolerance best; so does a tolerance without a method.
     estimate_error : bool or float, optional
-        Whether to refine the run with half the step, near the limit with less, which gives `Trajectory.accuracy` the
-        error of the sensors. None refines suspect runs, by energy balance, halvings, predictors or peaks of tables
-        between steps, which costs at most 48 times the run; a number is another multiple. False checks nothing.
-        Functions among `inputs` are called again, so they must depend on time.
+        Whether to repeat the run with half the step, near the limit of cost with less, which gives
+        `Trajectory.accuracy` the error of the sensors. None repeats only suspect runs (energy balance, halved steps,
+        predictors, peaks of tables between steps) at a cost of at most 64 times the run; a number is another multiple.
+        False checks nothing.
     tolerance : float or mapping of str to float, optional
-        Largest accepted error over the whole run: of sensors by name, in their units, or of positions over the model's
-        length (`Model(length=...)`, or the extent of the drawing) and of velocities over that length per time scale of
-        the motion. The kernel then chooses the steps, a second run gives the error, and `Trajectory.control` reports
-        both.
+        Largest accepted error over the whole run: of sensors by name, in their units, or of positions relative to the
+        model's length (`Model(length=...)`, or the extent of the drawing) and of velocities relative to that length per
+        time scale of the motion. The kernel then chooses the steps, a second run gives the error, and
+        `Trajectory.control` reports both.
     times : array_like, shape (n,), optional
-        Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
+        Times to record instead of h, s, ascending; only with a tolerance. t0 is recorded too.
 
     Returns
     -------
     Trajectory
-        Sensor values at t0, t0 + every h, ...; of the steps asked for, also after a refined run.
+        Sensor values at t0, t0 + every h, ...; always of the requested steps, not of a refined run.
 
     Raises
     ------
     ArgumentTypeError, ValueError
-        An argument is not what it must be, such as a Model in place of a System, a step longer than the run, or a
-        tolerance with `Settings.step_iterations`.
+        An argument is not valid, such as a Model instead of a System, a step longer than the run, or a tolerance with
+        `Settings.step_iterations`.
     SimulationError
-        When a step fails; its `trajectory` holds what was recorded.
+        A step fails; its `trajectory` holds the record until then.
 
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 5 % of the work in the motion, or the refined run shows that positions,
-        lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit; with a
-        tolerance, when the estimated error is more than three times that. When equal steps leave out more than a
-        hundredth of the run at its end.
+        Constraint forces did more than 5 % of the work in the motion, or the refined run shows that positions, lengths,
+        angles or forces of elements are off by more than 5 % of the largest range in their unit; with a tolerance, the
+        estimated error is more than three times the tolerance. Equal steps end more than 1 % of the duration before
+        `t_end`.
     BendingWarning
-        When a flexible body bends more within its floating frame than its modes hold for.
+        A flexible body deforms more than its linear modes allow.
     BranchWarning
-        When a closed loop changed its assembly mode; once, with the names of its joints and the time.
+        A closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
     check_system(system, "The system to simulate")
     t0 = check_time(t0, "The start t0")
@@ -142,46 +143,71 @@ def simulate(
     if requested is not None:
         check_tolerance_settings(settings)
     check_values(parameters, "The parameters")
-    method_is_named = method is not None or settings.method != Settings().method
-    method_name = method if method is not None else settings.method if method_is_named or requested is None else "auto"
-    if not isinstance(method_name, str) or method_name not in ("auto", settings.method):
-        settings = replace(settings, method=method_name)
+    if method is None:
+        is_default = settings.method == Settings().method
+        method = "auto" if requested is not None and is_default else settings.method
+    if method not in ("auto", settings.method):
+        settings = replace(settings, method=method)  # Settings refuses an unknown method
     checked_inputs = check_values(inputs, "The inputs")
-    declared = prepared(system)[1]["inputs"]
-    signals = InputSignals(checked_inputs, declared)
-    names = [declared[i]["name"] for i in signals.columns()]
+    signals = InputSignals(checked_inputs, prepared(system).meta["inputs"])
+    run = _Run(system, t0, t_end, checked_inputs, signals, settings, parameters, pose, every, progress)
+    if requested is not None:  # warns of a large error itself
+        with progress_for(progress) as bar:
+            record = record_times(t0, t_end, h, every, times)
+            trajectory, _ = to_tolerance(run.start, requested, record, checked_inputs, settings, method, bar)
+        return trajectory
+    if h is not None and method != "auto":
+        trajectory = run.run_equal_steps(h, settings, estimate_error)
+    else:
+        trajectory = run_chosen_steps(
+            run.start, run.run_equal_steps, t0, t_end, h, checked_inputs, settings, method, estimate_error, progress
+        )
+    if trajectory.accuracy is not None and trajectory.accuracy.message:
+        warnings.warn(trajectory.accuracy.message, AccuracyWarning, stacklevel=2)
+    return trajectory
 
-    def start(step: float = 0.0, run_settings: Settings = settings) -> Simulation:
-        first_values = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
+
+@dataclass(frozen=True)
+class _Run:
+    """Checked arguments of `simulate`, which its runs share."""
+
+    system: System
+    t0: float
+    """First time, s."""
+    t_end: float
+    """Last time, s."""
+    inputs: Mapping[str, Signal]
+    signals: InputSignals
+    """The inputs as functions of time."""
+    settings: Settings
+    parameters: Mapping[str, Any] | None
+    pose: Pose | None
+    every: int
+    progress: bool | Callable[[float], None] | None
+
+    def start(self, step: float = 0.0, settings: Settings | None = None) -> Simulation:
+        """Make a Simulation at `t0` with the inputs of a step, s."""
+        names = [entry["name"] for entry in prepared(self.system).meta["inputs"]]
+        first_values = self.signals.at(np.array([self.t0]), _TIME_AFTER_JUMP * step, after_jump=True)[0]
         return Simulation(
-            system,
-            settings=run_settings,
-            inputs=dict(zip(names, first_values.tolist(), strict=True)),
-            parameters=parameters,
-            pose=pose,
-            t0=t0,
+            self.system,
+            settings=self.settings if settings is None else settings,
+            inputs={names[i]: x for i, x in zip(self.signals.columns(), first_values.tolist(), strict=True)},
+            parameters=self.parameters,
+            pose=self.pose,
+            t0=self.t0,
         )
 
-    def equal_steps(step: float, run_settings: Settings, estimate: bool | float | None) -> Trajectory:
+    def run_equal_steps(self, step: float, settings: Settings, estimate: bool | float | None) -> Trajectory:
+        """Run in steps of `step`, s; `estimate`: `estimate_error` of `simulate`."""
         return run_fixed_steps(
-            system, lambda h: start(h, run_settings), t0, t_end, step, inputs, every, progress, estimate
+            self.system,
+            lambda h: self.start(h, settings),
+            self.t0,
+            self.t_end,
+            step,
+            self.inputs,
+            self.every,
+            self.progress,
+            estimate,
         )
-
-    if requested is None and h is not None and method_name != "auto":
-        run = equal_steps(h, settings, estimate_error)
-        _warn_of_error(run)
-        return run
-    if requested is None:
-        run = run_chosen_steps(
-            start, equal_steps, t0, t_end, h, checked_inputs, settings, method_name, estimate_error, progress
-        )
-        _warn_of_error(run)
-        return run
-    with progress_for(progress) as bar:
-        record = record_times(t0, t_end, h, every, times)
-        return to_tolerance(start, requested, record, checked_inputs, settings, method_name, bar)[0]
-
-
-def _warn_of_error(run: Trajectory) -> None:
-    if run.accuracy is not None and run.accuracy.message:
-        warnings.warn(run.accuracy.message, AccuracyWarning, stacklevel=3)

@@ -21,17 +21,19 @@ class Pose:
     """
 
     x: float = 0.0
+    """Shift from the reference configuration along x of the earth, m."""
     y: float = 0.0
+    """Shift along y, m."""
     z: float = 0.0
-    """`x`, `y`, `z`: shift from the reference configuration, earth axes, m."""
+    """Shift along z, m."""
     yaw: float = 0.0
     """Turn about the vertical, rad."""
     speed: float = 0.0
-    """Along the turned forward direction, wheels rolling, m/s."""
+    """Speed along the turned forward direction, wheels rolling, m/s."""
     lateral_speed: float = 0.0
-    """To the left of it, m/s."""
+    """Speed to the left, m/s."""
     yaw_rate: float = 0.0
-    """Positive to the left, rad/s. Both speeds are those of the origin of the drawing, about which it turns."""
+    """Yaw rate, positive to the left, rad/s. Both speeds refer to the origin of the drawing, about which it turns."""
 
     def __post_init__(self) -> None:
         for name in ("x", "y", "z", "yaw", "speed", "lateral_speed", "yaw_rate"):
@@ -43,7 +45,7 @@ class Pose:
 class State:
     """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,).
 
-    Multipliers have one sign, that of ``M qdd + Phi_q' lam = Q``: a row Phi puts the force -Phi_q' lam on its
+    Multipliers have the sign of ``M qdd + Phi_q' lam = Q``: a row Phi puts the force -Phi_q' lam on its
     coordinates. ``lam_user = row_scale * lam`` belongs to the row as the model writes it. The row of a drive is
     coordinate minus guide, so the drive pushes the coordinate with -lam_user; the rows of a port and of a node of a
     flexible body are free point minus point of the body, so the body feels +lam_user; a distance of length L has the

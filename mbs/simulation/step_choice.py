@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mbs.common.progress import Progress
 from mbs.kernel.header.limits import AGREED
 from mbs.results.comparison import INSTANTS
-from mbs.results.convergence import LEAST_ORDER
+from mbs.results.convergence import MIN_ORDER
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
@@ -19,12 +19,12 @@ from mbs.simulation.prepared_system import distance
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
-MOST_STEPS = 3_000_000  # largest number of steps of a run
+MAX_STEPS = 3_000_000  # largest number of steps of a run
 
 
 @dataclass(frozen=True)
 class StepChoice:
-    """Step, s, estimated error of its run over the length, its measured order, and the number of runs made."""
+    """Step, s, estimated error of its run relative to the length, its measured order, and the number of runs made."""
 
     h: float
     error: float
@@ -42,7 +42,7 @@ def choose_step(
     """Choose the largest of the steps duration / (50 2^k) with an error of the run within the tolerance.
 
     The error is the difference from the run with twice the step over 2^p - 1. The order p is measured with the run
-    before, and is at most that of the method.
+    before, and is at most the order of the method.
     """
     simulation = start()
     system, method = simulation.system, simulation.settings.method
@@ -63,9 +63,9 @@ def choose_step(
             error = differences[-1] / (2.0**order - 1.0)
             last_estimate = error, order
             are_equal = max(differences[-2:]) <= AGREED * tolerance  # runs that are equal to round-off show no order
-            if error <= tolerance and (order > LEAST_ORDER or are_equal):
+            if error <= tolerance and (order > MIN_ORDER or are_equal):
                 return StepChoice(h, error, order, len(runs))
-        if (t_end - simulation.time) / h > MOST_STEPS / 2:
+        if (t_end - simulation.time) / h > MAX_STEPS / 2:
             break
         h *= 0.5
         bar.update(min(0.5, 0.05 * len(runs)))

@@ -21,7 +21,7 @@ def step_time(
     pose: Pose | None = None,
     warm_up: int = 1,
 ) -> float:
-    """Least time of all steps of a run over its repeats, s, without the start and the table of inputs.
+    """Least time among repeats of all steps of a run, s, without the start and the table of inputs.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def step_time(
     repeats : int
         Number of timed runs.
     clock : callable
-        Seconds: `time.perf_counter` for wall time, `time.process_time` for that of the processor.
+        Clock in s: `time.perf_counter` for wall time, `time.process_time` for processor time.
     inputs, parameters, pose
         As `mbs.simulate` takes them; the inputs have their first values before the start is made consistent.
     warm_up : int

@@ -40,7 +40,7 @@ class SteppedSystem(SystemInstance):
     def road_text(self) -> str:
         """A sentence about the wheel whose rim was pressed deepest into a road; empty if none was."""
         element, text = self.instance.rim_text()
-        return f"{text} It is the wheel of '{prepared(self.system)[1]['elements'][element]['name']}'." if text else ""
+        return f"{text} It is the wheel of '{prepared(self.system).meta['elements'][element]['name']}'." if text else ""
 
     @property
     def start_text(self) -> str:
@@ -52,7 +52,7 @@ class SteppedSystem(SystemInstance):
         return text + remedy if (text := self.instance.start_text()) else ""
 
     def change_settings(self, settings: Settings) -> None:
-        """Use other settings from now on."""
+        """Change the settings."""
         instance_of(Settings, settings, "The settings", "Settings(...)")
         self.instance.set_settings(**settings.kernel_fields())
         self.settings = settings

@@ -43,7 +43,7 @@ from mbs.simulation.arguments import (
 )
 from mbs.simulation.fixed_steps import run_fixed_steps
 from mbs.simulation.omitted_sensor_system import Readings
-from mbs.simulation.parameter_warning import warn_of_unusual_value
+from mbs.simulation.parameter_warning import warn_if_out_of_range
 from mbs.simulation.refusal import refusal
 from mbs.simulation.restored_run import restore_system
 from mbs.simulation.start_on_road import warn_of_start_beside_road
@@ -53,7 +53,9 @@ from mbs.simulation.tolerance_run import to_tolerance
 from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
-MOST_ITERATIONS = 10**6
+"""Singular of a key of the metadata, if it is not the key without its last letter."""
+MAX_ITERATIONS = 10**6
+"""Largest bound on the Newton iterations of a static equilibrium."""
 
 
 class Simulation(SteppedSystem):
@@ -62,18 +64,18 @@ class Simulation(SteppedSystem):
     Parameters
     ----------
     inputs : mapping of str to float, optional
-        Values of inputs at the start; the others have the start value of their declaration.
+        Values of inputs at the start; the others have the start values of the model.
     parameters : mapping of str to float, optional
-        Values that differ from their declaration.
+        Values that differ from the model.
     pose : Pose, optional
-        Start of a scene that is not tied to the ground.
+        Initial pose of a model without a connection to the ground.
     t0 : float
         Time at the start, s.
 
     Raises
     ------
     ArgumentTypeError
-        An argument is of another kind, such as a Model in place of a System.
+        An argument has the wrong type, such as a Model instead of a System.
     ValueError
         A name is unknown, a value lies outside its limits, or the System takes no pose.
     SimulationError
@@ -100,12 +102,13 @@ class Simulation(SteppedSystem):
         self._limits = InputSignals({}, self._meta["inputs"])
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
         self._started = False
+        checked_parameters = check_values(parameters, "The parameters")
         for name, entry in self._road_files.items():
-            if entry["start"] and name not in check_values(parameters, "The parameters"):
+            if entry["start"] and name not in checked_parameters:
                 self.set_parameter(name, entry["start"])
-        for name, value in check_values(parameters, "The parameters").items():
+        for name, value in checked_parameters.items():
             self.set_parameter(name, value)
-        self._warn_of_replaced_roads(check_values(parameters, "The parameters"))
+        self._warn_of_replaced_roads(checked_parameters)
         for name, value in check_values(inputs, "The inputs").items():
             self.set_input(name, value)
         if (checked_pose := check_pose(pose, self._meta)) is not None:
@@ -121,17 +124,17 @@ class Simulation(SteppedSystem):
     def sensors(self) -> dict[str, float]:
         """Sensor values at the state, by name; omitted ones are computed when one is first read."""
         computed = super().sensors
-        return (
-            computed if len(computed) == len(self._meta["sensors"]) else Readings(computed, self.system, self.instance)
-        )
+        if len(computed) == len(self._meta["sensors"]):
+            return computed
+        return Readings(computed, self.system, self.instance)
 
     def set_input(self, name: str, value: float) -> None:
-        """Set the value of an input from now on.
+        """Set the value of an input.
 
         Parameters
         ----------
         value : float
-            In its unit, within its limits.
+            Value in the unit of the input, within its limits.
 
         Raises
         ------
@@ -147,13 +150,13 @@ class Simulation(SteppedSystem):
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
         """Set a tunable parameter; the next step is the first with its value.
 
-        Issues a `ParameterWarning` for a value outside the range of such models, see `Model.parameter`.
+        Issues a `ParameterWarning` for a value outside the range of validity, see `Model.parameter`.
 
         Parameters
         ----------
         value : float or path
-            In its unit, within its limits. Of the file of a road its path, or the name of a road that comes with the
-            package; empty for the road of the model. Such a parameter is given to the constructor: it is fixed.
+            Value in the unit of the parameter, within its limits. For the file of a road its path, or the name of a
+            road of the package; empty for the road of the model. It is fixed: give it to the constructor.
 
         Raises
         ------
@@ -184,7 +187,7 @@ class Simulation(SteppedSystem):
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
-        warn_of_unusual_value(entry, x, stacklevel=2 if self._started else 3)
+        warn_if_out_of_range(entry, x, stacklevel=2 if self._started else 3)
         self._apply_to_refined(lambda run: run.set_parameter(index, x))
 
     def _apply_to_refined(self, change: Callable[[Instance], object]) -> None:
@@ -201,13 +204,13 @@ class Simulation(SteppedSystem):
         for entry in self._meta["parameters"]:
             if entry["name"] in parameters and entry.get("road") in files:
                 warnings.warn(
-                    f"The parameter {entry['name']!r} has no effect: it is of the road that the file replaces.",
+                    f"The parameter {entry['name']!r} has no effect: it belongs to the road that the file replaces.",
                     RoadWarning,
                     stacklevel=3,
                 )
 
     def _set_road(self, entry: Mapping[str, Any], value: object) -> None:
-        """Set the file of a road at the start. `entry`: of the parameter in `System.meta`."""
+        """Set the file of a road at the start. `entry`: entry of the parameter in `System.meta`."""
         name = entry["name"]
         if self._started:
             raise ValueError(f"Parameter {name!r} is fixed: give the file of a road to the Simulation's constructor.")
@@ -241,7 +244,7 @@ class Simulation(SteppedSystem):
         ValueError
             There is no such switch, or `on` is neither True nor False.
         SimulationError
-            The rows cannot hold here; the switch stays as it was.
+            The rows cannot hold at this state; the switch is not changed.
         """
         index = self._index("switches", name)
         flag(on, f"The position of switch {name!r}", ValueError)
@@ -281,12 +284,12 @@ class Simulation(SteppedSystem):
         Raises
         ------
         ValueError
-            The tolerance is not positive or the bound no whole number above zero.
+            The tolerance is not positive, or the bound is not a whole number above zero.
         SimulationError
-            None was found; the state is the one before.
+            No equilibrium was found; the state is not changed.
         """
         force = positive(tolerance, "The tolerance of the static equilibrium", ValueError)
-        iterations = whole(max_iterations, "max_iterations", 1, MOST_ITERATIONS, ValueError)
+        iterations = whole(max_iterations, "max_iterations", 1, MAX_ITERATIONS, ValueError)
         self._refined = None
         self._call(
             "No static equilibrium was found near the present position",
@@ -298,26 +301,26 @@ class Simulation(SteppedSystem):
 
         After each step the scene is moved back as a whole: position along the ground and horizontal velocity of its
         heaviest point, heading and yaw rate of its heaviest direction stay, on a slope along the slope. A scene above
-        its road is lowered to it first. Works are counted from here on, as in an FMU with `initial.settling`.
+        its road is lowered to it first. Works are counted from here, as in an FMU with `initial.settling`.
 
         Parameters
         ----------
         duration : float
-            s, at most 10.
+            Duration of settling, s, at most 10.
         h : float
             Step, s.
 
         Returns
         -------
         float
-            The largest speed that is left beside the held motion, m/s: above 0.01 it should have lasted longer.
+            Largest remaining speed relative to the held motion, m/s; above 0.01 the duration was too short.
 
         Raises
         ------
         ValueError
             The duration or the step is out of its range, or joints tie the scene to the ground.
         SimulationError
-            A step failed; the state is the one before.
+            A step failed; the state is not changed.
         """
         seconds, step = number(duration, "The duration of settling", ValueError), check_step(h)
         if not 0.0 <= seconds <= LONGEST_SETTLING:
@@ -386,43 +389,43 @@ class Simulation(SteppedSystem):
         t_end : float
             Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
         h : float, optional
-            Step, s. With a tolerance: interval of the record, by default a 200th of the run.
+            Step, s. With a tolerance: interval of the record, by default 1/200 of the duration.
         inputs : mapping of str to signal, optional
             Per input a constant, a function of time alone, which is sampled ahead, or a pair (times, values); see
-            `simulate`. One that begins with another value than the input has now jumps there: the first sample is of
-            before the jump. `simulate` gives first values to the start, as ``Simulation(system, inputs=...)`` does.
+            `simulate`. An input whose first value differs from its present value jumps at the start, and the first
+            sample is before the jump. (`simulate` starts with the first values, as ``Simulation(system, inputs=...)``.)
         every : int
-            Record the state after every that many steps, or intervals of the record.
+            Record every n-th step, or every n-th interval of the record.
         progress : bool or callable, optional
-            None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
-            the share that is done.
+            None shows a bar if the run takes longer than two seconds, True at once, False never; a function receives
+            the fraction done.
         estimate_error : bool or float, optional
-            As of `simulate`, in the first run in doubt, of eight steps or more; its last refined run continues from
-            call to call with the same inputs, parameters and switches, until `step` is called.
+            As in `simulate`, for runs of at least eight steps. The last refined run continues in the following calls
+            with the same inputs, parameters and switches, until `step` is called.
         tolerance : float or mapping of str to float, optional
-            As of `simulate`, of what this part adds to the error; by the method of the settings.
+            As in `simulate`, for the error that this part adds; with the method of the settings.
 
         Returns
         -------
         Trajectory
-            Sensor values, the present ones first.
+            Sensor values, beginning with the present ones.
 
         Raises
         ------
         ValueError
             Neither h nor a tolerance is given.
         SimulationError
-            A step failed; its `trajectory` holds what was recorded.
+            A step failed; its `trajectory` holds the record until then.
 
         Warns
         -----
         AccuracyWarning
-            Once, when a refined run or the energy balance since the start shows that the result is wrong; each time,
-            when a tolerance is not kept.
+            A refined run or the energy balance since the start shows that the result is wrong, once; a tolerance is not
+            kept, each time.
         BranchWarning
-            When a step jumped to another branch.
+            A step jumped to another branch.
         BendingWarning
-            Once, when a flexible body bends more within its floating frame than its modes hold for.
+            A flexible body deforms more than its linear modes allow, once.
         """
         if tolerance is not None:
             requested = requested_tolerance(self.system, tolerance)
@@ -523,14 +526,14 @@ class Simulation(SteppedSystem):
         Raises
         ------
         SimulationError
-            It is damaged or of another System; the state is the one before.
+            The saved state is damaged or of another System; the present state is not changed.
         """
         instance_of((bytes, bytearray), state, "The saved state", "the bytes that save() gave")
         self._refined = None
         self._call("The saved state was refused", lambda: self.instance.restore(bytes(state)))
 
     def _index(self, kind: str, name: str) -> int:
-        """Index of an input, parameter or switch. `kind`: key of the metadata. Raises `ValueError`: there is none."""
+        """Index of an input, parameter or switch; `kind`: key of the metadata. Raises `ValueError` if there is none."""
         names = [entry["name"] for entry in self._meta[kind]]
         if not isinstance(name, str) or name not in names:
             available = ", ".join(names) or "none"
@@ -538,7 +541,7 @@ class Simulation(SteppedSystem):
         return names.index(name)
 
     def _call(self, subject: str, action: Callable[[], object], *, step_given: bool = False) -> None:
-        """Call the kernel; make a `SimulationError` of its error. `subject`, `step_given`: as of `refusal`."""
+        """Call the kernel; make a `SimulationError` of its error. `subject`, `step_given`: as in `refusal`."""
         try:
             action()
         except KernelError as error:

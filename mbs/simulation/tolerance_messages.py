@@ -11,7 +11,7 @@ from mbs.results.trajectory import Trajectory
 from mbs.simulation.controlled_run import ControlledRun
 from mbs.simulation.refusal import end_of_motion_text, refusal
 
-LOOK_AHEAD = 1e-3  # share of the run over which drives are followed beyond the last step
+LOOK_AHEAD = 1e-3  # of the run: time for which drives are followed beyond the last step
 
 
 def _tolerance_text(run: ControlledRun, tolerance: float) -> str:
@@ -22,7 +22,7 @@ def _tolerance_text(run: ControlledRun, tolerance: float) -> str:
 
 
 def stalled_error(run: ControlledRun, tolerance: float, record: Trajectory) -> SimulationError:
-    """Error of a run whose steps exceed their share of the error at any length.
+    """Error of a run whose steps exceed their part of the error at any length.
 
     `tolerance`: the requested one; `record`: trajectory until then.
     """
@@ -30,7 +30,7 @@ def stalled_error(run: ControlledRun, tolerance: float, record: Trajectory) -> S
     error = SimulationError(
         f"A tolerance of {_tolerance_text(run, tolerance)} cannot be held by {run.settings.method!r}: until "
         f"t = {time:g} s {run.fields.forced + run.fields.over_share} of {run.fields.accepted} steps erred more than "
-        f"their share of it, even with steps of {run.fields.smallest:.1e} s"
+        f"their part of it, even with steps of {run.fields.smallest:.1e} s"
         f"{f'.{end_of_motion}' if end_of_motion else '; take a larger tolerance or another method.'}",
         time,
         Status.NOT_CONVERGED,
@@ -41,7 +41,7 @@ def stalled_error(run: ControlledRun, tolerance: float, record: Trajectory) -> S
 
 
 def refused_error(run: ControlledRun, tolerance: float, record: Trajectory, error: KernelError) -> SimulationError:
-    """Error of a run in which a step failed; `tolerance` and `record` as of `stalled_error`."""
+    """Error of a run in which a step failed; `tolerance` and `record` as in `stalled_error`."""
     simulation = run.simulation
     if error.status in (Status.NO_TREE, Status.WRONG_METHOD):
         return refusal(simulation, "The run was refused", error, record)
@@ -54,7 +54,7 @@ def refused_error(run: ControlledRun, tolerance: float, record: Trajectory, erro
 
 
 def warn_of_tolerance(control: Control, estimate: float) -> None:
-    """Warn if the estimated error, over the length, exceeds the tolerance or is a large share of the motion."""
+    """Warn if the estimated error, relative to the length, exceeds the tolerance or is a large part of the motion."""
     error, moved = estimate * control.length, control.moved
     if control.kept and not control.sensors and error > WRONG_ERROR * moved and moved > STILL * control.length:
         warnings.warn(
@@ -67,7 +67,7 @@ def warn_of_tolerance(control: Control, estimate: float) -> None:
         )
     if control.kept:
         return
-    forced = f", {control.forced} steps of the least size exceeded their share of it" if control.forced else ""
+    forced = f", {control.forced} steps of the least size exceeded their part of it" if control.forced else ""
     warnings.warn(
         f"The error of this run is estimated as {control.error:.1e} of the model's length, more than {ALLOWED:g} times "
         f"the tolerance of {control.tolerance:g}, after {control.runs} runs{forced}. Small errors grow in this motion, "

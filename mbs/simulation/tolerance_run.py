@@ -32,7 +32,7 @@ from mbs.simulation.tolerance_messages import refused_error, stalled_error, warn
 Array = NDArray[np.float64]
 FINER = 4.0
 """Least ratio of the tolerances of two successive runs, whose difference shows the error."""
-MOST_RUNS = 5
+MAX_RUNS = 5
 OTHER_METHOD_FAILURES = (
     Status.NOT_CONVERGED,
     Status.TOO_DEAR,
@@ -81,14 +81,14 @@ def to_tolerance(
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, signals_of(inputs, first))
-    # a last run that keeps the tolerance gives the error of the coarse one to a share of `WRONG_ERROR`
-    coarse, previous = min(tolerance.share * (1.0 / WRONG_ERROR), WRONG_ERROR), _RunsMade()
+    # a last run that keeps the tolerance gives the error of the coarse one to a part of `WRONG_ERROR`
+    coarse, previous = min(tolerance.position * (1.0 / WRONG_ERROR), WRONG_ERROR), _RunsMade()
     if method != "auto":
         settings = replace(settings, method=method)
         return _warn_and_record(
             _run_method(start, first, tolerance, times, task, settings, coarse, bar, previous, ""), first, times
         )
-    choice = choose(start, task, settings, min(tolerance.share, coarse / FINER), coarse)
+    choice = choose(start, task, settings, min(tolerance.position, coarse / FINER), coarse)
     previous = _RunsMade(choice.run, choice.runs, choice.wall)
     errors = list[SimulationError]()
     best: _MethodRun | None = None
@@ -152,7 +152,7 @@ def _run_method(
     runs_made: _RunsMade,
     reason: str,
 ) -> _MethodRun:
-    """Run by one method until the estimated error is within the tolerance, at most `MOST_RUNS` times.
+    """Run by one method until the estimated error is within the tolerance, at most `MAX_RUNS` times.
 
     The difference of a coarse run and a finer one gives the error of the latter, as errors fall about in proportion to
     the step errors unless the two runs are far apart. If the error is too large because the motion amplifies errors, up
@@ -160,14 +160,14 @@ def _run_method(
     because either the motion or a step may have caused it.
     """
     coarser, wall, runs = runs_made.run, runs_made.wall, runs_made.runs
-    target = tolerance.share
+    target = tolerance.position
     run_tolerance = min(target, coarse / FINER)
     if coarser is None:
         coarser = _finish(ControlledRun(start(), task, settings, coarse), target, bar, 0.0, times, first)
         runs, wall = runs + 1, wall + coarser.wall
-    error, run, longest_factor = math.inf, None, 1.0
-    for number in range(1, MOST_RUNS):
-        next_run = ControlledRun(start(), task, settings, run_tolerance, longest_factor)
+    error, run, step_factor = math.inf, None, 1.0
+    for number in range(1, MAX_RUNS):
+        next_run = ControlledRun(start(), task, settings, run_tolerance, step_factor)
         try:
             next_run = _finish(next_run, target, bar, min(0.5, 0.3 * number), times, first)
         except (StalledError, SimulationError):
@@ -181,9 +181,9 @@ def _run_method(
         distance, estimate = pair.distance, pair.distance * pair.error_ratio
         # runs that are far apart show nothing about the finer one
         error = distance if position_distance > WRONG_ERROR else estimate
-        if error == 0.0 and longest_factor == 1.0:
+        if error == 0.0 and step_factor == 1.0:
             # both runs made the longest steps, so they are equal and show no error: halve these steps
-            coarser, longest_factor = run, 0.5
+            coarser, step_factor = run, 0.5
             continue
         mode_changed = number == 1 and run.simulation.branch_change  # both runs may have changed the mode
         error_grows = number == 1 and position_distance > coarser.fields.error_sum  # both runs may have the same error
@@ -243,11 +243,11 @@ def _record(run: ControlledRun, times: Array, first: SteppedSystem, control: Con
 
 
 def _finish(
-    run: ControlledRun, tolerance: float, bar: Progress, from_share: float, times: Array, first: SteppedSystem
+    run: ControlledRun, tolerance: float, bar: Progress, first_fraction: float, times: Array, first: SteppedSystem
 ) -> ControlledRun:
-    """Finish a run while the progress goes from `from_share` to 1; its errors have the record until then."""
+    """Finish a run while the progress goes from `first_fraction` to 1; its errors have the record until then."""
     try:
-        run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
+        run.finish(lambda done: bar.update(first_fraction + (1.0 - first_fraction) * done))
     except KernelError as error:
         raise refused_error(run, tolerance, _partial_record(run, times, first), error) from error
     except StalledError:

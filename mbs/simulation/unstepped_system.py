@@ -15,8 +15,8 @@ from mbs.system.compiled_model import CompiledModel
 class StandingSystem:
     """System at its consistent start, without road files and without the assembly modes of loops, which take long.
 
-    `parameters`: values by name, in place of those of the model. Raises `ModelError`: the start cannot be made
-    consistent, or a value is out of its range.
+    `parameters`: values by name that differ from the model. Raises `ModelError` if the start cannot be made consistent
+    or a value is out of its range.
     """
 
     def __init__(self, compiled: CompiledModel, parameters: Mapping[str, float] | None = None) -> None:

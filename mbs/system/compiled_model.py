@@ -37,7 +37,7 @@ class SystemFileError(ValueError):
 class CompiledModel:
     """The arrays and metadata of a System without its drawing; immutable.
 
-    `arrays`, `meta` and `frames`: as of `mbs.System`.
+    `arrays`, `meta` and `frames`: as in `mbs.System`.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class CompiledModel:
 
 
 class Arrays(Mapping[str, NDArray[Any]]):
-    """Read-only arrays by name; those of the assembly modes are computed by `modes` when first read."""
+    """Read-only arrays by name; the arrays of the assembly modes are computed by `modes` when first read."""
 
     def __init__(
         self, arrays: Mapping[str, ArrayLike], modes: Callable[[], Mapping[str, ArrayLike]] | None = None

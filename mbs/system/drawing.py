@@ -75,7 +75,7 @@ class Places:
     amplitudes: tuple[AmplitudePlace, ...] = ()
 
     def rows(self, q: Array, first: int, count: int) -> Array:
-        """Full coordinates from `first` on, shape (n, count), of coordinates (n, nq)."""
+        """Full coordinates beginning with `first`, shape (n, count), of coordinates (n, nq)."""
         rows = slice(first, first + count)
         return np.asarray((self.matrix[rows] @ q.T).T + self.constant[rows])
 
@@ -164,7 +164,7 @@ class Drawing:
     def from_bytes(cls, data: bytes, nq: int) -> Drawing:
         """Drawing of a System with `nq` coordinates from the bytes that `to_bytes` returned.
 
-        Raises `ValueError`, `KeyError` or `TypeError`: the bytes are no such drawing.
+        Raises `ValueError`, `KeyError` or `TypeError` if the bytes are not such a drawing.
         """
         content = json.loads(data)
         places = Places.from_json(content["places"])

@@ -1,8 +1,10 @@
-"""Check of the `meta` data of a System file."""
+"""Check of the metadata of a System file."""
 
 from collections.abc import Mapping
 from typing import Any
 
+_FIELDS: dict[str, type] = {"name": str, "dimension": int, "report": dict, "experiment": dict, "floating": bool}
+"""Keys and types of single values."""
 _TEXTS: dict[str, type] = {"name": str, "unit": str, "description": str}
 _LISTS: dict[str, dict[str, type]] = {
     "rows": {"name": str, "kind": str},
@@ -12,57 +14,58 @@ _LISTS: dict[str, dict[str, type]] = {
     "elements": {"name": str, "type": str, "outputs": list},
     "switches": {"name": str},
     "constants": _TEXTS | {"value": float},
-    "ahead": _TEXTS | {"value": str, "rate": str},
+    "ahead": _TEXTS | {"value": str, "rate": str},  # outputs of FMUs: sensor `value`, extrapolated with sensor `rate`
     "road_files": {"name": str, "road": int, "start": str, "description": str},
 }
 """Keys and types of the entries of each list."""
 _OPTIONAL = ("constants", "road_files", "ahead")
 """Lists that older files do not have."""
-_COUNTED = {"rows": "row_const", "inputs": "input_start", "sensors": "sen_type", "parameters": "par_value"}
-"""Arrays whose lengths are the numbers of entries."""
+_ARRAY_OF_LIST = {"rows": "row_const", "inputs": "input_start", "sensors": "sen_type", "parameters": "par_value"}
+"""Array with one item for each entry of the list."""
 
 
-def meta_problem(meta: Any, lengths: Mapping[str, int]) -> str:
-    """Fault in metadata, as the end of a sentence; empty if there is none.
+def find_meta_error(meta: Any, lengths: Mapping[str, int]) -> str:
+    """Find the first error in metadata; return it as a clause, or "".
 
-    `meta`: read from JSON; `lengths`: of the arrays of the System.
+    `meta`: value read from JSON; `lengths`: number of items of each array of the System.
     """
     if not isinstance(meta, dict):
-        return "they are not a table"
-    for key, kind in (("name", str), ("dimension", int), ("report", dict), ("experiment", dict), ("floating", bool)):
+        return "metadata is not an object"
+    for key, kind in _FIELDS.items():
         if not isinstance(meta.get(key), kind):
-            return f"'{key}' is missing or of another kind"
+            return f"'{key}' is missing or has the wrong type"
     for key in ("step_s", "stop_time_s"):
         value = meta["experiment"].get(key)
-        if not (_is_kind(value, float) and value > 0.0):
-            return f"'experiment.{key}' is missing or no positive number"
+        if not (_has_type(value, float) and value > 0.0):
+            return f"'experiment.{key}' is missing or not a positive number"
     for key in ("coordinates", "guides"):
         if not (isinstance(meta.get(key), list) and all(isinstance(name, str) for name in meta[key])):
-            return f"'{key}' is missing or no list of names"
+            return f"'{key}' is missing or not a list of names"
     if len(meta["coordinates"]) != lengths["q0"]:
-        return f"'coordinates' names {len(meta['coordinates'])} of {lengths['q0']}"
-    return next((text for key in _LISTS if (text := _list_problem(key, meta.get(key), lengths))), "")
+        return f"'coordinates' has {len(meta['coordinates'])} entries; it must have {lengths['q0']}"
+    return next((text for key in _LISTS if (text := _find_list_error(key, meta.get(key), lengths))), "")
 
 
-def _list_problem(key: str, entries: Any, lengths: Mapping[str, int]) -> str:
+def _find_list_error(key: str, entries: Any, lengths: Mapping[str, int]) -> str:
+    """Find the first error in the value `entries` of a list; return it as a clause, or ""."""
     if entries is None and key in _OPTIONAL:
         return ""
     if not isinstance(entries, list):
-        return f"'{key}' is missing or no list"
-    if key in _COUNTED and len(entries) != lengths[_COUNTED[key]]:
-        return f"'{key}' names {len(entries)} of {lengths[_COUNTED[key]]}"
+        return f"'{key}' is missing or not a list"
+    if key in _ARRAY_OF_LIST and len(entries) != lengths[_ARRAY_OF_LIST[key]]:
+        return f"'{key}' has {len(entries)} entries; it must have {lengths[_ARRAY_OF_LIST[key]]}"
     for k, entry in enumerate(entries):
         for field, kind in _LISTS[key].items():
-            if not (isinstance(entry, dict) and _is_kind(entry.get(field), kind)):
-                return f"entry {k} of '{key}' has no '{field}', or one of another kind"
+            if not (isinstance(entry, dict) and _has_type(entry.get(field), kind)):
+                return f"entry {k} of '{key}' has no '{field}' of type {kind.__name__}"
         if key == "inputs" and not all(
-            end in entry and (entry[end] is None or _is_kind(entry[end], float)) for end in ("min", "max")
+            bound in entry and (entry[bound] is None or _has_type(entry[bound], float)) for bound in ("min", "max")
         ):
-            return f"entry {k} of '{key}' has a range of another kind"
+            return f"entry {k} of '{key}' has a 'min' or 'max' that is neither a number nor null"
     return ""
 
 
-def _is_kind(value: Any, kind: type) -> bool:
-    if kind is float:
+def _has_type(value: Any, kind: type) -> bool:
+    if kind is float:  # an integer is a number, a bool is not
         return isinstance(value, int | float) and not isinstance(value, bool)
     return isinstance(value, kind)

@@ -34,10 +34,10 @@ from mbs.system.compiled_model import (
     SystemFileError,
 )
 from mbs.system.drawing import Drawing
-from mbs.system.meta_check import meta_problem
+from mbs.system.meta_check import find_meta_error
 from mbs.system.text import system_text
 
-_LARGEST = 4_000_000_000  # bytes of a file
+_MAX_SIZE = 4_000_000_000  # bytes of a file
 
 
 class System(CompiledModel):
@@ -46,15 +46,15 @@ class System(CompiledModel):
     Attributes
     ----------
     arrays : mapping of str to ndarray
-        The arrays of the System file (`docs/system_file.md`), read-only; those of the assembly modes are found when
-        they are first asked for.
+        The arrays of the System file (`docs/system_file.md`), read-only; the arrays of the assembly modes are computed
+        when first read.
     meta : mapping
         Names, units and the report.
     frames : Frames or None
-        Points and axes of the bodies among the coordinates; None where the System was read from a file.
+        Points and axes of the bodies among the coordinates; None if the System was read from a file.
     ported : callable or None
         Makes of this System the one with ports that follows it and computes the sensors that it leaves out
-        (`mbs.compiler.ports`), or None; None where there is none, as in a System from a file.
+        (`mbs.compiler.ports`), or None; None if there is none, as in a System from a file.
     native : Path or None
         The library of code that was generated for this System (`compile(..., native=True)`).
     """
@@ -182,9 +182,9 @@ class System(CompiledModel):
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
             meta = json_of(arrays.pop("meta"), SystemFileError, "The array 'meta' of the System file", finite=False)
-            problem = meta_problem(meta, {name: len(values) for name, values in arrays.items()})
-            if problem:
-                raise SystemFileError(f"The names in the System file were altered: {problem}.")
+            error_text = find_meta_error(meta, {name: len(values) for name, values in arrays.items()})
+            if error_text:
+                raise SystemFileError(f"The names in the System file were altered: {error_text}.")
             drawn = arrays.pop("drawing", None)
             system = cls(arrays, meta, None, None if drawn is None else Drawing.from_bytes(drawn, len(arrays["q0"])))
             str(system)
@@ -226,7 +226,7 @@ class System(CompiledModel):
         SystemFileError
             It is not a valid System file.
         """
-        return cls.from_bytes(read_bytes(path, _LARGEST))
+        return cls.from_bytes(read_bytes(path, _MAX_SIZE))
 
 
 def _unpickled(data: bytes, frames: Frames | None, native: Path | None) -> System:

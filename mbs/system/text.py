@@ -5,7 +5,7 @@ from typing import Any
 
 
 def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
-    """Report of a System as lines of text."""
+    """Summary of a System, several lines; `report`: entry of `System.meta`."""
     rank, dofs = report["rank"], report["degrees_of_freedom"]
     space = "planar" if dimension == 2 else "spatial"
     still = "   (nothing can move)" if dofs == 0 else ""
@@ -44,7 +44,7 @@ def notices_before(meta: Mapping[str, Any]) -> list[str]:
 
 
 def _correction_text(corrections: Mapping[str, tuple[float, float]]) -> str:
-    """The largest correction and the number of joints, as one line."""
+    """Line with the largest correction of a joint of overconstrained loops; `corrections`: m and rad by joint."""
     name = max(corrections, key=lambda n: max(corrections[n]))
     distance, angle = corrections[name]
     return f"joint '{name}' closes by {distance:.2g} m, {angle:.2g} rad, the largest of {len(corrections)} corrections"

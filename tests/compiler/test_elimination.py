@@ -6,7 +6,7 @@ import pytest
 from mbs import ModelError
 from mbs.common.affine import Affine
 from mbs.compiler.elimination import eliminate
-from mbs.compiler.polynomial import cleaned
+from mbs.compiler.polynomial import drop_round_off
 
 ROUND_OFF = 1e-10
 
@@ -76,4 +76,4 @@ def test_an_equation_is_another_until_its_difference_is_round_off(apart, left):
 
 @pytest.mark.parametrize(("coefficient", "terms"), [(1e-8, 1), (1e-12, 0)])
 def test_a_row_counts_until_it_is_round_off_of_its_terms(coefficient, terms):
-    assert len(cleaned({(0, -1): coefficient}, largest=(0.0, 1.0, 0.0))) == terms
+    assert len(drop_round_off({(0, -1): coefficient}, largest=(0.0, 1.0, 0.0))) == terms

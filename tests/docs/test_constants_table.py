@@ -4,6 +4,8 @@ import ast
 import re
 from importlib import import_module
 
+from mbs.results.accuracy import MAX_COST
+from mbs.simulation.run import simulate
 from tests.docs.test_documents import ROOT
 
 MODULES = {
@@ -60,3 +62,7 @@ def test_the_numbers_of_the_check_are_those_of_the_page() -> None:
     page = on_the_page()
     assert sorted(code) == sorted(page)
     assert {name: round(value, 12) for name, value in page.items()} == {n: round(v, 12) for n, v in code.items()}
+
+
+def test_the_docstring_of_simulate_has_the_limit_of_cost() -> None:
+    assert f"at most {MAX_COST:g} times the run" in " ".join((simulate.__doc__ or "").split())

@@ -186,7 +186,7 @@ def test_mechanisms_have_the_bits_of_single_runs(name: str) -> None:
     build, h = SCENES[name]
     system = compile(build())
     single, together = ([_after(system, 7 * k, h) for k in range(WIDTHS[-1])] for _ in range(2))
-    alone, statuses = compare(Many(prepared(system)[0], WIDTHS[-1]), single, together, h, 60)
+    alone, statuses = compare(Many(prepared(system).loaded, WIDTHS[-1]), single, together, h, 60)
     assert (alone, statuses) == (DAMPED if len(system.arrays["flex_mode"]) > 0 else 0, {0})
 
 
@@ -204,7 +204,7 @@ def _after(system: System, steps: int, h: float) -> Simulation:
 def test_what_is_not_for_lanes_is_stepped_alone(settings: Settings) -> None:
     compiled, h, n = compile(double_four_bar.build()), 0.005, 5
     single, together = ([Simulation(compiled, settings=settings) for _ in range(2)] for _ in range(2))
-    assert compare(Many(prepared(compiled)[0], 2), single, together, h, n)[0] == 2 * n
+    assert compare(Many(prepared(compiled).loaded, 2), single, together, h, n)[0] == 2 * n
 
 
 def test_lanes_count_abrupt_steps_at_a_stop_from_the_first_step_on() -> None:
@@ -215,7 +215,7 @@ def test_lanes_count_abrupt_steps_at_a_stop_from_the_first_step_on() -> None:
     for simulation in (*single, *together):
         simulation.restore(begun.save())
     counted = single[0].instance.report()["abrupt_steps"]
-    assert compare(Many(prepared(system)[0], 2), single, together, h, n) == (0, {Status.OK})
+    assert compare(Many(prepared(system).loaded, 2), single, together, h, n) == (0, {Status.OK})
     assert single[0].instance.report()["abrupt_steps"] > counted
 
 
@@ -232,7 +232,7 @@ def _stopped() -> Model:
 
 def test_groups_refuse_instances_that_they_cannot_step() -> None:
     system = compile(double_four_bar.build())
-    loaded, other = prepared(system)[0], prepared(compile(double_four_bar.build(windows=2)))[0]
+    loaded, other = prepared(system).loaded, prepared(compile(double_four_bar.build(windows=2))).loaded
     one, two = Simulation(system), Simulation(system, settings=Settings(tolerance_r=1e-9))
     for width in (1, 3, 16, 2 * widest_lanes()):
         with pytest.raises(KernelError):

@@ -230,7 +230,7 @@ def test_the_friction_factor_holds_for_files_too(tmp_path, car):
 
 def test_parameters_of_the_built_in_road_have_no_effect_on_a_file_and_are_reported(tmp_path, car):
     write_road(PlaneRoad(), tmp_path / "a.road")
-    with pytest.warns(UserWarning, match="'road.kerb_x' has no effect: it is of the road that the file replaces"):
+    with pytest.warns(UserWarning, match="'road.kerb_x' has no effect: it belongs to the road that the file replaces"):
         mbs.Simulation(car, parameters={"road.file": tmp_path / "a.road", "road.kerb_x": 3.0})
 
 

@@ -48,7 +48,7 @@ def car(name: str, settings: Settings, fidelity: int = 0) -> Simulation:
     """One of the cars at its start."""
     variant = CARS[name]
     compiled = system(fidelity) if fidelity else system()
-    meta = prepared(compiled)[1]["inputs"]
+    meta = prepared(compiled).meta["inputs"]
     signals = InputSignals(variant.inputs, meta)
     first = signals.at(np.zeros(1), 1e-9, after_jump=True)[0].tolist()
     inputs = {meta[i]["name"]: value for i, value in zip(signals.columns(), first, strict=True)}

@@ -87,7 +87,7 @@ def test_gltf_of_a_run(run, tmp_path):
 
 
 def test_thinned_poses_are_reported(monkeypatch):
-    monkeypatch.setattr(poses_module, "MOST_SAMPLES", 200)
+    monkeypatch.setattr(poses_module, "MAX_SAMPLES", 200)
     run = mbs.simulate(mbs.compile(pendulum.build()), 3.0, 0.005)
     recording = run.recording()
     assert recording.notes == ["Poses were kept of one of 4 samples of the run."]

@@ -14,9 +14,9 @@ from benchmarks.methods import random_machines
 from benchmarks.references.cases import system_of
 from mbs.elements import ContactPoints, EndStops, PlaneRoad
 from mbs.kernel.header.limits import RESOLVED, WRONG_ERROR
-from mbs.results.accuracy import Accuracy, missed_over_peak, missed_share
+from mbs.results.accuracy import Accuracy, missed_fraction, missed_over_peak
 from mbs.results.comparison import Compared
-from mbs.results.smooth_laws import unresolved_share
+from mbs.results.smooth_laws import unresolved_fraction
 from mbs.simulation.coarser_run import coarser_step_factors, largest_difference
 from tests.simulation.drawn import drawn
 
@@ -96,10 +96,10 @@ def place(stiffness: float, gap: float, t: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("stiffness", "h"), [(1e3, 0.0125), (4e3, 0.00625), (8e3, 0.01)])
-def test_the_missed_share_is_half_a_step_times_the_frequency_of_an_impact(stiffness: float, h: float) -> None:
+def test_the_missed_fraction_is_half_a_step_times_the_frequency_of_an_impact(stiffness: float, h: float) -> None:
     run = mbs.simulate(ball(stiffness, 0.5), 1.25, h, estimate_error=False, progress=False)
     assert run.report is not None
-    assert missed_share(run.report, "ali3p") == pytest.approx(0.5 * h * np.sqrt(stiffness), rel=0.1)
+    assert missed_fraction(run.report, "ali3p") == pytest.approx(0.5 * h * np.sqrt(stiffness), rel=0.1)
 
 
 def test_a_coarser_run_that_does_not_resolve_an_impact_is_not_used() -> None:
@@ -180,9 +180,9 @@ def test_which_coarser_runs_are_made() -> None:
     ],
 )
 def test_steps_of_high_order_may_be_longer_where_nothing_abrupt_can_happen(system, share) -> None:
-    assert unresolved_share(system(), "radau_5", SPAN) == share
-    assert unresolved_share(system(), "ali3p", SPAN) == RESOLVED
-    assert unresolved_share(system(), "radau_5", SPAN, {"torque": lambda t: float(t > 0.5)}) == RESOLVED
+    assert unresolved_fraction(system(), "radau_5", SPAN) == share
+    assert unresolved_fraction(system(), "ali3p", SPAN) == RESOLVED
+    assert unresolved_fraction(system(), "radau_5", SPAN, {"torque": lambda t: float(t > 0.5)}) == RESOLVED
 
 
 @pytest.mark.parametrize("method", ["radau_5", "runge_kutta_8"])
@@ -260,7 +260,7 @@ def test_a_guide_that_ends_within_the_run_ends_a_step() -> None:
     m.drive("drive", cart.point((0.0, 0.0))[0], pushed)
     m.sense_position("x", rod, (0.0, -0.6), component="x")
     system = mbs.compile(m)
-    assert unresolved_share(system, "runge_kutta_8", (0.0, 0.7)) == 2.0 * RESOLVED
+    assert unresolved_fraction(system, "runge_kutta_8", (0.0, 0.7)) == 2.0 * RESOLVED
     run, fine = (
         mbs.simulate(system, 3.0, h, method="runge_kutta_8", every=round(0.2 / h), progress=False) for h in (0.2, 0.02)
     )

@@ -105,7 +105,7 @@ def test_runs_with_a_tolerance_and_at_given_times():
 @pytest.mark.parametrize("every", [1, 4])
 def test_many_samples_are_thinned_and_reported(monkeypatch, every):
     whole = mbs.simulate(mbs.compile(swinging(2)), 3.2, 0.001, every=every)
-    monkeypatch.setattr(poses_module, "MOST_SAMPLES", 200)
+    monkeypatch.setattr(poses_module, "MAX_SAMPLES", 200)
     run = mbs.simulate(mbs.compile(swinging(2)), 3.2, 0.001, every=every)
     poses = run.poses
     assert 100 < len(poses.t) <= 200

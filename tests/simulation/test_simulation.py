@@ -70,7 +70,7 @@ def test_time_is_counted_not_added(system):
 
 def test_a_run_ends_at_the_last_whole_step(system):
     """What is told of is more than a hundredth of the run, and the step that is proposed ends there."""
-    message = r"ends at 0\.9 s, a whole number of steps of 0\.3 s, in place of 1 s; h = 0\.25 ends there"
+    message = r"ends at 0\.9 s, a whole number of steps of 0\.3 s, instead of 1 s; h = 0\.25 ends there"
     with pytest.warns(AccuracyWarning, match=message):
         assert simulate(system, 1.0, 0.3, estimate_error=False).t[-1] == pytest.approx(0.9, abs=ROUND_OFF)
     with pytest.warns(AccuracyWarning, match=message):

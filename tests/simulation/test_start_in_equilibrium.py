@@ -125,7 +125,7 @@ def test_a_system_without_equilibrium_is_refused() -> None:
         Simulation(system, parameters={"k": 0.0, "payload": 1.0})
     assert refusal.value.time == 0.0
     assert (
-        "'k' is 0 N/m in place of 1000; 'payload' is 1 N in place of 0. Set parameters nearer to the values that the "
+        "'k' is 0 N/m instead of 1000; 'payload' is 1 N instead of 0. Set parameters nearer to the values that the "
         "model was compiled with." in str(refusal.value)
     )
 

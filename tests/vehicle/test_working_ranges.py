@@ -46,7 +46,7 @@ def test_they_are_reported_before_the_start_and_after_it(name):
                     warnings.simplefilter("always")
                     act()
                 messages = [str(w.message) for w in caught if w.category is ParameterWarning and w.filename == __file__]
-                range_told = f"outside the range in which such models work, {low:.4g} to {high:.4g}"
+                range_told = f"outside the range of validity of its model, {low:.4g} to {high:.4g}"
                 if not any(message in line and range_told in line for line in messages):
                     missing.append((message, messages))
     assert missing == []

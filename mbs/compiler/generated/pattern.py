@@ -12,7 +12,7 @@ Integers = list[int]
 
 @dataclass(frozen=True)
 class Front:
-    """A front of the tangent, stored by columns from `offset` on."""
+    """A front of the tangent, stored by columns beginning at `offset`."""
 
     number: int
     offset: int
@@ -39,13 +39,14 @@ class Element:
     triple: list[bool]
     """Whether each signal is the first component of a point."""
     tangent: int
-    """Index of the first of its tangents among those of all elements."""
+    """Index of its first tangent among the tangents of all elements."""
 
 
 class Pattern:
     """Sparsity patterns of a System, derived from its arrays as by the kernel.
 
-    `turned`: with entries for all directions of the axes that parameters write; its functions have other names.
+    `turned`: whether it has entries for all directions of the axes that parameters write; its functions then have other
+    names.
     """
 
     def __init__(self, arrays: Mapping[str, Any], *, turned: bool = False) -> None:

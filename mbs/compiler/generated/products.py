@@ -18,7 +18,7 @@ FORCES = (
 
 
 def store(array: str, first: int, length: int, value: str, end: int) -> list[str]:
-    """C that stores `length` numbers of a vector in an array with `end` entries, from `first` on.
+    """C that stores `length` numbers of a vector in an array with `end` entries, beginning at `first`.
 
     The entry after them may be overwritten: it is written later.
     """
@@ -29,8 +29,8 @@ def store(array: str, first: int, length: int, value: str, end: int) -> list[str
     return [f"  {'PUT' if first + 4 <= end else 'put3'}({array} + {first}, {value});"]
 
 
-def transposed(pattern: Pattern) -> list[str]:
-    """J' w, each sum in the order of the rows."""
+def transpose_product(pattern: Pattern) -> list[str]:
+    """C function of J' w, each sum in the order of the rows."""
     entries: list[list[tuple[int, int]]] = [[] for _ in range(pattern.nq)]
     for k in range(pattern.nc):
         for i in range(pattern.row_ptr[k], pattern.row_ptr[k + 1]):
@@ -96,7 +96,7 @@ def signals(pattern: Pattern) -> list[str]:
 
 
 def forces(pattern: Pattern) -> list[str]:
-    """Adds the forces on signals to Q, element by element; those of idle elements are zero."""
+    """Adds the forces on signals to Q, element by element; idle elements have zero forces."""
     ptr = pattern.array["el_sig_ptr"]
     terms: list[list[tuple[int, int, int]]] = [[] for _ in range(1 + max([pattern.nq - 1, *pattern.sig_col]))]
     for element in pattern.elements:

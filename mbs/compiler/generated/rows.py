@@ -19,7 +19,7 @@ def rows(pattern: Pattern) -> list[str]:
 
 
 def gamma(pattern: Pattern) -> list[str]:
-    """C function of `gamma[k] = 0.5 sum e q` with entries e of Phi_q without linear parts, and rates in place of q."""
+    """C function of `gamma[k] = 0.5 sum e q` with entries e of Phi_q without linear parts, and rates instead of q."""
     return function(GAMMA, _groups_of_four(pattern, True))
 
 

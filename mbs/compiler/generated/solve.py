@@ -6,8 +6,10 @@ from mbs.compiler.generated.fronts import Piece, pieces
 from mbs.compiler.generated.pattern import Front, Pattern
 from mbs.compiler.generated.text import are_consecutive, function, literal
 
-LARGE, FOUR_SUMS = 12, 16
-"""Sizes of a front from which pivots are eliminated in fours, and sums have four parts."""
+LARGE = 12
+"""Smallest size of a front whose pivots are eliminated in fours."""
+FOUR_SUMS = 16
+"""Smallest size of a front whose sums have four parts."""
 
 FORWARD = "APART void forward_{0}(const double *restrict A, double *restrict b)"
 BACK = "APART void back_{0}(const double *restrict A, double *restrict b)"
@@ -37,7 +39,7 @@ def _gather(front: Front, piece: Piece) -> str:
 
 
 def _scatter(front: Front, piece: Piece, value: str, first: int) -> list[str]:
-    """Statements that write the unknowns of a piece from index `first` on back to b."""
+    """Statements that write the unknowns of a piece, beginning at index `first`, back to b."""
     coordinates = front.coordinates
     if not piece.wide:
         return [f"  b[{coordinates[piece.first]}] = {value};"] if piece.first >= first else []
@@ -48,6 +50,7 @@ def _scatter(front: Front, piece: Piece, value: str, first: int) -> list[str]:
 
 
 def _forward(front: Front) -> list[str]:
+    """Statements of the forward substitution: unknowns of the pivots in order, subtracted from all later ones."""
     n, pivots = front.size, front.pivots
     column_pieces = pieces(0, n)
     lines = [f"  {p.kind} x{p.first} = {_gather(front, p)};" for p in column_pieces]
@@ -58,7 +61,7 @@ def _forward(front: Front) -> list[str]:
         lines += _scalars(front, column_pieces, p, count)
         for piece in column_pieces:
             if piece.first + (3 if piece.wide else 0) >= p + count:
-                lines.append(f"  x{piece.first} = {_subtracted(piece, p, count, n)};")
+                lines.append(f"  x{piece.first} = {_subtract_products(piece, p, count, n)};")
         p += count
     for piece in column_pieces:
         if piece.first + (3 if piece.wide else 0) >= pivots:
@@ -67,7 +70,7 @@ def _forward(front: Front) -> list[str]:
 
 
 def _scalars(front: Front, column_pieces: Sequence[Piece], p: int, count: int) -> list[str]:
-    """Statements for the unknowns of `count` pivots from p on, minus the products with earlier pivots of the group."""
+    """Statements for the unknowns of `count` pivots after p, minus the products with earlier pivots of the group."""
 
     def element(i: int) -> str:
         piece = next(x for x in column_pieces if x.first <= i < x.first + (4 if x.wide else 1))
@@ -90,8 +93,8 @@ def _scalars(front: Front, column_pieces: Sequence[Piece], p: int, count: int) -
             for line in (f"  const double {name} = {value};", f"  b[{first + k}] = {name};")]  # fmt: skip
 
 
-def _subtracted(piece: Piece, p: int, count: int, n: int) -> str:
-    """C expression of a piece minus its products with `count` pivots from p on."""
+def _subtract_products(piece: Piece, p: int, count: int, n: int) -> str:
+    """C expression of a piece minus its products with `count` pivots beginning with p."""
     x = f"x{piece.first}"
     term = [f"{piece.load(f'(A + {(p + k) * n})')} * y{p + k}" for k in range(count)]
     if count == 1:
@@ -106,7 +109,7 @@ def _back(front: Front) -> list[str]:
 
 
 def _back_small(front: Front) -> list[str]:
-    """Back substitution of a small front: products are added to two sums alternately."""
+    """Statements of the back substitution of a small front: products are added to two sums alternately."""
     n, coordinates = front.size, front.coordinates
     lines = [f"  const double y{i} = b[{coordinates[i]}];" for i in range(front.pivots, n)]
     for p in range(front.pivots - 1, -1, -1):
@@ -120,9 +123,9 @@ def _back_small(front: Front) -> list[str]:
 
 
 def _back_large(front: Front) -> list[str]:
-    """Back substitution of a large front with four sums from the last entry back.
+    """Statements of the back substitution of a large front: four sums, from the last entry to the first.
 
-    Pivots whose blocks of four begin at the same entry are done together.
+    Pivots whose blocks of four begin at the same entry are solved together.
     """
     n, pivots, coordinates = front.size, front.pivots, front.coordinates
     lines = []
@@ -132,11 +135,11 @@ def _back_large(front: Front) -> list[str]:
         for m in range(known_blocks, blocks):
             lines += _block(front, n - 4 * (m + 1))
         known_blocks = max(known_blocks, blocks)
-        begin = n - 4 * blocks
+        first = n - 4 * blocks
         if p == pivots - 1 or (n - p - 1) % 4 == 0:
             lines += _sums(front, p, blocks)
         text = f"s{p}"
-        for i in range(begin - 1, p, -1):
+        for i in range(first - 1, p, -1):
             value = f"y{i}" if i < pivots else f"b[{coordinates[i]}]"
             text = f"({text} + A[{p * n + i}] * {value})"
         lines.append(f"  const double y{p} = b[{coordinates[p]}] * A[{p * n + p}] - {text};")

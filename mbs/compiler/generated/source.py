@@ -10,13 +10,13 @@ from mbs.compiler.generated.text import END, HEAD, NO_VECTORS, VECTORS
 TABLE = "ali3_generated_code"
 """Name of the table in a library of generated code."""
 MAX_LINES = 10_000
-"""Largest number of lines of a generated function; in place of a longer one the kernel runs its loops."""
+"""Largest number of lines of a generated function; instead of a longer one the kernel runs its loops."""
 
 _Function = Callable[[Pattern], list[str]]
 _FRONTS: dict[str, _Function] = {"factorise": fronts.factorise, "solve": solve.solve}
 _ROWS: dict[str, _Function] = {
     "rows_times": rows.times,
-    "rows_transposed": products.transposed,
+    "rows_transposed": products.transpose_product,
     "mass_times": products.mass,
     "rows": rows.rows,
     "gamma": rows.gamma,
@@ -36,7 +36,7 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
     structure : int
         Hash of its structure, `LoadedSystem.structure`.
     avx2 : bool
-        Use AVX2 where the code is compiled for x86-64.
+        Use AVX2 if the code is compiled for x86-64.
     """
     pattern = Pattern(arrays)
     common = _generate(pattern, _FRONTS | ({} if len(pattern.array["flex_front"]) else _ROWS))

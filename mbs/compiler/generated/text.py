@@ -16,7 +16,7 @@ VECTORS = """\
 #define AVX2 0
 #endif
 """
-"""Enables AVX2 for the following functions, where the target may have it."""
+"""Enables AVX2 for the following functions if the target may have it."""
 NO_VECTORS = "#define AVX2 0\n"
 END = """\
 #if AVX2 && defined(__clang__)

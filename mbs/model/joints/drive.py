@@ -31,7 +31,7 @@ def drive(
     Parameters
     ----------
     driven : Coordinate, Affine or (end, end)
-        A relative angle; an expression such as ``body.point(p)[0]``; or two ends as of `distance`.
+        A relative angle; an expression such as ``body.point(p)[0]``; or two ends as in `distance`.
     guide : Guide
         Of this model, rad or m.
     switch : bool, optional
@@ -41,7 +41,7 @@ def drive(
     Returns
     -------
     Joint
-        For sensors: its force is that of the drive, zero while it is off.
+        For sensors: its force is the force of the drive, zero while it is off.
 
     Raises
     ------

@@ -15,15 +15,15 @@ from mbs.model.joints.transmission import rotation_from_drawn, turning_rate, whe
 def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
     """Two wheels that turn in a constant ratio.
 
-    The equation is ``theta_1 = ratio * theta_2`` from where both are drawn; with a spin, the same of the rates. Both
-    are angles against the carriers, which therefore take their reactions.
+    The equation is ``theta_1 = ratio * theta_2`` with angles from the drawing, against the carriers, which therefore
+    take the reactions; with a spin, the same for the rates.
 
     Parameters
     ----------
     wheel_1, wheel_2 : Coordinate
         Relative angles of the wheels against their carriers, or spins.
     ratio : float
-        Turns of the first wheel for one of the second, each against its carrier; negative where they turn opposite
+        Turns of the first wheel for one of the second, each against its carrier; negative if they turn opposite
         ways about the axes of their angles (-z2/z1 for external teeth on parallel axes).
 
     Returns

@@ -212,7 +212,7 @@ def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> lis
 def point_pair(point: PointPair, dimension: int, subject: str, kind: str = "point") -> tuple[Vector, Vector]:
     """A point, or an axis, of each body of a joint.
 
-    `point`: shape (dimension,), or a pair where the drawing does not close; `kind`: "point" or "axis".
+    `point`: shape (dimension,), or a pair if the drawing does not close; `kind`: "point" or "axis".
 
     Returns
     -------

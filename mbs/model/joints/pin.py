@@ -23,7 +23,7 @@ def pin(model: BodyVocabulary, name: str, body: Body, point: ArrayLike | None = 
     point : array_like, shape (dimension,), optional
         Earth axes in the reference configuration, m; by default the centre of mass.
     on : bool
-        Whether it holds from the start, where it is drawn.
+        Whether it holds, as drawn, from the start.
 
     Raises
     ------

@@ -26,7 +26,7 @@ def shared_point(
 def shared_axis(
     model: BodyVocabulary, name: str, body_1: Body, body_2: Body, axis: PointPair, subject: str
 ) -> list[Equation]:
-    """Equations of a unit vector that both bodies share, or of its direction where a node bends."""
+    """Equations of a unit vector that both bodies share, or of its direction if a node bends."""
     a1, a2 = point_pair(axis, model.dimension, subject, "axis")
     if can_share_vectors(body_1, body_2):
         return equal_vectors(
@@ -56,7 +56,7 @@ def axis_conditions(
 def can_share_vectors(body_1: Body, body_2: Body) -> bool:
     """Whether linear equations may make vectors of two bodies equal.
 
-    Not where a node bends, or a flexible frame meets the ground or another frame: their unit length is a separate row,
+    Not if a node bends, or a flexible frame meets the ground or another frame: their unit length is a separate row,
     which would be repeated.
     """
     if not (body_1.is_flexible or body_2.is_flexible):

@@ -39,7 +39,7 @@ def rack(
     axis : array_like, shape (dimension,)
         Direction of the slide, fixed in the carrier, earth axes as drawn.
     radius : float
-        m per rad; negative where the rack goes against `axis` when the pinion turns positively.
+        m per rad; negative if the rack goes against `axis` when the pinion turns positively.
     point : array_like, shape (dimension,), optional
         Of the rack, as drawn, m; by default its centre of mass.
 

@@ -92,8 +92,8 @@ def replay(
 ) -> Replay:
     """Replay the manoeuvre with the torques of the table: 2 s from rest to rest, 4 s with the hand pinned, 2 s back.
 
-    `system`: of `build`; `h`: s; one step, or one for each stage; `estimate_error`: as of `Simulation.run`. Raises
-    `SimulationError` when a step fails.
+    `system`: compiled model of `build`; `h`: one step or one for each stage, s; `estimate_error`: as in
+    `Simulation.run`. Raises `SimulationError` if a step fails.
     """
     jumps: list[float] = []
     runs = list(stages(Simulation(system, settings=settings), h, jumps, estimate_error))
@@ -118,7 +118,7 @@ def stages(
     jumps : list, optional
         Takes the change of the kinetic energy when the pin closes and when it opens, J.
     estimate_error : bool or float, optional
-        As of `Simulation.run`.
+        As in `Simulation.run`.
 
     Yields
     ------

@@ -19,9 +19,9 @@ HAND_POINT = (0.05, 0.0, 0.20)
 STAGES_S = (2.0, 4.0, 2.0)
 
 FOREARM_EXCESS = 0.01
-"""kg m2. The moments measured for the forearm (0.066, 0.086, 0.0125) are not those of any distribution of mass. Its
-axial rate about the parallel axes of joints 2 and 3 is that of their angles together, so a part of the moment about
-them belongs to the angle of the forearm against the waist: the motion is the same."""
+"""kg m2. No distribution of mass has the moments measured for the forearm (0.066, 0.086, 0.0125). Its rate about the
+parallel axes of joints 2 and 3 is the rate of the sum of their angles, so a part of the moment about them belongs to
+the angle of the forearm against the waist: the motion is the same."""
 
 
 @dataclass(frozen=True)

@@ -2,15 +2,15 @@
 /* Numbers of a drive. Written by `python -m mbs.elements.fields_in_c` from AutomaticDrive. */
 /* Signals: left (1), right (1), f (3), g (3). */
 /* Outputs: engine_speed (rad/s), speed of the engine; gear (1), gear engaged; wheel_torque (N m), torque on each
- * of the two wheels, the mean if the differential locks; engine_torque (N m), torque of the engine; left_power (W),
- * power on the left wheel; right_power (W), power on the right wheel; left_torque (N m), torque on the left wheel;
- * right_torque (N m), torque on the right wheel */
+ * of the two wheels, the mean if the differential locks; engine_torque (N m), torque of the engine; left_power
+ * (W), power on the left wheel; right_power (W), power on the right wheel; left_torque (N m), torque on the left
+ * wheel; right_torque (N m), torque on the right wheel */
 #ifndef ALI3_AUTOMATIC_DRIVE_FIELDS_H
 #define ALI3_AUTOMATIC_DRIVE_FIELDS_H
 #include "element.h"
 
 enum {
-  /* Torque of the engine, N m; full torque is the lesser of it and of power / speed. */
+  /* Torque of the engine, N m; full torque is the lesser of it and of the power divided by the speed. */
   MAX_TORQUE,
   /* Power of the engine, W. */
   MAX_POWER,

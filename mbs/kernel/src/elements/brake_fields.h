@@ -19,7 +19,7 @@ enum {
   SHARE,
   /* Torque at full hand brake, N m; the torque of the pedal is added to it. */
   HAND_TORQUE,
-  /* Factor on the share, so that a parameter can make left and right differ. */
+  /* Factor on the share, so that brakes that differ from left to right may be a parameter. */
   SIDE,
   BRAKE_REALS
 };

@@ -20,11 +20,11 @@ enum {
   ONSET,
   /* chi, s/m. */
   LOSS,
-  /* Coefficient of friction on a road divided by the friction of the road. */
+  /* Ratio of the coefficient of friction on a road to the friction of the road. */
   FRICTION_FACTOR,
   /* Radius of the spheres around the points, as of tubes or edges, m. */
   RADIUS,
-  /* Least coefficient of restitution e, reached in fast impacts: ``chi d'`` saturates at 1/e - 1; 0: it does not. */
+  /* Least coefficient of restitution e, at fast impacts: ``chi d'`` saturates at 1/e - 1; 0: it does not. */
   RESTITUTION,
   CONTACT_POINTS_REALS
 };

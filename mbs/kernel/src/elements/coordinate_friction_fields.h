@@ -1,7 +1,7 @@
 /* clang-format off */
 /* Numbers of a friction. Written by `python -m mbs.elements.fields_in_c` from CoordinateFriction. */
 /* Signals: coordinate (1). */
-/* Outputs: force (N m), friction on the coordinate; sticking (1), 1 while it sticks, otherwise 0 */
+/* Outputs: force (N m), friction on the coordinate; sticking (1), 1 while it sticks, else 0 */
 #ifndef ALI3_COORDINATE_FRICTION_FIELDS_H
 #define ALI3_COORDINATE_FRICTION_FIELDS_H
 #include "element.h"

@@ -9,7 +9,7 @@
 enum {
   /* Drag coefficient times frontal area, m^2. */
   DRAG_AREA,
-  /* kg/m^3. */
+  /* Density of the air, kg/m^3. */
   AIR_DENSITY,
   DRAG_REALS
 };

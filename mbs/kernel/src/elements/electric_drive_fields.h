@@ -14,7 +14,7 @@ enum {
   MAX_TORQUE,
   /* Largest power of the motor at its shaft, W. */
   MAX_POWER,
-  /* Speed of the motor divided by the mean speed of the wheels, a ratio. */
+  /* Ratio of the speed of the motor to the mean speed of the wheels. */
   RATIO,
   /* Speed of the motor beyond which its torque fades to zero within 5 %, rad/s. */
   LIMIT_SPEED,
@@ -24,11 +24,11 @@ enum {
   GEAR_EFFICIENCY,
   /* Torque of the motor that brakes with closed throttle, N m. */
   REGENERATION_TORQUE,
-  /* Largest power of it, W. */
+  /* Largest power of regeneration, W. */
   REGENERATION_POWER,
   /* Speed of the motor below which it fades, so that the car rests, rad/s. */
   REGENERATION_SPEED,
-  /* Share of the largest torque in reverse. */
+  /* Part of the largest torque available in reverse, a ratio. */
   REVERSE_TORQUE,
   /* Speed of the motor beyond which its torque fades in reverse, rad/s. */
   REVERSE_SPEED,

@@ -9,7 +9,7 @@
 enum {
   /* Lift coefficient times frontal area, m^2; a negative one gives downforce. */
   LIFT_AREA,
-  /* kg/m^3. */
+  /* Density of the air, kg/m^3. */
   AIR_DENSITY,
   LIFT_REALS
 };

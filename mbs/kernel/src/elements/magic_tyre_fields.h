@@ -29,7 +29,7 @@ enum {
   NOMINAL_LOAD,
   /* Vertical force of the squared deflection, N/m^2. */
   PROGRESSION,
-  /* Vertical, N s/m; it sets in over the first 5 mm. */
+  /* Vertical, N s/m; it grows from zero along the first 5 mm. */
   DAMPING,
   /* Of the rim, N/m. */
   BOTTOMING_STIFFNESS,
@@ -45,7 +45,7 @@ enum {
   LKX,
   /* Factor on LKY of the file, the cornering stiffness. */
   LKY,
-  /* Inflation pressure divided by the nominal pressure, minus 1, a ratio. */
+  /* Deviation of the inflation pressure from the nominal pressure, a ratio to the latter. */
   PRESSURE,
   /* Damping over stiffness of the carcass at rest, s. */
   SETTLING,
@@ -63,7 +63,7 @@ enum {
   MAGIC_TYRE_REALS
 };
 enum {
-  /* Torque against turning on the spot; it fades out up to 1 m/s, above which the formula has the moments. */
+  /* Torque against turning on the spot; it fades out up to 1 m/s, above which the formula gives the moments. */
   BORE = MAGIC_TYRE_REALS + 178,
 };
 enum {

@@ -11,7 +11,7 @@ enum {
   STIFFNESS,
   /* Torsional damping of column and torsion bar, N m s/rad. */
   DAMPING,
-  /* Torque of the power assistance on the pinion per torque of the torsion bar, a ratio, where it is far below its
+  /* Torque of the power assistance on the pinion per torque of the torsion bar, a ratio, while it is far below its
    * limit. */
   ASSISTANCE,
   /* Largest torque of the power assistance on the pinion, N m. */

@@ -24,7 +24,7 @@ enum {
   TYRE_BOTTOMING_RADIUS,
   /* Radial stiffness, N/m. */
   TYRE_STIFFNESS,
-  /* Radial damping, N s/m; it sets in over the first 5 mm. */
+  /* Radial damping, N s/m; it grows from zero along the first 5 mm. */
   TYRE_DAMPING,
   /* Longitudinal force over longitudinal slip. */
   TYRE_LONGITUDINAL,
