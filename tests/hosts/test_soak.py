@@ -99,7 +99,7 @@ def test_a_failing_stretch_is_saved_and_repeated(
     prototype_fmu: Path, ground: Ground, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The limit of the energy is set so low that the drive fails; the drive of its manoeuvre ends in the same bits."""
-    monkeypatch.setattr(drive_module, "_MOST_SAVED", 1)
+    monkeypatch.setattr(drive_module, "_MOST_STRETCHES", 1)
     outcome = drive(task(prototype_fmu, tmp_path, seconds=5.0, grounds=(ground,), largest_balance=1e-6))
     assert outcome.failures
     failure = outcome.failures[0]

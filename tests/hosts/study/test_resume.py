@@ -114,7 +114,7 @@ def test_two_programs_do_not_write_to_one_folder(half: Path) -> None:
 
 
 def test_no_scheduler_is_one_sentence(half: Path, in_process: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hosts.experiment.cluster._PATIENCE", 0.5)
+    monkeypatch.setattr("hosts.experiment.cluster._TIMEOUT", 0.5)
     assert refused(half).startswith("No scheduler of Dask answers at tcp://127.0.0.1:9: ")
 
 
