@@ -91,7 +91,7 @@ def _fmpy(environment: CarEnvironment, folder: Path) -> Way:
     fmpy.extract(path, str(folder))
     slave = instantiate_fmu(str(folder), description)
     inputs = [reference[name] for name in environment.car.inputs]
-    outputs = [reference[name] for name in environment._reads]
+    outputs = [reference[name] for name in environment._output_names]
     values, h = [0.0] * len(inputs), environment.car.step_length
     texts = {name: value for name, value in environment.car._parameters.items() if isinstance(value, str)}
 
@@ -112,7 +112,7 @@ def _fmpy(environment: CarEnvironment, folder: Path) -> Way:
 
 
 def _car(environment: CarEnvironment) -> Way:
-    car, reads = environment.car, environment._reads
+    car, reads = environment.car, environment._output_names
     values, into = np.zeros(len(car.inputs)), np.zeros(len(reads))
 
     def advance(k: int) -> None:

@@ -146,7 +146,7 @@ def simulate(
     if method is None:
         is_default = settings.method == Settings().method
         method = "auto" if requested is not None and is_default else settings.method
-    if method not in ("auto", settings.method):
+    if not isinstance(method, str) or method not in ("auto", settings.method):
         settings = replace(settings, method=method)  # Settings refuses an unknown method
     checked_inputs = check_values(inputs, "The inputs")
     signals = InputSignals(checked_inputs, prepared(system).meta["inputs"])
