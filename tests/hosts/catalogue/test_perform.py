@@ -43,7 +43,7 @@ def test_messages_of_the_fmu_are_noted_once() -> None:
 def test_one_of_several_names_suffices() -> None:
     assert reason_against(TALKING, BicycleCar(), {}) is None
     test = replace(TALKING, needs=("speed", "nothing | nowhere"))
-    assert "has no nothing or nowhere; where it has" in str(reason_against(test, BicycleCar(), {}))
+    assert "has no nothing or nowhere; if it has" in str(reason_against(test, BicycleCar(), {}))
     aliases = Aliases(missing={"nothing": "The file takes it from X."})
     assert str(reason_against(test, BicycleCar(fmu=FmuSource(Path(), aliases)), {})).endswith(
         "; The file takes it from X."
