@@ -65,7 +65,7 @@ def test_a_car_without_slip_follows_the_line_from_wherever_it_is(x0: float, y0: 
         y += step * speed * math.sin(yaw + sideslip)
         yaw += step * rate
         if not math.isnan(pilot.start):
-            seen.append(pilot.seen({"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw}))
+            seen.append(pilot.pose_on_course({"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw}))
             pedals.append(act["throttle"])
     path = np.array(seen)
     assert path[-1, 0] > course.gates[-1].x_end

@@ -122,7 +122,7 @@ def test_wheels_of_a_tyre_that_is_larger_than_its_drawing_start_without_slip(tmp
     assert re.search(r"(?m)^Q_RE0 .*$", text)
     tyre = tmp_path / "larger.tir"
     tyre.write_text(re.sub(r"(?m)^Q_RE0 .*$", "Q_RE0 = 1.02", text))
-    with pytest.warns(CarWarning, match="but UNLOADED_RADIUS times Q_RE0 of (front|rear).tyre.file less"):
+    with pytest.warns(CarWarning, match="but UNLOADED_RADIUS times Q_RE0 of (front|rear).tyre.file minus"):
         system = compile(load(folder_with(tmp_path / "car", tyre)).model())
     run = simulate(system, 0.1, 0.005, pose=Pose(speed=20.0), progress=False, estimate_error=False)
     assert abs(run["wheel_FL.slip"][0]) < 5e-3  # 0.02 by the radius of the file alone
