@@ -165,7 +165,7 @@ class TestKink:
         return 0.5 * drive.ratios[0] ** 2 * drive.drag_torque / drive.limit_speed / self.inertia
 
     def test_the_user_is_warned_and_rising_rates_are_taken(self):
-        with pytest.warns(LinearisationWarning, match=r"-0\.2297 1/s where the velocity of 'right' rises and -?0 1/s"):
+        with pytest.warns(LinearisationWarning, match=r"-0\.2297 1/s if the velocity of 'right' rises and -?0 1/s"):
             model = linearise(self.wheels())
         assert self.fastest_decay(model) == pytest.approx(self.forward_decay, rel=RELATIVE)
 
