@@ -136,6 +136,8 @@ slave_status slave_setup(slave *s, double start_time, bool stop_defined, double 
   if (stop_defined && !(stop_time >= start_time))
     return slave_say(s, SLAVE_ERROR, "The stop time %g s lies before the start time %g s.", stop_time, start_time);
   s->calls.start_time = start_time;
+  for (size_t i = 0; i < slave_the_table.n_known; i++)
+    s->rhythm[i].given = s->rhythm[i].changed = s->rhythm[i].seen = start_time;
   s->calls.stop_time = stop_defined ? stop_time : HUGE_VAL;
   slave_invalidate(s);
   return SLAVE_OK;

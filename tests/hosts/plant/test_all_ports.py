@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.fmu.fmu import StepRefusedError
+from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.plant import Car
 from tests.hosts.plant.conftest import Made
 from tests.in_process import build_fmu
@@ -165,6 +165,20 @@ def test_a_tyre_that_answers_seldom_or_no_more_is_reported_once_at_each_wheel(
         messages = [m for m in car.messages if "the hub at" in m or "may shake it" in m]
         assert len(messages) == (0 if message is None else len(WHEELS))
         assert all(message is None or message in m for m in messages[:2])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
+def test_forces_that_stay_constant_before_time_0_are_reported(ported: Path) -> None:
+    with Fmu(ported) as fmu:
+        load = fmu.setter([f"wheel_{w}.hub_Fz" for w in WHEELS])
+        fmu.initialise({"initial.speed": 10.0, "step_size": 0.002}, -5.0)
+        load(np.full(len(WHEELS), 3065.0))
+        for k in range(600):
+            fmu.step(-5.0 + 0.002 * k, 0.002)
+        messages = [m for m in fmu.messages if "its wheel went" in m]
+        assert len(messages) == len(WHEELS)
+        assert all("are those of -5 s" in m for m in messages)
 
 
 @pytest.mark.slow
