@@ -41,7 +41,7 @@ class ElectricDrive(Element):
     regeneration_power: NotNegative = 50e3
     """Largest power of regeneration, W."""
     regeneration_speed: Positive = 60.0
-    """Speed of the motor below which it fades, so that the car rests, rad/s."""
+    """Speed of the motor below which regeneration fades, so that the car rests, rad/s."""
     reverse_torque: NotNegative = 0.5
     """Part of the largest torque available in reverse, a ratio."""
     reverse_speed: Positive = 250.0

@@ -10,23 +10,25 @@
 
 #include "slave.h"
 
-/* s after an abrupt step or a difference, times `stretch`: five periods of a wheel, or a landing */
-static const double SPAN = 0.5;
-/* Limits of the second motion: s from a start on in ALI3_MOST_PARTS parts; after it s, plus a share of the simulated
- * time; s times `stretch`. */
+static const double SPAN = 0.5; /* s after an abrupt step or a difference: five periods of a wheel, or a landing */
+/* Limits of the second motion: s from a start on in ALI3_MOST_PARTS parts; after it s, plus a fraction of the simulated
+ * time. */
 static const double BUDGET = 2.0, SHARE = 0.1;
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre */
 /* Iterations of both motions in an inner step of up to 2 SHORT; the second motion is delayed where it needs more. */
 static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* late steps */
 
-/* Factor on durations of the second motion with steps of h: above ALI3_MOST_PARTS of 2 SHORT the motion is slower than a
- * wheel, and as many steps are computed again as of that length. */
+/* Factor by which durations of the second motion are longer with steps of h. Steps longer than ALI3_MOST_PARTS times
+ * 2 SHORT belong to motions slower than a wheel; they count as steps of that length. */
 static double stretch(double h) { return fmax(1.0, h / (2.0 * (double)ALI3_MOST_PARTS * SHORT)); }
+
+/* Length of n steps of h as it counts in durations of the second motion, s. */
+static double counted_length(int64_t n, double h) { return (double)n * h / stretch(h); }
 
 /* Whether the second motion has used its budget up to a step. */
 static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *step) {
-  return t->spent > BUDGET * stretch(step->h) + SHARE * step->simulated;
+  return t->spent > BUDGET + SHARE * step->simulated;
 }
 
 /* Richardson extrapolation: error of a motion from its difference to one with 1/n of the step, for order two as of
@@ -165,7 +167,7 @@ static int64_t nominal_parts(const slave *s, double h) {
 
 /* Duration of the second motion after a start, s, which costs as much as BUDGET in ALI3_MOST_PARTS parts. */
 static double start_span(const slave *s, double h) {
-  return BUDGET * stretch(h) * (double)ALI3_MOST_PARTS / (double)nominal_parts(s, h);
+  return BUDGET * (double)ALI3_MOST_PARTS / (double)nominal_parts(s, h);
 }
 
 /* One inner step of the second motion, which the kernel has, in the first late step. A step with slopes is never late,
@@ -211,7 +213,7 @@ static void conclude(slave *s, const slave_late_step *step, double difference) {
       t->late_difference > t->early_difference) {
     const double length = step->simulated - t->origin,
                  power = log(t->late_difference / t->early_difference) / log(2.0 * length / start_span(s, step->h));
-    t->predicted = step->end + length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
+    t->predicted = step->end + stretch(step->h) * length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
     snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
   }
   snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
@@ -223,7 +225,7 @@ static void conclude(slave *s, const slave_late_step *step, double difference) {
 /* Compares both motions at the end of a late step. */
 static void compare(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
-  const double length = (double)step->n * step->h, start = start_span(s, step->h);
+  const double length = counted_length(step->n, step->h), start = start_span(s, step->h);
   int32_t worst;
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output);
   ali3_compare(t->judged, t->n, 1, &step->end, step->values + input_count(s), t->output, t->compared);
@@ -244,7 +246,7 @@ static void compare(slave *s, const slave_late_step *step) {
   }
   t->remaining -= length;
   if (disagree(difference) && !budget_is_spent(t, step))
-    t->remaining = fmax(t->remaining, SPAN * stretch(step->h)); /* it may still grow, as with a spinning wheel */
+    t->remaining = fmax(t->remaining, SPAN); /* it may still grow, as with a spinning wheel */
   t->spent += length;
   if (!(t->remaining > 0.0)) conclude(s, step, difference);
 }
@@ -306,7 +308,7 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->start_needed = starts || (t->start_needed && t->n_late > 1);
-  if (span > 0.0) t->scheduled = fmax(t->scheduled, begin + span);
+  if (span > 0.0) t->scheduled = fmax(t->scheduled, begin + span * stretch(s->completed.h));
   slave_read_step(s, step->parameter, step->values);
   slave_inputs_at(s, 0.0, step->values);
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, step->values + input_count(s));
@@ -386,7 +388,7 @@ slave_status slave_half_steps_advance(slave *s) {
   const bool at_start = t->at_start && (!has_road(s) || 2.0 * s->completed.h > (double)ALI3_MOST_PARTS * SHORT),
              abrupt = abrupt_steps(&report) > t->abrupt || at_start;
   const int64_t made = report.iterations - t->iterations;
-  const double length = (double)s->completed.n * s->completed.h, now = ali3_time(s->fidelity.kernel);
+  const double length = counted_length(s->completed.n, s->completed.h), now = ali3_time(s->fidelity.kernel);
   const int64_t halvings = report.halvings - t->halvings;
   t->abrupt = abrupt_steps(&report);
   t->halvings = report.halvings;
@@ -398,8 +400,7 @@ slave_status slave_half_steps_advance(slave *s) {
   if (abrupt && !allocate(s)) return SLAVE_OK;
   if (t->end != NULL && (abrupt || t->remaining > 0.0 || t->n_late > 0)) {
     const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
-    store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN * stretch(s->completed.h)) : 0.0,
-                    halvings);
+    store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN) : 0.0, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->completed.n);
   }
   return report_motion(s, now, false);

@@ -195,7 +195,7 @@ typedef struct {
   int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest;
                            without roads of springs beyond a stop */
   int64_t divisions; /* of steps where such a force changes quickly, a stop is met or left, or at breaks of inputs */
-  double change_rate; /* change of such a force in the last part of a step relative to its limit, by its length, 1/s */
+  double change_rate; /* change of such a force in the last part of a step over its limit and the part's length, 1/s */
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
@@ -311,8 +311,7 @@ ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, 
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, const double *pose);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
 /* Rows of a switch on or off: before initialise as drawn; later they hold the values they have at that moment, the
- * velocities are projected, accelerations and multipliers computed again; report.energy_jump has the change of energy.
- * */
+ * velocities are projected, accelerations and multipliers computed again; report.energy_jump is the change of energy. */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
 /* If the file starts in static equilibrium and parameters of elements or guides differ from the file: that equilibrium
@@ -320,8 +319,8 @@ ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, in
  * (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* After ali3_initialise of a scene that a pose may place: the place along the ground and the velocity of the heaviest
- * point, the heading and the yaw rate of the heaviest direction, in a car of its chassis, are held for the duration (s)
- * by steps of at most h, with the present inputs, or those of the input function before this time, while all else
+ * point, the heading and the yaw rate of the heaviest direction (in a car that of its chassis) are held for the duration
+ * (s) by steps of at most h, with the present inputs, or those of the input function before this time, while all else
  * settles; then the run begins, at the same time and with books at zero. After a failure the scene must be reset.
  * ALI3_BAD_ARGUMENT, too, if no body has a direction. */
 #define ALI3_LONGEST_SETTLING 10.0
@@ -418,8 +417,7 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* Farthest and fastest start, m and m/s or rad/s, and its yaw, rad: coordinates have 16 digits. */
 #define ALI3_FARTHEST 1e8
 #define ALI3_FASTEST 1e6
-/* |energy_error| relative to the energy that was in the motion: largest kinetic energy and work, at least energy_floor.
- * */
+/* |energy_error| relative to the energy that was in the motion: largest kinetic energy and work, or energy_floor. */
 ALI3_API double ali3_energy_balance(const ali3_report *report);
 /* Two motions of a System with longer and shorter steps, compared by numbers that they show, each in a unit. What rests
  * judges nothing: its size is 0. Rates, and forces of motors, are judged where no place moves by itself. */
@@ -460,7 +458,7 @@ ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const 
                                     int32_t *worst);
 #define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
-#define ALI3_RESOLVED 0.5 /* missed fraction of changes of velocity, h w/2 of a vibration of w: largest resolved */
+#define ALI3_RESOLVED 0.5 /* largest resolved fraction of missed changes of velocity, h w/2 of a vibration of w */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
 #define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */

@@ -107,7 +107,8 @@ struct ali3_system {
   int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which the
                         coordinates lie side by side; otherwise the end of its terms */
   int32_t *front_row_ptr, *front_row; /* nf + 1; nc: rows front by front */
-  int32_t *row_alike; /* as front_row: number of rows here with the same stretch in the same front; 0: no stretch */
+  int32_t *
+      row_alike; /* as front_row: number of rows, this one and after it, with the same stretch in the same front; 0: no stretch */
   ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
   int32_t *quad_pos; /* as quad: its place in front storage */
   double *quad_second; /* as quad: the second derivative of the term, h or, of a square, 2 h */
@@ -137,7 +138,7 @@ struct ali3_system {
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
   ali3_element_size *el_size; /* ne */
-  ali3_contact_forces_of *contact; /* n_contact: elements with a depth or end stops */
+  ali3_contact_forces_of *contact; /* n_contact: elements with forces of contacts or stops */
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
   int32_t *el_entry_local; /* per entry: index of its coordinate within the element */

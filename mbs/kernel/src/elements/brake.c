@@ -1,6 +1,6 @@
 /* Brake: elastoplastic friction torque between the spin of a wheel and its carrier.
  * f and g are orthonormal on the carrier with f x g along the axis, the rate Omega of the spin is absolute. Inputs are
- * from 0 to 1; with the integer BY_SIZE the pedal has no upper limit, as a torque or a pressure. States:
+ * from 0 to 1; with the integer BY_SIZE the input of the pedal has no upper limit, as a torque or pressure. States:
  * wind-up z rad, z' rad/s.
  *
  * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, otherwise

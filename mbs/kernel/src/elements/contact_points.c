@@ -157,7 +157,7 @@ static void friction_force(ali3_element_args *a, const double local[3], const no
     for (int i = 0; i < 2; i++) ali3_add_outer(a->S, SIGNALS, a->wC * D, row[i]);
     return;
   }
-  double along[SIGNALS], across[SIGNALS]; /* along and across the sliding: share of the secant, and the secant */
+  double along[SIGNALS], across[SIGNALS]; /* along and across the sliding: fraction of the secant, and the secant */
   for (int j = 0; j < SIGNALS; j++) {
     along[j] = (trial[0] * row[0][j] + trial[1] * row[1][j]) / trial_size;
     across[j] = (trial[0] * row[1][j] - trial[1] * row[0][j]) / trial_size;

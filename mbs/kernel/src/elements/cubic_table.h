@@ -21,7 +21,7 @@ double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope
 /* Mean of y from x0 to x1: the difference quotient of the integral, free of cancellation. */
 double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1);
 
-/* Whether x rises and the integrals belong to y. */
+/* Whether x rises; whether the integrals belong to y. */
 int ali3_cubic_rises(const ali3_cubic_table *t);
 int ali3_cubic_integrals_fit(const ali3_cubic_table *t);
 #endif

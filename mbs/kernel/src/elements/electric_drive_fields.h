@@ -26,7 +26,7 @@ enum {
   REGENERATION_TORQUE,
   /* Largest power of regeneration, W. */
   REGENERATION_POWER,
-  /* Speed of the motor below which it fades, so that the car rests, rad/s. */
+  /* Speed of the motor below which regeneration fades, so that the car rests, rad/s. */
   REGENERATION_SPEED,
   /* Part of the largest torque available in reverse, a ratio. */
   REVERSE_TORQUE,

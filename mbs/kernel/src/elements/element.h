@@ -91,7 +91,8 @@ typedef struct ali3_element_type {
   /* Sizes without the items that its integers count; -1: any. nint is the number of required integers, of all in
    * `integers`. With an optional one, or if there are none, nreal_more reals and nstate_more states may follow. */
   int32_t nsig, nreal, nint, nstate, nout;
-  int32_t first_force, n_forces; /* of elements on roads and springs with end stops: outputs that are their forces, N */
+  /* Of each type with `depth` or `stops`: its outputs that are forces, N. */
+  int32_t first_force, n_forces;
   int32_t nsig_plane; /* number of signals in the plane, if it differs from that in space; 0: it does not */
   int32_t nreal_more, nstate_more;
   const ali3_field *fields; /* ranges of its reals: the first ones, then the last nreal_more */

@@ -11,8 +11,7 @@ enum { ALI3_SELECTOR_DIRECTION, ALI3_SELECTOR_ENGAGED, ALI3_SELECTOR_STATES };
 /* Position -1, 0 or 1 of an input or a state. */
 int ali3_selector_position(double value);
 
-/* States after a step; fraction: step size / engage time. Returns the direction; *factor: factor on its torque, 0 to 1.
- * */
+/* States after a step; fraction: step size / engage time. Returns the direction; *factor: on its torque, 0 to 1. */
 int ali3_selector_step(const double *y_old, double *y_new, double input, double fraction, double *factor);
 
 /* Changes the direction between two steps, at the wheel rate at the end of the step; at a start (h = 0) it is engaged

@@ -18,7 +18,7 @@ struct ali3_file {
 
 static ali3_file *first;
 
-/* Frees a file without users. */
+/* Takes one user from a file, and frees it after the last. */
 static void release(ali3_file *file) {
   if (--file->users > 0) return;
   free(file->path);

@@ -15,7 +15,7 @@ enum { MAX_CORRECTIONS = 2 }; /* of a Newton correction */
 /* m: after a larger first correction the rows are open and another iteration follows in any case */
 static const double LARGE_CORRECTION = 3e-5;
 static const double SMALL_CORRECTION = 10.0; /* in tolerances: a smaller correction has no relevant defect */
-static const double CONTRACTION = 0.5; /* largest ratio of successive changes of d; otherwise too nonlinear */
+static const double CONTRACTION = 0.5; /* largest ratio of successive changes of d; above it forces are too nonlinear */
 
 /* Writes the negative change of d to `change` and d to `last`; returns the size of the change, m. */
 static real defect(ali3_instance *in, double h, truth lanes, real *last, real *change) {

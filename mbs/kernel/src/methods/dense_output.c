@@ -1,7 +1,7 @@
 /* Dense output: the state at any time within a controlled step. Positions, velocities and accelerations at its start,
  * centre and end give a polynomial of degree eight (Hermite interpolation); accelerations, multipliers and outputs of
  * elements follow from the equations of index one. If these accelerations show an error above the tolerance, or with
- * element states or filtered guides, a step of the method is made to that time and discarded. */
+ * element states, filtered guides or sensed work, a step of the method is made to that time and discarded. */
 #include <math.h>
 #include <string.h>
 
@@ -92,7 +92,7 @@ static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, 
          measure->control->tolerance;
 }
 
-/* Only with element states or filtered guides: computes in->next close to the start from the polynomial, with the
+/* Only with element states, filtered guides or sensed work: computes in->next close to the start from the polynomial, with the
  * forces and states of the start. */
 static void evaluate_near_start(ali3_instance *in, double t, double h, double time) {
   ali3_vectors_copy(in, &in->next, &in->kept.origin);

@@ -1,7 +1,7 @@
 /* Reads a table of heights. The first row has the y of the columns after a cell that is not a number, the first column
  * the x of the rows; a later row that does not begin with a number is the first of the frictions. Cells are separated
  * by semicolons, tabs or commas, the first of these in the first row; if that is not the comma, the decimal separator
- * may be one. Lines that begin with # are comments. Independent of the locale. */
+ * may be a comma. Lines that begin with # are comments. Independent of the locale. */
 #include "road_table.h"
 
 #include <math.h>

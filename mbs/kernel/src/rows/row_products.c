@@ -1,5 +1,5 @@
-/* Products with Phi_q, row by row: squares in front storage, and vectors. Without one index for three coordinates, if a
- * row is in triples, a step has 7 % (lane change, 10 ms) to 8.6 % (spatial chain) more instructions. */
+/* Products with Phi_q, row by row: squares in front storage, and vectors. Without one index for three coordinates where
+ * rows are in triples, a step has 7 % (lane change, 10 ms) to 8.6 % (spatial chain) more instructions. */
 #include <string.h>
 
 #include "../algebra/number_pairs.h"

@@ -1,5 +1,4 @@
-/* Mass matrix of an instance: the matrix of the System with payloads, armatures, inertias and axes set by parameters.
- * */
+/* Mass matrix of an instance: the matrix of the System with payloads, armatures, inertias and axes of its parameters. */
 #ifndef ALI3_MASSES_H
 #define ALI3_MASSES_H
 #include "../instance.h"

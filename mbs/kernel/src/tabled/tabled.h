@@ -57,7 +57,7 @@ struct ali3_tabled_group {
   int32_t n_signal, signal[ALI3_TABLED_SIGNALS]; /* signals of all elements */
   /* entries of a signal, stored with one of its elements */
   int32_t entry[ALI3_TABLED_SIGNALS], n_entry[ALI3_TABLED_SIGNALS];
-  /* Parts, if its signals are vectors of bodies on one base and numbers: as d(vector) is a sum of a part of each of r
+  /* Parts, if its signals are vectors of bodies on one base and numbers: as d(vector) is a sum of a share of each of r
    * and Y and of a vector per single coordinate, a 3 x 3 square is transformed by four shares. */
   bool parted;
   int32_t base; /* -1: none, or the earth */

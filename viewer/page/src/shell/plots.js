@@ -113,8 +113,9 @@ export class Plots {
     const compare = (unit, on) => {
       if (on) this.differences.add(unit);
       else this.differences.delete(unit);
-      this._draw();
-      this.charts.find((chart) => chart.unit === unit).legend.querySelector("button").focus(); // the pressed one is gone
+      const byKey = document.activeElement.matches(":focus-visible");
+      this._draw(); // removes the pressed button
+      if (byKey) this.charts.find((chart) => chart.unit === unit).legend.querySelector("button").focus();
     };
     const runs = this.source.plotted(this.chosen, this.span);
     this.charts = [...byUnit(this.chosen, this.source.columns)].map(
