@@ -107,8 +107,8 @@ struct ali3_system {
   int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which the
                         coordinates lie side by side; otherwise the end of its terms */
   int32_t *front_row_ptr, *front_row; /* nf + 1; nc: rows front by front */
-  int32_t *
-      row_alike; /* as front_row: number of rows, this one and after it, with the same stretch in the same front; 0: no stretch */
+  int32_t
+      *row_alike; /* as front_row: number of rows from this one on with the same stretch in the front; 0: no stretch */
   ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
   int32_t *quad_pos; /* as quad: its place in front storage */
   double *quad_second; /* as quad: the second derivative of the term, h or, of a square, 2 h */
@@ -128,7 +128,8 @@ struct ali3_system {
       *mass_stretch; /* nq: entries of mass_ptr between which the columns of a row are neighbours, or twice its end */
   /* A triple are three signals or rows of mass_ptr that are components of a point or a direction: entry by entry of the
    * first the columns of the others are one and two further, and the values are the same. */
-  int32_t *mass_alike; /* nq: number of rows of mass_ptr here with the same columns; 0: first row of a triple */
+  int32_t *
+      mass_alike; /* nq: number of rows of mass_ptr from this one on with the same columns; 0: this row begins a triple */
   int32_t *four, *alone; /* elements evaluated four at a time (elements/element_fours.h), and the others */
   unsigned char *el_in_four; /* ne: 1: evaluated four at a time */
   int32_t *el_beside; /* ne: first signal of an element with consecutive signals, otherwise -1 */
