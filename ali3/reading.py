@@ -183,7 +183,7 @@ def check_content(content: Any, error: Error, name: str, finite: bool) -> None:
                 stack.append((value, (key_chain, key), depth + 1))
             elif isinstance(value, int):
                 if abs(value) > LARGEST_WHOLE:
-                    raise error(f"{name}: {_location((key_chain, key))} is a whole number above 64 bits.")
+                    raise error(f"{name}: {_location((key_chain, key))} is a whole number that 64 bits cannot hold.")
             elif finite and isinstance(value, float) and not math.isfinite(value):
                 raise error(f"{name}: {_location((key_chain, key))} is {value}; it must be a finite number.")
 

@@ -87,7 +87,7 @@ def write_picture(
         The file cannot be written.
     """
     if Path(path).suffix.lower() != ".png":
-        raise ViewerError(f"{path} must end in .png.")
+        raise ViewerError(f"{path} must end with .png.")
     check_writable(path)
     thinned_recordings = thinned(recordings)
     start = min(recording.t[0] for recording in thinned_recordings)

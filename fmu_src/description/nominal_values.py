@@ -14,7 +14,7 @@ from mbs.kernel.binding.instance import Instance
 
 SECONDS = 4.0
 _INITIAL_SPEED = 15.0  # m/s, if the System has an initial pose
-_AMPLITUDE = 0.3  # of an input, over the distance from its start value to the ends of its range
+_AMPLITUDE = 0.3  # of an input, relative to the distance from its start value to the ends of its range
 _HALF_WIDTH = 1.0  # of the range of an input without one
 _LOWEST_FREQUENCY = 0.4  # Hz, of the first input
 _FREQUENCY_RATIO = 1.3  # of an input to the one before it

@@ -93,7 +93,7 @@ def missed_end(stop_time: float, steps: int, step: float) -> tuple[str, str] | N
     if abs(steps * step - stop_time) <= _END_TOLERANCE * step:
         return None
     fitting_step = stop_time / math.ceil(stop_time / step)
-    ended = f"at {steps * step:g} s, a whole number of steps of {step:g} s, in place of {stop_time:g} s"
+    ended = f"at {steps * step:g} s, a whole number of steps of {step:g} s, instead of {stop_time:g} s"
     return "end of the run", f"{ended}; --step {fitting_step:.9g} ends there"
 
 

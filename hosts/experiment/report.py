@@ -72,4 +72,4 @@ def commands_cell(lines: Sequence[str]) -> HtmlElement:
 
 def _provenance() -> str:
     now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
-    return f"{now}, by ALi3 {version_of('ali3')} on Python {platform.python_version()}, {platform.platform()}."
+    return f"{now}, by ALi3 ({version_of('ali3')}) on Python {platform.python_version()}, {platform.platform()}."

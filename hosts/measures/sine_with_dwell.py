@@ -62,7 +62,7 @@ def measure_sine_with_dwell(
     if not math.isfinite(completion):
         return SineWithDwell(beginning=beginning, displacement=displacement)
     response = -direction * yaw_rate
-    peak = _peak(time, response, reversal)
+    peak = _peak(time, response, reversal) or math.nan  # without a response there are no ratios
     max_sideslip = math.nan
     if sideslip is not None:
         window = (time >= beginning) & (time <= completion + 1.75)

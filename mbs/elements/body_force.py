@@ -32,7 +32,7 @@ class BodyForce(Element):
         point : AffineVector
             Point at which the force acts, m.
         axes : sequence of AffineVector
-            Three unit vectors in space; one in the plane, whose second is the first turned left. Constant vectors are
+            Three unit vectors in space; in the plane one, the second being this one turned left. Constant vectors are
             fixed in the earth.
         """
         label = self._label(name)

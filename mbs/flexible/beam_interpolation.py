@@ -1,4 +1,4 @@
-"""Displacements inside a beam from its ends', by cubic interdependent Timoshenko shape functions."""
+"""Displacements inside a beam from those of its ends, by cubic interdependent Timoshenko shape functions."""
 
 import numpy as np
 

@@ -146,7 +146,7 @@ def test_a_run_that_ends_at_another_time_is_reported(stop: float, end: float | N
     row = dict(summary(result, 0.4)).get("end of the run")
     assert (row is None) == (end is None)
     if row is not None:
-        assert row.startswith(f"at {end} s, a whole number of steps of 0.4 s, in place of {stop:g} s; --step ")
+        assert row.startswith(f"at {end} s, a whole number of steps of 0.4 s, instead of {stop:g} s; --step ")
         shorter = float(row.split("--step ")[1].split(" ")[0])
         assert run(Integrator(True), requested, shorter).time[-1] == pytest.approx(stop, abs=1e-8)  # type: ignore[arg-type]
 

@@ -70,7 +70,7 @@ def _forward(front: Front) -> list[str]:
 
 
 def _scalars(front: Front, column_pieces: Sequence[Piece], p: int, count: int) -> list[str]:
-    """Statements for the unknowns of `count` pivots after p, minus the products with earlier pivots of the group."""
+    """Statements for the unknowns of `count` pivots from p on, minus the products with earlier pivots of the group."""
 
     def element(i: int) -> str:
         piece = next(x for x in column_pieces if x.first <= i < x.first + (4 if x.wide else 1))
