@@ -185,7 +185,7 @@ def variable_table(
 def _settings(pose: bool, step_size: float, fidelities: Sequence[str], fidelity: int, has_lead: bool) -> list[Variable]:
     """Parameters that are not of the model: initial pose, step, fidelity and limits of the solver.
 
-    `has_lead`: whether points at which a road is evaluated are extrapolated in time; the others as for `variable_table`.
+    `has_lead`: whether points at which a road is evaluated are extrapolated; the others as for `variable_table`.
     """
     settings = [
         _setting(name, unit, text, "pose", 0.0, index=k, display_unit=_display(name, unit))

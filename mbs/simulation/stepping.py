@@ -400,8 +400,8 @@ class Simulation(SteppedSystem):
             None shows a bar if the run takes longer than two seconds, True at once, False never; a function receives
             the fraction done.
         estimate_error : bool or float, optional
-            As in `simulate`, for the first doubtful run of at least eight steps. The last refined run continues in the following calls
-            with the same inputs, parameters and switches, until `step` is called.
+            As in `simulate`, for the first doubtful run of at least eight steps. The last refined run continues in the
+            following calls with the same inputs, parameters and switches, until `step` is called.
         tolerance : float or mapping of str to float, optional
             As in `simulate`, for the error that this part adds; with the method of the settings.
 

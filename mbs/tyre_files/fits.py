@@ -98,7 +98,9 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
         As in `magic_of_tmeasy`.
     """
     if tyre.pressure != 0.0:
-        raise ValueError(f"The pressure of the tyre is {1.0 + tyre.pressure:g} times the nominal pressure; it must be the nominal pressure.")
+        raise ValueError(
+            f"The pressure of the tyre is {1.0 + tyre.pressure:g} times the nominal pressure; it must be that."
+        )
     c, nominal_of_file = dict(tyre.coefficients), tyre.nominal_load
     nominal = min(nominal_of_file, 0.5 * tyre.largest_load)
     c["LMUX"], c["LMUY"] = c.get("LMUX", 1.0) * tyre.lmux, c.get("LMUY", 1.0) * tyre.lmuy

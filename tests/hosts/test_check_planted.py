@@ -74,7 +74,7 @@ PLANTS: dict[str, tuple[str, str, str]] = {
     "NAN_AT_START": ("runs", "BAD", "y is nan at 0 s; give a number or refuse the step"),
     "READ_ORDER": ("reads twice", "BAD", "where the references are asked for the other way round; give each its value"),
     "PATHS": ("resource paths", "BAD", "in a folder named 'of a user, müller'; decode their location"),
-    "TIMER": (SETTINGS, "BAD", "timers changed from ITIMER_REAL False to True by initialisation; leave timers to the host"),
+    "TIMER": (SETTINGS, "BAD", "timers changed from ITIMER_REAL False to True by initialisation; leave timers"),
     "AFFINITY": (SETTINGS, "BAD", "scheduling changed from processors "),
     "LIMITS": (SETTINGS, "BAD", "by initialisation; leave limits of the process to the host"),
     "CLOSES": (SETTINGS, "BAD", "to closed by initialisation; leave the standard streams open"),
