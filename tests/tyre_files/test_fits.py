@@ -180,7 +180,7 @@ def test_files_that_cannot_be_written_or_made_are_reported(tmp_path: Path) -> No
     with pytest.raises(ValueError, match=r"not symmetric: .*PHY1.* as 0\. Give the side .*'LEFT' or 'RIGHT'"):
         write_tyre(tmp_path / "a.tir", tyre)
     assert not list(tmp_path.iterdir())
-    with pytest.raises(ValueError, match=r"pressure of the tyre is 1\.1 times the nominal one"):
+    with pytest.raises(ValueError, match=r"pressure of the tyre is 1\.1 times the nominal pressure"):
         tmeasy_of_magic(replace(tyre, pressure=0.1))
 
 
