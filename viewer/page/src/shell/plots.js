@@ -81,8 +81,9 @@ export class Plots {
   }
 
   _open(open) {
+    const opens = open && this.list.hidden;
     show(this.list, open, this.opener);
-    this._list();
+    if (opens) this._list(); // rows of an open list stay, as one of them may have the focus
   }
 
   _list() {
@@ -113,7 +114,7 @@ export class Plots {
     const compare = (unit, on) => {
       if (on) this.differences.add(unit);
       else this.differences.delete(unit);
-      const byKey = document.activeElement.matches(":focus-visible");
+      const byKey = document.activeElement?.matches(":focus-visible");
       this._draw(); // removes the pressed button
       if (byKey) this.charts.find((chart) => chart.unit === unit).legend.querySelector("button").focus();
     };
