@@ -257,6 +257,20 @@ def test_what_the_keyboard_opens_it_closes_and_the_focus_comes_back(shown: Any, 
     assert focused(shown) == "panels"
 
 
+@pytest.mark.slow
+def test_what_the_mouse_opened_leaves_the_keys_to_the_page(shown: Any) -> None:
+    for name, part in (("settings", ".a3-panel"), ("help", "[data-a3='help list']")):
+        shown.locator(f'[data-a3="{name}"]').click()
+        assert shown.locator(part).is_visible()
+        for box in shown.locator(f"{part} input[type=checkbox]").all():
+            box.click()
+        shown.keyboard.press("Escape")
+        assert not shown.locator(part).is_visible()
+        # A browser takes the focus from a hidden part when it draws the next frame.
+        shown.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        assert focused(shown) == "BODY"
+
+
 def test_the_list_of_keys_has_rows_of_the_table_for_this_kind_of_page(shown: Any, kind: str) -> None:
     rows = json.loads((HERE / "keys.json").read_text(encoding="utf-8"))
     kinds = {"": KINDS, "driven": ("live", "simulator"), "recorded": ("recorded", "plots"), "simulator": ("simulator",)}

@@ -19,6 +19,11 @@ export function needed({ tagName, type, isContentEditable }, key, byKeyboard) {
   return /^(INPUT|BUTTON|SUMMARY|A)$/.test(tagName) && /^( |Enter)$/.test(key);
 }
 
+/** Whether a part of the page has the focus, moved there by the keyboard. @param {HTMLElement} part */
+export function hasKeyboardFocus(part) {
+  return focusedByKeyboard && part.contains(document.activeElement);
+}
+
 /**
  * Shows or hides a part of the page; a focus that the keyboard has moved into a hidden part goes to the button that opens it.
  * @param {HTMLElement} part
@@ -26,7 +31,7 @@ export function needed({ tagName, type, isContentEditable }, key, byKeyboard) {
  * @param {HTMLElement} [opener]
  */
 export function show(part, open, opener) {
-  if (!open && focusedByKeyboard && part.contains(document.activeElement)) opener?.focus();
+  if (!open && hasKeyboardFocus(part)) opener?.focus();
   part.hidden = !open;
   opener?.setAttribute("aria-pressed", String(open));
 }

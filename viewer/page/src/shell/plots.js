@@ -1,7 +1,7 @@
 // The plots beside the picture: a list of all signals, and a diagram for each unit of the chosen ones.
 import { Chart, palette } from "./chart.js";
 import { el, select } from "../common/dom.js";
-import { show } from "../common/keys.js";
+import { hasKeyboardFocus, show } from "../common/keys.js";
 import { byUnit, found } from "./series.js";
 
 const MAX_LISTED = 300;
@@ -114,9 +114,9 @@ export class Plots {
     const compare = (unit, on) => {
       if (on) this.differences.add(unit);
       else this.differences.delete(unit);
-      const byKey = document.activeElement?.matches(":focus-visible");
+      const refocus = hasKeyboardFocus(this.area);
       this._draw(); // removes the pressed button
-      if (byKey) this.charts.find((chart) => chart.unit === unit).legend.querySelector("button").focus();
+      if (refocus) this.charts.find((chart) => chart.unit === unit).legend.querySelector("button").focus();
     };
     const runs = this.source.plotted(this.chosen, this.span);
     this.charts = [...byUnit(this.chosen, this.source.columns)].map(
