@@ -234,7 +234,7 @@ def compiled_libraries(
 ) -> dict[str, bytes]:
     """Libraries of an FMU by their paths in it.
 
-    `binaries`: as of `Face`; `told`: as for `pack_native`; `libraries`: by model and folder those that were compiled
+    `binaries`: as in `Face`; `told`: as in `pack_native`; `libraries`: by model and folder those that were compiled
     before; those compiled here are added.
     """
     files, name = {}, contents.model_name

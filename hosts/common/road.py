@@ -23,7 +23,7 @@ MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml", ".crg", ".stl", ".ob
 def options_with_road(options: argparse.Namespace, out: Path) -> FmuOptions:
     """The options of `hosts.common.options.fmu_options`, after the road of ``--road`` if one is given.
 
-    `out`: as of `road_value`.
+    `out`: see `road_value`.
     """
     set_options = fmu_options(options)
     if options.road is None:

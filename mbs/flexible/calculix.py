@@ -27,7 +27,7 @@ def read_calculix(deck: str | Path, *, total_mass: float | None = None) -> Finit
     Parameters
     ----------
     total_mass : float, optional
-        As of `external_model`.
+        As in `external_model`.
 
     Returns
     -------

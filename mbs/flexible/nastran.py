@@ -42,7 +42,7 @@ def read_nastran(
     folder : str or Path, optional
         Below which the files that the bulk data include lie; by default their own.
     total_mass : float, optional
-        As of `external_model`.
+        As in `external_model`.
 
     Returns
     -------

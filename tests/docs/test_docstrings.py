@@ -23,7 +23,7 @@ SECTION = re.compile(r"^(Parameters|Returns|Yields|Raises|Warns|Attributes|Notes
 UNIT = re.compile(
     r"\b(m|mm|m2|kg|m3|m/s2?|s|N|rad|deg|degrees|Hz|J|W|Pa|K|[Ff]actor|[Rr]atio|[Ss]hare"
     r"|[Ee]fficiency|[Cc]oefficient|Multiplies|[Rr]elative|units?"
-    r"|[Tt]urns|[Mm]ultiple|[Ff]raction|0 to 1)\b|%|(?:See|As (?:in|of)) `"
+    r"|[Tt]urns|[Mm]ultiple|[Ff]raction|0 to 1)\b|%|(?:See|As in) `"
 )
 """A unit, a word that says that there is none, or where it stands."""
 LITTLE = (

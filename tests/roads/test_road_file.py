@@ -182,7 +182,8 @@ def test_a_file_that_is_cut_while_driving_ends_the_run_with_its_reason(tmp_path,
     simulation = mbs.Simulation(car, pose=mbs.Pose(speed=20.0), parameters={"road.file": path})
     with path.open("r+b") as file:
         file.truncate(path.stat().st_size // 20)
-    with pytest.raises(mbs.SimulationError, match=r"its part beginning at x = [\d.]+ m, .* cannot be read") as end:
+    message = r"Of the road its part beginning at x = [\d.]+ m, .* cannot be read"
+    with pytest.raises(mbs.SimulationError, match=message) as end:
         simulation.run(5.0, H)
     assert end.value.status == Status.ROAD_LOST
     assert 0.0 < simulation.time < 3.0

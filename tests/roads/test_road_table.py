@@ -164,18 +164,16 @@ def test_a_bad_text_is_refused(tmp_path, loaded, text, sentence):
 def test_an_allocation_that_fails_is_named(tmp_path, granted):
     """The text, its values and the road file are allocated one after the other."""
     (tmp_path / "a.csv").write_text(GOOD)
-    blocks = {}
+    blocks, left = {}, iter(range(granted))
 
     @ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_size_t, ctypes.c_size_t)
     def allocate(count, size):
-        if allocate.granted == 0:
+        if next(left, None) is None:
             return None
-        allocate.granted -= 1
         block = ctypes.create_string_buffer(count * size)
         blocks[ctypes.addressof(block)] = block
         return ctypes.addressof(block)
 
-    allocate.granted = granted
     release = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(blocks.pop)
     message = ctypes.create_string_buffer(256)
     path = str(tmp_path / "a.csv").encode()

@@ -191,11 +191,11 @@ static bool begin_late_step(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
   const bool rests = !(t->remaining > 0.0);
   t->start_needed = t->start_needed && !step->starts;
-  if (step->span > 0.0 && !budget_is_spent(t, step) && (!rests || step->starts)) {
+  if (step->span > 0.0 && budget_is_spent(t, step)) {
+    log_unchecked(s, step->end, "the time of the second motion is spent");
+  } else if (step->span > 0.0 && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
     t->remaining = fmax(t->remaining, step->span);
-  } else if (step->span > 0.0 && budget_is_spent(t, step)) {
-    log_unchecked(s, step->end, "the time of the second motion is spent");
   }
   return t->remaining > 0.0;
 }

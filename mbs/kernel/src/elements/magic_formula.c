@@ -56,7 +56,7 @@ static dual secant(dual y, dual x, double limit) {
 
 /* One direction at pure slip: coefficients of 4.E9 and 4.E19, longitudinal or lateral. */
 typedef struct {
-  double B, C, E, D, K, SH, SV, mu;
+  double B, C, E, D, K, SH, SV;
   dual slip, force_without_SV, force; /* slip: with SH */
 } pure_slip;
 
@@ -96,9 +96,10 @@ static pure_slip longitudinal_force(const ali3_magic_state *s, const operating_p
   const double lambda_mu = c[ALI3_MF_LMUX] * s->friction[0] * op->sliding_factor;
   pure_slip p;
   p.C = c[ALI3_MF_PCX1] * c[ALI3_MF_LCX];
-  p.mu = (c[ALI3_MF_PDX1] + c[ALI3_MF_PDX2] * dfz) * (1.0 + c[ALI3_MF_PPX3] * dpi + c[ALI3_MF_PPX4] * dpi * dpi) *
-         at_least_min_factor(1.0 - c[ALI3_MF_PDX3] * gamma * gamma) * lambda_mu;
-  p.D = p.mu * s->load;
+  const double mu = (c[ALI3_MF_PDX1] + c[ALI3_MF_PDX2] * dfz) *
+                    (1.0 + c[ALI3_MF_PPX3] * dpi + c[ALI3_MF_PPX4] * dpi * dpi) *
+                    at_least_min_factor(1.0 - c[ALI3_MF_PDX3] * gamma * gamma) * lambda_mu;
+  p.D = mu * s->load;
   p.K = s->load * (c[ALI3_MF_PKX1] + c[ALI3_MF_PKX2] * dfz) * ali3_exp(c[ALI3_MF_PKX3] * dfz) *
         (1.0 + c[ALI3_MF_PPX1] * dpi + c[ALI3_MF_PPX2] * dpi * dpi) * c[ALI3_MF_LKX] * s->stiffness[0];
   p.B = p.K / (p.C * p.D);
@@ -120,9 +121,10 @@ static pure_slip lateral_force(const ali3_magic_state *s, const operating_point 
   const double peak_load = (c[ALI3_MF_PKY2] + c[ALI3_MF_PKY5] * gamma * gamma) * (1.0 + c[ALI3_MF_PPY2] * dpi);
   pure_slip p;
   p.C = c[ALI3_MF_PCY1] * c[ALI3_MF_LCY];
-  p.mu = (c[ALI3_MF_PDY1] + c[ALI3_MF_PDY2] * dfz) * (1.0 + c[ALI3_MF_PPY3] * dpi + c[ALI3_MF_PPY4] * dpi * dpi) *
-         at_least_min_factor(1.0 - c[ALI3_MF_PDY3] * gamma * gamma) * lambda_mu;
-  p.D = p.mu * s->load;
+  const double mu = (c[ALI3_MF_PDY1] + c[ALI3_MF_PDY2] * dfz) *
+                    (1.0 + c[ALI3_MF_PPY3] * dpi + c[ALI3_MF_PPY4] * dpi * dpi) *
+                    at_least_min_factor(1.0 - c[ALI3_MF_PDY3] * gamma * gamma) * lambda_mu;
+  p.D = mu * s->load;
   p.K = c[ALI3_MF_PKY1] * op->nominal * (1.0 + c[ALI3_MF_PPY1] * dpi) *
         at_least_min_factor(1.0 - c[ALI3_MF_PKY3] * fabs(gamma)) *
         ali3_sin(c[ALI3_MF_PKY4] * ali3_atan2(s->load / op->nominal, peak_load)) * c[ALI3_MF_LKY] * s->stiffness[1];

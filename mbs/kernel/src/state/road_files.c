@@ -24,12 +24,7 @@ ali3_status ali3_set_road(ali3_instance *in, int32_t road, const char *path, cha
   return ALI3_OK;
 }
 
-ali3_status ali3_roads_status(const ali3_instance *in) {
-  for (int32_t r = 0; r < in->system->nr; r++)
-    if (in->roads.used[r].file != NULL && ali3_road_file_read_error(in->roads.used[r].file) != NULL)
-      return ALI3_ROAD_LOST;
-  return ALI3_OK;
-}
+ali3_status ali3_roads_status(const ali3_instance *in) { return ali3_road_lost(in)[0] != 0 ? ALI3_ROAD_LOST : ALI3_OK; }
 
 void ali3_roads_clear_read_errors(ali3_instance *in) {
   for (int32_t r = 0; r < in->system->nr; r++)

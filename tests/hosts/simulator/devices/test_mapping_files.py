@@ -34,7 +34,7 @@ GOOD = 'format = "ALi3 device"\nversion = 1\n'
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "it must have format = "),
+        ("", "it must have format = .* and version = "),
         ("version = ", "Invalid value"),
         ("\udcff", "is not text in UTF-8"),
         (GOOD.replace("1", "2"), "it must have format = .* and version = 1"),
