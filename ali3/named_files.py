@@ -1,13 +1,11 @@
-"""Finds and checks files that another file names: they lie below one folder, and their number and size are limited."""
+"""Checks files that another file names: they lie below one folder, and their number and size are limited."""
 
 import os
-from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 from ali3.limits import limit_factor, raised
 from ali3.message_text import brief
-from ali3.reading import Error, check_file, is_file
+from ali3.reading import Error, check_file
 
 MAX_FILES = 1000
 """Largest number of files that one file names directly or through others."""
@@ -42,13 +40,3 @@ class NamedFiles:
         check_file(path, self._remaining_bytes, self._error, f"{location}{brief(name)}")
         self._remaining_bytes -= int(path.stat().st_size / limit_factor())
         return path
-
-
-def files_in(content: Any, folder: Path) -> Iterator[Path]:
-    """Paths of regular files that texts of parsed content name. `folder`: where relative names begin."""
-    if isinstance(content, str):
-        if is_file(path := folder / content):
-            yield path
-    elif isinstance(content, (Mapping, list, tuple)):
-        for item in content.values() if isinstance(content, Mapping) else content:
-            yield from files_in(item, folder)

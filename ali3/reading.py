@@ -10,6 +10,7 @@ import os
 import re
 import stat
 import tomllib
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, BinaryIO, NoReturn
 
@@ -77,6 +78,12 @@ def is_file(file: str | os.PathLike[str]) -> bool:
 def is_folder(file: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder; see `is_file`."""
     return stat.S_ISDIR(_file_mode(file))
+
+
+def is_file_or_folder(file: str | os.PathLike[str]) -> bool:
+    """Whether a path is a regular file or a folder; see `is_file`."""
+    mode = _file_mode(file)
+    return stat.S_ISREG(mode) or stat.S_ISDIR(mode)
 
 
 def _file_mode(file: str | os.PathLike[str]) -> int:
@@ -195,3 +202,13 @@ def _location(key_chain: tuple[Any, ...]) -> str:
         key_chain, key = key_chain
         parts.append(key)
     return one_line(place_text(parts[-2::-1])) or "the content"  # without the list around it
+
+
+def files_in(content: Any, folder: Path) -> Iterator[Path]:
+    """Paths of regular files that texts of parsed content name. `folder`: where relative names begin."""
+    if isinstance(content, str):
+        if is_file(path := folder / content):
+            yield path
+    elif isinstance(content, (Mapping, list, tuple)):
+        for item in content.values() if isinstance(content, Mapping) else content:
+            yield from files_in(item, folder)

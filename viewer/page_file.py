@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from ali3.files import atomic_file, check_writable
+from ali3.files import check_writable, write_bytes
 from ali3.near_names import near_names
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import MAX_TIMES, Recording
@@ -51,10 +51,9 @@ def write_page(
     """
     check_writable(path)
     thinned_recordings = thinned(recordings, most)
-    text = page_html(thinned_recordings, title, options)
-    with atomic_file(path) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
-    return WrittenPage(Path(path), len(text.encode("utf-8")), notes_of(thinned_recordings))
+    content = page_html(thinned_recordings, title, options).encode()
+    write_bytes(path, content)
+    return WrittenPage(Path(path), len(content), notes_of(thinned_recordings))
 
 
 def page_html(

@@ -9,8 +9,7 @@ from typing import Any
 import mbs
 from ali3.archives import LARGEST_UNPACKED
 from ali3.message_text import shortened
-from ali3.named_files import files_in
-from ali3.reading import is_file, read_bytes
+from ali3.reading import files_in, is_file, read_bytes
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.system_with_poses import Maker, posed_systems
 from mbs.vehicle import Car, Fidelity, car_names, load

@@ -203,7 +203,8 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     first_builds = {kind: list(first) for kind in available if first and set(first) <= set(available[kind])}
     full_builds = {kind: targets for kind, targets in available.items() if first_builds.get(kind) != targets}
     meta = systems[fidelity].meta
-    for builds in filter(None, (first_builds, full_builds)):
+    stages = [builds for builds in (first_builds, full_builds) if builds]
+    for builds in stages:
         line.expect(builder.pieces(builds))
         for kind, targets in builds.items():
             file = builder.build(kind, targets, files[kind])
@@ -212,9 +213,9 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
                 f"{len(meta['sensors'])} sensors; for {', '.join(targets)}",
                 flush=True,
             )
-        if builds is (first_builds or full_builds):
+        if builds is stages[0]:
             _write_parameters(builder.parameters, parameter_file)
-        if builds is first_builds and full_builds:
+        if builds is not stages[-1]:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
 

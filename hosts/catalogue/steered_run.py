@@ -62,16 +62,17 @@ class SteeredPilot:
         self._coasting = False
         self._pedal_inputs: dict[str, float] = {}
 
+    @property
+    def is_steering(self) -> bool:
+        """Whether the steering has started."""
+        return math.isfinite(self.steering_start)
+
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
-        if not math.isfinite(self.steering_start):
+        if not self.is_steering:
             self._update_approach(time, observation["speed"])
-        if not self._coasting and (not math.isfinite(self.steering_start) or self.pedals is Pedals.HOLD_SPEED):
+        if not self._coasting and (not self.is_steering or self.pedals is Pedals.HOLD_SPEED):
             self._pedal_inputs = self._holder.act(time, observation)
-        angle = (
-            float(np.interp(time - self.steering_start, self.time, self.values))
-            if math.isfinite(self.steering_start)
-            else 0.0
-        )
+        angle = float(np.interp(time - self.steering_start, self.time, self.values)) if self.is_steering else 0.0
         return self._pedal_inputs | {self.input.name: angle}
 
     def _update_approach(self, time: float, speed: float) -> None:
@@ -89,7 +90,7 @@ class SteeredPilot:
                     self._pedal_inputs = dict.fromkeys(self._pedal_inputs, 0.0)
                 else:
                     self.steering_start = time
-        self.gave_up = not math.isfinite(self.steering_start) and time > self.max_approach
+        self.gave_up = not self.is_steering and time > self.max_approach
 
     def ends(self, time: float, observation: Mapping[str, float]) -> bool:
         """Whether the run is over: the table has ended, the approach took too long, or the car has rolled over."""
@@ -197,7 +198,7 @@ def level_acceleration(result: Result) -> NDArray[np.float64]:
 
 def _steered_run(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
     empty = np.zeros(0)
-    if not math.isfinite(pilot.steering_start) or len(result.time) < 3 or result.time[-1] <= pilot.steering_start:
+    if not pilot.is_steering or len(result.time) < 3 or result.time[-1] <= pilot.steering_start:
         return SteeredRun(result, math.nan, *7 * (empty,), whole=False)
     row_interval = float(result.time[1] - result.time[0])
     interval = max(_INTERVAL, row_interval)

@@ -1,12 +1,11 @@
 """SARIF files of a check, which code hosts and editors show: version 2.1.0 of OASIS."""
 
-import json
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ali3.files import atomic_file
+from ali3.files import write_json
 from hosts.check.junit import Case
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -38,6 +37,4 @@ def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
         result = {"ruleId": case.name, "ruleIndex": names.index(case.name), "kind": kind, "level": level}
         results.append(result | {"message": {"text": case.words}, "locations": [location]})
     run = {"tool": {"driver": driver}, "results": results}
-    with atomic_file(file) as temporary:
-        text = json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1, ensure_ascii=False)
-        temporary.write_text(text + "\n", encoding="utf-8")
+    write_json(file, {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]})

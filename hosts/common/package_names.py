@@ -5,7 +5,7 @@ from pathlib import Path
 import ali3
 from ali3.message_text import brief
 from ali3.near_names import did_you_mean
-from ali3.reading import is_file, is_folder
+from ali3.reading import is_file_or_folder
 from hosts.common.errors import HostError
 
 _MBS = Path(ali3.__file__).parents[1] / "mbs"
@@ -14,7 +14,7 @@ _MBS = Path(ali3.__file__).parents[1] / "mbs"
 def check_car(car: Path) -> None:
     """Refuse a word that is neither a file here nor the name of a car; `HostError` with a near name, or all."""
     names = sorted(file.parent.name for file in (_MBS / "vehicle" / "cars").glob("*/car.toml"))
-    if not (is_file(car) or is_folder(car)) and str(car) not in names:
+    if not is_file_or_folder(car) and str(car) not in names:
         _refuse("car", str(car), names)
 
 
@@ -22,7 +22,7 @@ def check_world(world: str) -> None:
     """Refuse a word that is neither a file here nor the name of a world or road; `HostError` as `check_car`."""
     roads = (_MBS / "roads" / "files").glob("*.road")
     names = sorted(file.stem for file in (*(_MBS / "worlds").glob("*.toml"), *roads))
-    if not (is_file(world) or is_folder(world)) and world.removesuffix(".road") not in names:
+    if not is_file_or_folder(world) and world.removesuffix(".road") not in names:
         _refuse("world", world, names)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from ali3.files import make_folder
 from ali3.json_reading import read_json
-from ali3.reading import is_file, is_folder
+from ali3.reading import is_file, is_file_or_folder
 from ali3.temporary_folder import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.options import ROAD, FmuOptions, fmu_options
@@ -40,7 +40,7 @@ def road_value(road: str, out: Path) -> str:
     """
     path = Path(road)
     if path.suffix.lower() not in MADE_OF:
-        return str(path.absolute()) if is_file(path) or is_folder(path) else road
+        return str(path.absolute()) if is_file_or_folder(path) else road
     road_file = make_folder(out) / f"{path.stem}.road"
     output = run_ali3("road", str(path), str(road_file))
     print(output, end="", file=sys.stderr)  # warnings about the road

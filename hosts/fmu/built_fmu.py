@@ -12,8 +12,7 @@ from ali3.commands import COMMANDS
 from ali3.errors import FileError
 from ali3.folders import atomic_folder, forget_oldest
 from ali3.locks import locked
-from ali3.named_files import files_in
-from ali3.reading import is_file, is_folder, read_bytes, read_toml
+from ali3.reading import files_in, is_file, is_folder, read_bytes, read_toml
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.fmu.car import CAR_FILE

@@ -19,7 +19,7 @@ from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.isolated_processes import Lost
-from ali3.reading import is_file, is_folder
+from ali3.reading import is_file_or_folder, is_folder
 from hosts.common.errors import HostError
 from hosts.experiment.experiment import Runner
 from hosts.experiment.store import ResultStore
@@ -144,7 +144,7 @@ def fmu_of_study(study: StudyFile, file: Path) -> Path:
 def _car(name: str, file: Path) -> str:
     """A car file beside the study file, otherwise a car of the package."""
     file_beside = file.parent / name
-    return str(file_beside) if is_file(file_beside) or is_folder(file_beside) else name
+    return str(file_beside) if is_file_or_folder(file_beside) else name
 
 
 def _with_limits(plan: Plan, study: StudyFile) -> Plan:

@@ -10,7 +10,7 @@ from pathlib import Path
 from threading import Timer
 from typing import TYPE_CHECKING, Any
 
-from ali3.files import atomic_file, check_writable
+from ali3.files import check_writable, write_bytes
 from ali3.temporary_folder import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
@@ -20,7 +20,7 @@ from hosts.common.road import options_with_road, report_starts
 from hosts.common.world_files import make_world
 from hosts.driving.manoeuvre import with_names_of
 from hosts.fmu.fmu_file import fmu_file
-from hosts.fmu.settings import Settings
+from hosts.fmu.settings import settings_of
 from hosts.recordings.format import is_recording
 from hosts.recordings.load_manoeuvre import check_manoeuvre_option, load_manoeuvre
 from hosts.view.open_page import open_page
@@ -71,8 +71,7 @@ def _write(options: argparse.Namespace, set_options: FmuOptions) -> int:
     ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
     with _reported_when_long("making the page"):
         text = page_text(title, named_fmus, page_options, manoeuvre, recordings, ends)
-    with atomic_file(file) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
+    write_bytes(file, text.encode())
     _report(file, fmus, world)
     if not options.no_open:
         open_page(file)
@@ -185,11 +184,7 @@ def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict
 
 def _start(fmus: Sequence[FmuParts], set_options: FmuOptions) -> dict[str, Value]:
     """Start values by ``--parameters`` and ``--set``: the first FMU must have them, the others may."""
-    settings = Settings(fmus[0].variables)
-    for file in set_options.sets:
-        settings.add_set(file)
-    settings.add_texts(set_options.values, "--set")
-    start = settings.start
+    start = settings_of(fmus[0].variables, set_options).start
     for fmu in fmus[1:]:
         for name in start:
             if name in fmu.variables.names:

@@ -8,7 +8,7 @@ from typing import Any
 from ali3.archives import is_archive
 from ali3.json_reading import read_json
 from ali3.processes import command_name
-from ali3.reading import is_file, is_folder, no_file
+from ali3.reading import is_file, is_file_or_folder, is_folder, no_file
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
@@ -69,7 +69,7 @@ def recordings_of(
     notes: list[str] = []
     good = True
     for path, name in zip(paths, _distinct_names(paths), strict=True):
-        if not is_file(path) and not is_folder(path):
+        if not is_file_or_folder(path):
             hint = f" Build it with: {command_name('build')}" if path.suffix == ".fmu" else ""
             raise HostError(no_file(path, hint))
         suffix = path.suffix.lower()

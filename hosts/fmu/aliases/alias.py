@@ -22,6 +22,17 @@ class Alias:
     factor: float = 1.0
     offset: float = 0.0
 
+    def to_fmu(self, value: Any) -> Any:
+        """A start value, converted to the unit of the FMU; texts are unchanged."""
+        return value if self._keeps(value) else self.factor * value + self.offset
+
+    def from_fmu(self, value: Value) -> Value:
+        """A start value in the unit of the FMU, converted; texts are unchanged."""
+        return value if self._keeps(value) else (float(value) - self.offset) / self.factor
+
+    def _keeps(self, value: object) -> bool:
+        return isinstance(value, (str, bool)) or (self.factor, self.offset) == (1.0, 0.0)
+
 
 @dataclass(frozen=True)
 class Aliases:
@@ -70,21 +81,11 @@ class Aliases:
     def fmu_values(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Start values, converted from ALi3 names and units to those of the FMU; texts are unchanged."""
         by_name = {alias.name: alias for alias in self.aliases}
-        results = {}
-        for name, value in values.items():
-            alias = by_name.get(name, Alias(name, name))
-            results[alias.fmu_name] = value if _is_unchanged(value, alias) else alias.factor * value + alias.offset
-        return results
+        aliased = ((by_name.get(name, Alias(name, name)), value) for name, value in values.items())
+        return {alias.fmu_name: alias.to_fmu(value) for alias, value in aliased}
 
     def ali3_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
         """Start values, converted from names and units of the FMU to those of ALi3; texts are unchanged."""
         by_name = {alias.fmu_name: alias for alias in self.aliases}
-        results: dict[str, Value] = {}
-        for name, value in values.items():
-            alias = by_name.get(name, Alias(name, name))
-            results[alias.name] = value if _is_unchanged(value, alias) else (float(value) - alias.offset) / alias.factor
-        return results
-
-
-def _is_unchanged(value: Any, alias: Alias) -> bool:
-    return isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
+        aliased = ((by_name.get(name, Alias(name, name)), value) for name, value in values.items())
+        return {alias.name: alias.from_fmu(value) for alias, value in aliased}

@@ -9,7 +9,7 @@ import tomli_w
 from platformdirs import user_config_path
 
 from ali3.errors import FileError, reason
-from ali3.files import atomic_file
+from ali3.files import write_bytes, write_text
 from ali3.message_text import brief
 from ali3.reading import LARGEST_TEXT, read_bytes, read_toml
 from hosts.common.errors import HostError
@@ -77,8 +77,7 @@ class MappingFiles:
         table: dict[str, Any] = {"format": FORMAT, "version": VERSION, "name": name, "serial": serial}
         table |= {"settings": asdict(mapping.settings), "inputs": inputs}
         self._keep_damaged(device)
-        with atomic_file(path) as temporary:
-            temporary.write_text(_HEADER + tomli_w.dumps(table), encoding="utf-8")
+        write_text(path, _HEADER + tomli_w.dumps(table))
 
     def _keep_damaged(self, device: str) -> None:
         path = self.path(device)
@@ -86,8 +85,7 @@ class MappingFiles:
             self.read(device)
         except HostError:
             if path.is_file():
-                with atomic_file(path.with_name(path.name + ".damaged")) as copy:
-                    copy.write_bytes(read_bytes(path, LARGEST_TEXT))
+                write_bytes(path.with_name(path.name + ".damaged"), read_bytes(path, LARGEST_TEXT))
 
     def remove(self, device: str) -> None:
         """Remove the file of a device, if there is one. Raises `HostError` if it cannot be removed."""
