@@ -39,13 +39,10 @@ def varied_cars(name: str, fidelity: int) -> tuple[System, Start]:
     manoeuvre, system = manoeuvres.load(name), compile(prototype_car.build(fidelity=fidelity))
     parameters, pose = manoeuvres.start_of(manoeuvre, system)
     signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
-    names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
 
     def start(number: int, h: float, seconds: float) -> Simulation:
         factors = dict.fromkeys(("front.spring.factor", "rear.damper.factor"), 1.0 + 0.01 * number)
-        first = signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0].tolist()
-        inputs = dict(zip(names, first, strict=True))
-        car = Simulation(system, inputs=inputs, parameters=parameters | factors, pose=pose)
+        car = Simulation(system, inputs=signals.start_values(0.0, h), parameters=parameters | factors, pose=pose)
         signals.attach(car.instance, 0.0, seconds, 1e-6 * h)
         return car
 
@@ -96,7 +93,7 @@ def measure(
     its threads had a core, and each part counts by the least of the rounds.
     """
     system, start = make()
-    loaded, steps = prepared(system)[0], int(seconds / h / PARTS)
+    loaded, steps = prepared(system).loaded, int(seconds / h / PARTS)
     ways = _ways(loaded)
     least: dict[str, NDArray[np.float64]] = {}  # of each part
     with ThreadPoolExecutor(os.cpu_count()) as pool:

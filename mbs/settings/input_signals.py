@@ -121,6 +121,11 @@ class InputSignals:
 
         instance.set_input_function(function)
 
+    def start_values(self, t0: float, h: float) -> dict[str, float]:
+        """Values at the start `t0` of steps of `h`, s, by name; at a jump the value after it."""
+        values = self.at(np.array([t0]), AT_END * h, after_jump=True)[0].tolist()
+        return {self._names[i]: value for i, value in zip(self._signals, values, strict=True)}
+
     def attach_to_steps(self, instance: Instance, t0: float, t_end: float, h: float) -> None:
         """Attach the signals for steps of `h`, s, which end early at jumps and peaks of signals."""
         breaks = self.breaks(t0, t_end, h)

@@ -116,15 +116,13 @@ class _Run:
 
     def _start(self, h: float) -> Simulation:
         """Make the simulation for steps of `h`, s, and record the warnings of its start."""
-        first = self.signals.at(np.array([self.t0]), 1e-6 * h, after_jump=True)[0]
-        declared = prepared(self.system).meta["inputs"]
-        names = [declared[i]["name"] for i in self.signals.columns()]
+        first = self.signals.start_values(self.t0, h)
         with _STARTING, warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             simulation = Simulation(
                 self.system,
                 settings=self.settings,
-                inputs=dict(zip(names, first.tolist(), strict=True)),
+                inputs=first,
                 parameters=self.variant.parameters,
                 pose=self.variant.pose,
                 t0=self.t0,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.common.progress import progress_for
@@ -37,8 +37,6 @@ from mbs.simulation.state import Pose
 from mbs.simulation.stepping import Simulation
 from mbs.simulation.tolerance_run import to_tolerance
 from mbs.system.system import System
-
-_TIME_AFTER_JUMP = 1e-6  # of a step: time after a jump of an input at which its value is the new one
 
 
 def simulate(
@@ -150,11 +148,12 @@ def simulate(
         settings = replace(settings, method=method)  # Settings refuses an unknown method
     checked_inputs = check_values(inputs, "The inputs")
     signals = InputSignals(checked_inputs, prepared(system).meta["inputs"])
-    run = _Run(system, t0, t_end, checked_inputs, signals, settings, parameters, pose, every, progress)
+    run = _Run(system, t0, t_end, checked_inputs, signals, parameters, pose, every, progress)
     if requested is not None:  # warns of a large error itself
         with progress_for(progress) as bar:
             record = record_times(t0, t_end, h, every, times)
-            trajectory, _ = to_tolerance(run.start, requested, record, checked_inputs, settings, method, bar)
+            start = partial(run.start, 0.0, settings)
+            trajectory, _ = to_tolerance(start, requested, record, checked_inputs, settings, method, bar)
         return trajectory
     if h is not None and method != "auto":
         trajectory = run.run_equal_steps(h, settings, estimate_error)
@@ -179,20 +178,17 @@ class _Run:
     inputs: Mapping[str, Signal]
     signals: InputSignals
     """The inputs as functions of time."""
-    settings: Settings
     parameters: Mapping[str, Any] | None
     pose: Pose | None
     every: int
     progress: bool | Callable[[float], None] | None
 
-    def start(self, step: float = 0.0, settings: Settings | None = None) -> Simulation:
+    def start(self, step: float, settings: Settings) -> Simulation:
         """Make a Simulation at `t0` with the inputs of a step, s."""
-        names = [entry["name"] for entry in prepared(self.system).meta["inputs"]]
-        first_values = self.signals.at(np.array([self.t0]), _TIME_AFTER_JUMP * step, after_jump=True)[0]
         return Simulation(
             self.system,
-            settings=self.settings if settings is None else settings,
-            inputs={names[i]: x for i, x in zip(self.signals.columns(), first_values.tolist(), strict=True)},
+            settings=settings,
+            inputs=self.signals.start_values(self.t0, step),
             parameters=self.parameters,
             pose=self.pose,
             t0=self.t0,

@@ -40,8 +40,7 @@ def step_time(
     declared = system.meta["inputs"]
     signals = InputSignals(inputs or {}, declared)
     columns = signals.columns()
-    first = signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0]
-    start = {declared[i]["name"]: float(value) for i, value in zip(columns, first, strict=True)}
+    start = signals.start_values(0.0, h)
     table = None
     if columns:
         table = np.tile([float(entry["start"]) for entry in declared], (steps, 1))

@@ -1,7 +1,6 @@
 """Fits TMeasy to the Magic Formula and the Magic Formula to TMeasy by their steady curves, and gives the errors."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
 from math import atan, sin, sqrt
 from typing import NamedTuple
 
@@ -21,10 +20,12 @@ from mbs.tyre_files.pure_curves import (
     magic_trail,
     slip_at_load,
     tmeasy_force,
+    tmeasy_forces,
     tmeasy_trail,
 )
 
 Array = NDArray[np.float64]
+_Errors = Callable[[dict[str, float]], Array]
 LOADS = (0.5, 1.0, 1.5, 2.0)
 """Loads at which curves are fitted and compared, relative to the nominal load."""
 LONGITUDINAL_SLIPS = np.concatenate([-np.geomspace(0.5, 1e-3, 60), np.geomspace(1e-3, 1.0, 60)])
@@ -54,10 +55,13 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
         "longitudinal" and "lateral" relative to the largest force at that load; "moment": lateral force times trail,
         relative to the largest moment at that load.
     """
+    nominal, alpha = tyre.nominal_load, formula_slip("MF52", TANGENTS)
     errors = {
-        "longitudinal": partial(_longitudinal_errors, tyre),
-        "lateral": partial(_lateral_errors, tyre),
-        "moment": partial(_moment_errors, tyre),
+        "longitudinal": _force_errors(
+            magic_longitudinal, nominal, tyre.longitudinal, LONGITUDINAL_SLIPS, _TMEASY_SLIPS
+        ),
+        "lateral": _force_errors(magic_lateral, nominal, tyre.lateral, alpha, TANGENTS),
+        "moment": _moment_errors(tyre),
     }
     c: dict[str, float] = {}
     for name, start in _start_coefficients(tyre).items():
@@ -141,19 +145,32 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
 
 def _start_coefficients(tyre: Tyre) -> dict[str, dict[str, float]]:
     """Coefficients from which the fits of longitudinal force, lateral force and moment start."""
-    slopes = {name: getattr(tyre, name).slope[0] / tyre.nominal_load for name in ("longitudinal", "lateral")}
-    peaks = {name: getattr(tyre, name).max_force[0] / tyre.nominal_load for name in slopes}
+    nominal, x, y = tyre.nominal_load, tyre.longitudinal, tyre.lateral
     # usual values of passenger-car tyres where TMeasy gives none
-    longitudinal = {"PCX1": 1.5, "PDX1": peaks["longitudinal"], "PDX2": -0.05, "PEX1": 0.0, "PEX2": 0.0}
-    lateral = {"PCY1": 1.3, "PDY1": peaks["lateral"], "PDY2": -0.05, "PEY1": 0.0, "PEY2": 0.0}
     return {
-        "longitudinal": longitudinal | {"PKX1": slopes["longitudinal"], "PKX2": 0.0},
-        "lateral": lateral | {"PKY1": -1.2 * slopes["lateral"], "PKY2": 2.0},
+        "longitudinal": {
+            "PCX1": 1.5,
+            "PDX1": x.max_force[0] / nominal,
+            "PDX2": -0.05,
+            "PEX1": 0.0,
+            "PEX2": 0.0,
+            "PKX1": x.slope[0] / nominal,
+            "PKX2": 0.0,
+        },
+        "lateral": {
+            "PCY1": 1.3,
+            "PDY1": y.max_force[0] / nominal,
+            "PDY2": -0.05,
+            "PEY1": 0.0,
+            "PEY2": 0.0,
+            "PKY1": -1.2 * (y.slope[0] / nominal),
+            "PKY2": 2.0,
+        },
         "moment": {"QBZ1": 8.0, "QBZ2": 0.0, "QCZ1": 1.2, "QDZ1": 0.1, "QDZ2": 0.0, "QEZ1": -1.0},
     }
 
 
-def _fit_coefficients(start: Mapping[str, float], residuals: Callable[[dict[str, float]], Array]) -> dict[str, float]:
+def _fit_coefficients(start: Mapping[str, float], residuals: _Errors) -> dict[str, float]:
     """Coefficients with the least squares of the residuals."""
 
     def by_name(x: Array) -> dict[str, float]:
@@ -165,41 +182,36 @@ def _fit_coefficients(start: Mapping[str, float], residuals: Callable[[dict[str,
     return by_name(least_squares(differences, list(start.values()), x_scale="jac").x)
 
 
-def _longitudinal_errors(tyre: Tyre, c: dict[str, float]) -> Array:
-    """Errors of the longitudinal force at all loads and slips, relative to the largest force at each load."""
+def _force_errors(
+    law: Callable[..., Array], nominal: float, curve: TyreCurve, slip: Array, tmeasy_slip: Array
+) -> _Errors:
+    """Function of coefficients: errors of a force at all loads and slips, relative to the largest force at each load.
 
-    def error(load_ratio: float) -> Array:
-        force = magic_longitudinal(c, tyre.nominal_load, load_ratio * tyre.nominal_load, LONGITUDINAL_SLIPS)
-        target = _tmeasy_forces(tyre.longitudinal, load_ratio, _TMEASY_SLIPS)
-        return np.asarray((force - target) / at_load(tyre.longitudinal.max_force, load_ratio))
+    `law`: `magic_longitudinal` or `magic_lateral`; `slip`, `tmeasy_slip`: the same slips as both formulas take them.
+    """
+    targets = [(r * nominal, tmeasy_forces(curve, r, tmeasy_slip), at_load(curve.max_force, r)) for r in LOADS]
 
-    return np.concatenate([error(r) for r in LOADS])
+    def errors(c: dict[str, float]) -> Array:
+        return np.concatenate([(law(c, nominal, load, slip) - target) / largest for load, target, largest in targets])
 
-
-def _lateral_errors(tyre: Tyre, c: dict[str, float]) -> Array:
-    """Errors of the lateral force at all loads and slips, relative to the largest force at each load."""
-    alpha = formula_slip("MF52", TANGENTS)
-
-    def error(load_ratio: float) -> Array:
-        force = magic_lateral(c, tyre.nominal_load, load_ratio * tyre.nominal_load, alpha)
-        target = _tmeasy_forces(tyre.lateral, load_ratio, TANGENTS)
-        return np.asarray((force - target) / at_load(tyre.lateral.max_force, load_ratio))
-
-    return np.concatenate([error(r) for r in LOADS])
+    return errors
 
 
-def _moment_errors(tyre: Tyre, c: dict[str, float]) -> Array:
-    """Errors of the moment at all loads and slips, relative to the largest moment at each load."""
+def _moment_errors(tyre: Tyre) -> _Errors:
+    """Function of coefficients: errors of the moment at all loads and slips, relative to the largest at each load."""
+    nominal, targets = tyre.nominal_load, []
+    for r in LOADS:
+        force = tmeasy_forces(tyre.lateral, r, TANGENTS)
+        moment = _trail(tyre, r) * force
+        targets.append((r * nominal, force, moment, np.abs(moment).max()))
 
-    def error(load_ratio: float) -> Array:
-        length = _patch_length(tyre.radius, load_ratio, tyre.nominal_load, tyre.stiffness)
-        force = _tmeasy_forces(tyre.lateral, load_ratio, TANGENTS)
-        moment = length * _relative_trail(tyre, load_ratio) * force
-        load = load_ratio * tyre.nominal_load
-        trail = magic_trail(c, tyre.nominal_load, tyre.radius, load, TANGENTS, "MF52")
-        return np.asarray((trail * force - moment) / np.abs(moment).max())
+    def errors(c: dict[str, float]) -> Array:
+        trails = [magic_trail(c, nominal, tyre.radius, load, TANGENTS, "MF52") for load, *_ in targets]
+        return np.concatenate(
+            [(trail * f - m) / largest for trail, (_, f, m, largest) in zip(trails, targets, strict=True)]
+        )
 
-    return np.concatenate([error(r) for r in LOADS])
+    return errors
 
 
 def _relaxation_coefficients(tyre: Tyre, c: dict[str, float]) -> dict[str, float]:
@@ -220,8 +232,7 @@ def _tmeasy_errors(
     """Largest errors of a fitted TMeasy, as in `magic_of_tmeasy`; target forces, N, and trails, m, by load ratio."""
 
     def moment_errors(r: float) -> Array:
-        length = _patch_length(tyre.radius, r, tyre.nominal_load, tyre.stiffness)
-        return np.asarray((length * _relative_trail(tyre, r) - trails[r]) * lateral_forces[r])
+        return np.asarray((_trail(tyre, r) - trails[r]) * lateral_forces[r])
 
     def largest(error: Callable[[float], Array], references: Mapping[float, Array]) -> float:
         # a tyre without trail has moments of 0
@@ -230,20 +241,11 @@ def _tmeasy_errors(
     moments = {r: np.abs(trails[r] * lateral_forces[r]) for r in LOADS}
     return {
         "longitudinal": largest(
-            lambda r: _tmeasy_forces(tyre.longitudinal, r, _TMEASY_SLIPS) - longitudinal_forces[r], longitudinal_forces
+            lambda r: tmeasy_forces(tyre.longitudinal, r, _TMEASY_SLIPS) - longitudinal_forces[r], longitudinal_forces
         ),
-        "lateral": largest(lambda r: _tmeasy_forces(tyre.lateral, r, TANGENTS) - lateral_forces[r], lateral_forces),
+        "lateral": largest(lambda r: tmeasy_forces(tyre.lateral, r, TANGENTS) - lateral_forces[r], lateral_forces),
         "moment": largest(moment_errors, moments),
     }
-
-
-def _tmeasy_forces(curve: TyreCurve, load_ratio: float, slip: Array) -> Array:
-    """Forces of TMeasy at a load relative to the nominal load, N."""
-    slope, max_force, slide_force = (
-        at_load(pair, load_ratio) for pair in (curve.slope, curve.max_force, curve.slide_force)
-    )
-    max_slip, slide_slip = (slip_at_load(pair, load_ratio) for pair in (curve.max_slip, curve.slide_slip))
-    return tmeasy_force(slope, max_force, max_slip, slide_force, slide_slip, slip)
 
 
 def _patch_length(radius: float, load_ratio: float, nominal: float, stiffness: float) -> float:
@@ -251,11 +253,12 @@ def _patch_length(radius: float, load_ratio: float, nominal: float, stiffness: f
     return 2.0 * sqrt(radius * load_ratio * nominal / stiffness)
 
 
-def _relative_trail(tyre: Tyre, load_ratio: float) -> Array:
-    """Trail of TMeasy relative to the length of the contact patch, at the slips `TANGENTS`."""
+def _trail(tyre: Tyre, load_ratio: float) -> Array:
+    """Trail of TMeasy at the slips `TANGENTS`, m."""
     pairs = (tyre.trail, tyre.trail_zero, tyre.trail_end)
     trail, zero, end = (slip_at_load(pair, load_ratio) for pair in pairs)
-    return tmeasy_trail(trail, zero, end, TANGENTS)
+    length = _patch_length(tyre.radius, load_ratio, tyre.nominal_load, tyre.stiffness)
+    return length * tmeasy_trail(trail, zero, end, TANGENTS)
 
 
 class _CurveValues(NamedTuple):

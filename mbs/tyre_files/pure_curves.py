@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.elements.magic_tyre import MagicTyre
+from mbs.elements.tyre import TyreCurve
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 
 Array = NDArray[np.float64]
@@ -41,6 +42,15 @@ def tmeasy_force(
     progress = np.clip((s - peak_slip) / (sliding_slip - peak_slip), 0.0, 1.0)
     falling = peak - (peak - sliding) * progress**2 * (3.0 - 2.0 * progress)
     return np.asarray(np.sign(slip) * np.where(s < peak_slip, rising, falling))
+
+
+def tmeasy_forces(curve: TyreCurve, load_ratio: float, slip: ArrayLike) -> Array:
+    """Forces of TMeasy at a load relative to the nominal load, N. `slip`: as in `tmeasy_force`."""
+    slope, max_force, slide_force = (
+        at_load(pair, load_ratio) for pair in (curve.slope, curve.max_force, curve.slide_force)
+    )
+    max_slip, slide_slip = (slip_at_load(pair, load_ratio) for pair in (curve.max_slip, curve.slide_slip))
+    return tmeasy_force(slope, max_force, max_slip, slide_force, slide_slip, slip)
 
 
 def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Array:

@@ -20,7 +20,7 @@ from mbs.tyre_files.pure_curves import (
     cornering_stiffness,
     magic_lateral,
     magic_longitudinal,
-    tmeasy_force,
+    tmeasy_forces,
 )
 
 Array = NDArray[np.float64]
@@ -271,17 +271,10 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
     for q in LOADS:
         pair = []
         for curve in (tyre.lateral, tyre.longitudinal):
-            slope, peak, sliding = (at_load(getattr(curve, f), q) for f in ("slope", "max_force", "slide_force"))
-            peak_slip, sliding_slip = (v[0] + (q - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
             # the lateral slip is the tangent of the angle
             slips = np.tan(SLIPS) if curve is tyre.lateral else SLIPS
-            pair.append(
-                _Curve(
-                    slope / (q * nominal),
-                    tmeasy_force(slope, peak, peak_slip, sliding, sliding_slip, slips) / (q * nominal),
-                    0.0,
-                )
-            )
+            load = q * nominal
+            pair.append(_Curve(at_load(curve.slope, q) / load, tmeasy_forces(curve, q, slips) / load, 0.0))
         curves[q] = (pair[0], pair[1])
     keys: dict[str, dict[str, Any]] = {}
     for axis, name in (("y", "lateral"), ("x", "longitudinal")):

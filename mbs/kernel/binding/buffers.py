@@ -1,7 +1,14 @@
 """Sequences and buffers as C arrays of doubles."""
 
-from ctypes import c_double
+from ctypes import POINTER, c_double, cast
 from typing import Any
+
+DOUBLES = POINTER(c_double)
+
+
+def pointer(array: Any) -> Any:
+    """A pointer to the doubles of a C array; None, a null pointer, is returned as such."""
+    return None if array is None else cast(array, DOUBLES)
 
 
 def numbers(values: Any, count: int, name: str) -> Any:

@@ -7,19 +7,18 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_p
+from ctypes import byref, c_char_p, c_double, c_int32, c_int64, c_void_p
 from typing import Any
 
 from ..header.limits import POSE
 from ..header.steps import Balance
 from ..header.structures import ControlFields, InputTable, InputTables, RecordFields, SettingsFields
-from .buffers import buffer, numbers
+from .buffers import DOUBLES, buffer, numbers, pointer
 from .errors import KernelError
 from .loaded_system import LoadedSystem
 from .standing_instance import StandingInstance
 
-_DOUBLES = POINTER(c_double)
-_INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLES)
+_INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, DOUBLES)
 
 
 class Instance(StandingInstance):
@@ -97,7 +96,7 @@ class Instance(StandingInstance):
         buffers = {
             i: [buffer(x, len(table[0]), "a table", writable=False) for x in table] for i, table in tables.items()
         }
-        rows = [InputTable(i, len(a[0]), *(ctypes.cast(x, _DOUBLES) for x in a)) for i, a in buffers.items()]
+        rows = [InputTable(i, len(a[0]), *map(pointer, a)) for i, a in buffers.items()]
         context = InputTables(tolerance, len(rows), (InputTable * len(rows))(*rows))
         address = ctypes.cast(self._library.ali3_input_of_tables, c_void_p)
         self._check(self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p)))
@@ -287,7 +286,7 @@ class Instance(StandingInstance):
             buffer(sensors, n * sizes.ns, "sensors", writable=True),
             buffer(positions, n * sizes.nq, "positions", writable=True),
         )
-        record = RecordFields(n, *(None if r is None else ctypes.cast(r, POINTER(c_double)) for r in rows))
+        record = RecordFields(n, *map(pointer, rows))
         written = c_int64(done)
         lengths = buffer(scale, sizes.nq, "scale", writable=False)
         status = self._library.ali3_control_run(

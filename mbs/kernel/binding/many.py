@@ -1,19 +1,16 @@
 """Instances of one System that advance together."""
 
-import ctypes
 from collections.abc import Sequence
-from ctypes import POINTER, byref, c_double, c_void_p
+from ctypes import byref, c_void_p
 from typing import Any, NamedTuple
 
 from ..header.structures import LaneFields
-from .buffers import buffer
+from .buffers import buffer, pointer
 from .errors import KernelError, creation_error, status_text
 from .instance import Instance
 from .kernel_memory import KernelMemory
 from .library import load_library
 from .loaded_system import LoadedSystem
-
-_DOUBLES = POINTER(c_double)
 
 
 class RunEnd(NamedTuple):
@@ -77,8 +74,8 @@ class Many(KernelMemory):
             position_buffer = buffer(rows, n // every * sizes.nq, "positions", writable=True)
             buffers.append((out_buffer, position_buffer))
             lane.instance = instance._handle
-            lane.out = _pointer(out_buffer)
-            lane.positions = _pointer(position_buffer)
+            lane.out = pointer(out_buffer)
+            lane.positions = pointer(position_buffer)
         self._check(self._library.ali3_many_run(self._handle, len(lanes), lanes, h, n, every))
         return [
             RunEnd(lane.done, lane.alone, self._error(instance, lane.status))
@@ -91,7 +88,3 @@ class Many(KernelMemory):
         except KernelError as error:
             return error
         return None
-
-
-def _pointer(array: Any) -> Any:
-    return None if array is None else ctypes.cast(array, _DOUBLES)
