@@ -64,6 +64,7 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
     assert "camera of the driver" in page.inner_text("[data-a3='help list']")
     page.keyboard.press("Escape")
     assert not page.locator("[data-a3='help list']").is_visible()
+    page.evaluate("async () => { await player.pause(); }")  # else the car creeps away from the place
     place = page.evaluate("Object.keys(player.options.places)")[3]
     page.get_by_title("begin at a place of the world").select_option(place)
     start = page.evaluate("name => player.options.places[name]", place)
@@ -72,6 +73,7 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
         "([x, y]) => Math.hypot(player.view.origin[0] - x, player.view.origin[1] - y) < 5",
         [start["initial.x"], start["initial.y"]],
     )
+    page.evaluate("async () => { await player.run(); }")
     page.keyboard.press("o")
     page.select_option("[data-a3=quality]", "medium")
     wait_until(page, "player.view.look.quality === 'medium' && player.view.renderer.info.render.triangles > 100000")
