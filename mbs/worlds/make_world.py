@@ -14,12 +14,10 @@ from ali3.typed_sentences import Sentences
 from mbs.roads.read_road import read_road
 from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
 from mbs.roads.scene_part import read_thinned, scene_part
-from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.thinned_world import STEP, measure_thinning, thinned_spacing
 from mbs.worlds.world_file import is_world
-from mbs.worlds.world_plausibility import world_plausibility
 from mbs.worlds.world_record import make_record, world_record
 from mbs.worlds.world_road_file import grid_shape, write_world_road
 from mbs.worlds.world_types import WorldDescription
@@ -48,6 +46,7 @@ def read_world(file: Path) -> WorldDescription:
         x, y, _ = place.at
         if not (x0 <= x <= x1 and y0 <= y <= y1):
             raise RoadFileError(f"{file}: the place '{place.name}' lies at ({x:g}, {y:g}), outside of the world.")
+    _check_size(world, file)
     return world
 
 
@@ -69,8 +68,6 @@ def make_world(
     if (world := read_description(file)) is not None:
         if thin:
             world = world.model_copy(update={"spacing": thinned_spacing(world.spacing)})
-        _check_size(world, file)
-        world_plausibility(str(file), world).warn(RoadWarning)
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)

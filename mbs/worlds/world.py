@@ -6,7 +6,6 @@ The folder gets the road file NAME.road, and NAME.json with the drawing and the 
 import json
 import sys
 import time
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +18,13 @@ from ali3.reading import is_file
 from ali3.warning_lines import warning_lines
 from mbs.roads import RoadFile
 from mbs.roads.kinds import CRG, MESHES
+from mbs.roads.steep_faces import RoadWarning
 from mbs.worlds.make_world import make_world, read_description
 from mbs.worlds.map_picture import draw_map
 from mbs.worlds.package_worlds import ROADS, WORLDS, world_names
 from mbs.worlds.world_cache import add_file, cache_key, world_files
 from mbs.worlds.world_file import named_files
+from mbs.worlds.world_plausibility import world_plausibility
 
 
 def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False, table: Path | None = None) -> int:
@@ -39,12 +40,14 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     if file.suffix.lower() == ".toml":
         name, source_files = named_files(file)
         files += source_files
+    # Not among the warnings of a cached world: it may have been made from a copy of the file.
+    described = _plausibilities_of_description(file)
     key = cache_key(files) + ("-thin" if thin else "")
     paths, cached = world_files(key, lambda folder: _make_files(file, name, folder, thin), out)
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw_record(out / f"{name}.json", target), picture)
         paths.append(picture)
-    plausibilities = _plausibilities(file, out / f"{name}.road")
+    plausibilities = [*described, *plausibility_of(RoadFile(out / f"{name}.road"))]
     print(summary_of(plausibilities))
     if table is not None:
         write_json(table, tables_of(plausibilities))
@@ -60,10 +63,15 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     return 0
 
 
-def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
-    """Plausibility of the description of a world, and of its road file."""
+def _plausibilities_of_description(file: Path) -> list[Plausibility]:
+    """Plausibility of the description of a world, of which implausible values are warned; none of a road."""
     description = read_description(file)
-    return [*(plausibility_of(description) if description is not None else []), *plausibility_of(RoadFile(road))]
+    if description is None:
+        return []
+    plausibility = world_plausibility(str(file), description)
+    with warning_lines():
+        plausibility.warn(RoadWarning)
+    return [plausibility]
 
 
 def _world_file(name_or_file: str) -> Path:

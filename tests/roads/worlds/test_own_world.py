@@ -284,6 +284,23 @@ def test_a_course_that_climbs_like_no_road_is_reported_before_it_is_made_and_whe
     assert "warning" not in capsys.readouterr().err
 
 
+def test_a_kept_world_is_warned_of_with_the_name_and_the_spacing_of_its_own_file(tmp_path, own_cache, capsys):
+    size = "left = 1.0\nright = -1.0\nlength = 0.8\nheight = 0.08\nface = 0.32\n"  # too steep for the points of a page
+    kerb = f'[[obstacles]]\nkind = "kerb"\nat = [0.0, 0.0, 0.0]\n{size}'
+    for folder, width in (("a", 60.0), ("b", 60.0), ("c", 6.0)):
+        (tmp_path / folder).mkdir()
+        file = tmp_path / folder / "w.toml"
+        course = (
+            f'[[courses]]\nname = "wide"\nstart = [-20.0, 0.0, 0.0]\nsegments = [{{length = 40.0}}]\nwidth = {width}\n'
+        )
+        head = 'kind = "world"\nname = "w"\nbounds = [-50, -50, 50, 50]\nspacing = [0.05, 0.05]\n'
+        file.write_text(head + course + kerb, encoding="utf-8")
+        assert main(["--world", str(file), "--out", str(tmp_path / "out"), "--thin"]) == 0
+        warnings = [line for line in capsys.readouterr().err.splitlines() if line.startswith("warning")]
+        expected = [] if width == 6.0 else [f"warning: {file}: courses.0 width of the course is 60 m"]
+        assert [line.partition(";")[0] for line in warnings] == expected
+
+
 def test_heights_widths_and_banks_of_a_course_file(tmp_path):
     course = "x,y,z,width,bank\n" + "".join(f"{x},0,{2 + 0.02 * x},{6 + 0.02 * x},0.1\n" for x in range(-45, 46, 5))
     (tmp_path / "w.toml").write_text(WORLD + LAP + "smoothing = 1.0\n", encoding="utf-8")
