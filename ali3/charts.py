@@ -21,7 +21,8 @@ from ali3.files import atomic_file, write_bytes
 from ali3.message_text import clean
 
 _PIXELS_PER_INCH = 96  # of CSS
-_DOTS_PER_INCH = 150  # of parts that are drawn as pixels
+_DOTS_PER_INCH = 150  # of parts of an SVG that are drawn as pixels
+_PICTURE_DOTS_PER_INCH = 110  # of PNG files
 MANY_POINTS = 200
 """A curve with more markers is better drawn as pixels (``rasterized``): each marker takes about 80 bytes of SVG."""
 
@@ -32,7 +33,7 @@ class Drawing:
 
     svg: bytes
     words: str
-    """Alternative text."""
+    """Alternative text, which is also the title in the SVG."""
     size: tuple[int, int]
     """Width and height, CSS pixels."""
 
@@ -43,7 +44,7 @@ class Drawing:
 
 
 @contextlib.contextmanager
-def _ignored_layout_warning() -> Iterator[None]:
+def _ignore_layout_warning() -> Iterator[None]:
     """Ignore the warning that texts from files are too long for the layout."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "constrained_layout not applied", UserWarning)
@@ -53,13 +54,14 @@ def _ignored_layout_warning() -> Iterator[None]:
 def drawing(figure: Figure, message: str) -> Drawing:
     """Draw a figure as SVG, and close it; the same figure gives the same bytes.
 
-    `message`: alternative text, which is also the title in the file; empty: the title of the figure.
+    `message`: alternative text; empty: the title of the figure.
     """
     content = io.BytesIO()
     figure_text = describe(figure)
-    title, description = (escape(clean(text)) for text in (message or figure_text.partition("\n")[0], figure_text))
+    alternative_text = message or figure_text.partition("\n")[0]
+    title, description = (escape(clean(text)) for text in (alternative_text, figure_text))
     figure.set_dpi(_DOTS_PER_INCH)
-    with plt.rc_context({"svg.hashsalt": "ali3"}), _ignored_layout_warning():
+    with plt.rc_context({"svg.hashsalt": "ali3"}), _ignore_layout_warning():
         # `savefig` would draw the figure and its layout twice.
         canvas: Any = FigureCanvasSVG(figure)
         canvas.print_svg(content, metadata={"Date": None, "Creator": None})
@@ -69,11 +71,11 @@ def drawing(figure: Figure, message: str) -> Drawing:
     prolog, root, remainder = content.getvalue().partition(b"<svg ")
     tag, _, elements = remainder.partition(b">")
     accessible_text = f' role="img">\n <title>{title}</title>\n <desc>{description}</desc>'.encode()
-    return Drawing(prolog + root + tag + accessible_text + elements, message, (width, height))
+    return Drawing(prolog + root + tag + accessible_text + elements, alternative_text, (width, height))
 
 
 def save_picture(figure: Figure, file: Path) -> None:
     """Write a figure as PNG with its description, and close it; the same figure gives the same bytes."""
-    with atomic_file(file) as temporary, _ignored_layout_warning():
-        figure.savefig(temporary, dpi=110, metadata=png_metadata(figure))
+    with atomic_file(file) as temporary, _ignore_layout_warning():
+        figure.savefig(temporary, dpi=_PICTURE_DOTS_PER_INCH, metadata=png_metadata(figure))
     plt.close(figure)

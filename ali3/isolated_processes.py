@@ -105,7 +105,7 @@ class _Process:
     def send(self, data: bytes) -> None:
         """Write to the process, unless it has ended, which its output shows."""
         assert self.process.stdin is not None
-        with suppress(OSError):
+        with suppress(OSError, ValueError):  # `end`, in another thread, may have closed the stream
             self.process.stdin.write(data)
             self.process.stdin.flush()
 
@@ -228,11 +228,15 @@ class Isolated(Generic[T, R]):
         of the process, see `ali3.processes.store`. Raises `UserError` if the work has raised it, or another error that
         `run_command` would show.
         """
-        data, expired = pickle.dumps(task), threading.Event()
+        data = pickle.dumps(task)
         process, is_new = self._started()
+        expired_texts: list[str] = []
 
         def end() -> None:
-            expired.set()
+            has_begun = process.number is not None
+            expired_texts.append(
+                f"took more than {limit:g} s" if has_begun else f"had not begun after {_START_TIMEOUT:g} s"
+            )
             process.kill()
 
         process.send(data)
@@ -252,13 +256,12 @@ class Isolated(Generic[T, R]):
             raise
         if answer is None:
             how, call, stored = self._end(finish)
-            if expired.is_set():
-                how = f"took more than {limit:g} s" if process.number else f"had not begun after {_START_TIMEOUT:g} s"
-                how += call
-            return Lost(how, expired.is_set(), stored)
+            if expired_texts:
+                how = expired_texts[0] + call
+            return Lost(how, bool(expired_texts), stored)
         kind, content = answer
         result: R | None = finish(content, process.store) if kind == DONE else None
-        if expired.is_set():
+        if expired_texts:
             self._end()
         if kind == ERROR:
             error = UserError(content[0])
@@ -269,17 +272,20 @@ class Isolated(Generic[T, R]):
     @property
     def pid(self) -> int | None:
         """ID of the process; None if there is none, or it is not ready."""
-        return None if self._process is None else self._process.number
+        process = self._process
+        return None if process is None else process.number
 
     @property
     def folder(self) -> Path | None:
         """Folder of the process, which is removed with it; None if there is none."""
-        return None if self._process is None else self._process.folder
+        process = self._process
+        return None if process is None else process.folder
 
     def send(self, word: Any) -> None:
         """Send a value to the process, which its task receives by `ali3.processes.received`."""
-        if self._process is not None:
-            self._process.send(pickle.dumps(word))
+        process = self._process  # `close` in another thread may set it to None
+        if process is not None:
+            process.send(pickle.dumps(word))
 
     def close(self) -> None:
         """End the process, also during a task of another thread, which is then lost."""

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 
 VALUE = 60  # characters of a value in a sentence
 SENTENCE = 400  # characters of a sentence that quotes a file
-_MAX_WORD = 240  # longest word that is not shortened
-_MAX_MESSAGE = 2000  # longest message that is not shortened
+_MAX_WORD = 240  # characters of the longest word that is not shortened
+_MAX_MESSAGE = 2000  # characters of the longest message that is not shortened
 _FORBIDDEN_IN_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 
 
@@ -44,20 +44,24 @@ def value_text(value: object) -> str:
 
 def shortened(sentence: str) -> str:
     """A sentence with a limited length of each word and of the whole, without control characters for terminals."""
-    sentence = "".join(c if c.isprintable() or c in "\n\t" else repr(c)[1:-1] for c in sentence)
-    sentence = re.sub(rf"\S{{{_MAX_WORD},}}", lambda match: f"{match[0][:100]}...{match[0][-60:]}", sentence)
-    return (
-        sentence
-        if len(sentence) <= _MAX_MESSAGE
-        else f"{sentence[: _MAX_MESSAGE // 2]} ... {sentence[-_MAX_MESSAGE // 2 :]}"
-    )
+    sentence = _escaped(sentence, retained="\n\t")
+    sentence = re.sub(rf"\S{{{_MAX_WORD + 1},}}", lambda match: f"{match[0][:100]}...{match[0][-60:]}", sentence)
+    return _cut(sentence, _MAX_MESSAGE)
 
 
 def one_line(sentence: str, most: int = SENTENCE) -> str:
     """A sentence without line breaks and of limited length, whatever texts it quotes."""
-    if len(sentence) > most:
-        sentence = f"{sentence[: most // 2]} ... {sentence[-most // 2 :]}"
-    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
+    return _cut(_escaped(_cut(sentence, most)), most)  # first cut, as escaping a large text would take long
+
+
+def _cut(text: str, most: int) -> str:
+    """The first and the last characters of a text of more than `most` characters."""
+    return text if len(text) <= most else f"{text[: most // 2]} ... {text[-most // 2 :]}"
+
+
+def _escaped(text: str, retained: str = "") -> str:
+    """A text with escape sequences for control characters that are not in `retained`."""
+    return "".join(c if c.isprintable() or c in retained else repr(c)[1:-1] for c in text)
 
 
 def sentence_of(message: str) -> str:

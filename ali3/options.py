@@ -17,7 +17,9 @@ class Parser(argparse.ArgumentParser):
     """A parser of a command line that shortens long words in messages and retains the lines of descriptions."""
 
     def __init__(self, **options: Any) -> None:
-        super().__init__(**{"formatter_class": argparse.RawDescriptionHelpFormatter} | options)
+        # without abbreviations, as reports look for options in the command that they repeat
+        defaults = {"formatter_class": argparse.RawDescriptionHelpFormatter, "allow_abbrev": False}
+        super().__init__(**defaults | options)
         # argparse knows no negative values other than plain decimals, such as -30mm, -1e3 or -1:1
         self._negative_number_matcher = re.compile(rf"-{DECIMAL}")
 

@@ -31,9 +31,22 @@ MAX_LINE = 10_000_000
 """Bytes or characters."""
 DEEPEST = 100
 LARGEST_WHOLE = 2**63 - 1
-"""As TOML has it."""
+"""Largest whole number of TOML, a signed integer of 64 bits; the smallest is -2**63."""
 _MAX_NAME = 1000  # characters of the name of a missing file in a sentence
 _MAX_DOTS = 200  # of a key: the time of the parser is proportional to their square
+_STRINGS_AND_COMMENTS = re.compile(
+    "|".join(
+        (
+            r'"{3}(?:\\.|.)*?(?:"{3,5}|\Z)',
+            r"'{3}.*?(?:'{3,5}|\Z)",
+            r'"(?:\\[^\n]|[^"\n])*"?',
+            r"'[^'\n]*'?",
+            r"#[^\n]*",
+        )
+    ),
+    re.DOTALL,
+)
+"""Strings and comments of a TOML file. Strings without an end match, too, so that the time is linear."""
 
 
 def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> Path:
@@ -138,7 +151,7 @@ def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
     `data`: bytes, at most `LARGEST_TOML`; `error`: raised with one sentence; `name`: name of the file in the sentence.
     """
     text = file_text(data, error, name)
-    text_of_keys = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without strings and comments
+    text_of_keys = _STRINGS_AND_COMMENTS.sub("", text)
     if any(part.count(".") > _MAX_DOTS for part in re.split(r"[,=\[\]{}\n]", text_of_keys)):
         raise error(f"{name} is not a readable TOML file: a key has more than {_MAX_DOTS} parts.")
     try:
@@ -189,7 +202,7 @@ def check_content(content: Any, error: Error, name: str, finite: bool) -> None:
             if isinstance(value, (dict, list)):
                 stack.append((value, (key_chain, key), depth + 1))
             elif isinstance(value, int):
-                if abs(value) > LARGEST_WHOLE:
+                if not -LARGEST_WHOLE - 1 <= value <= LARGEST_WHOLE:
                     raise error(f"{name}: {_location((key_chain, key))} is a whole number that 64 bits cannot hold.")
             elif finite and isinstance(value, float) and not math.isfinite(value):
                 raise error(f"{name}: {_location((key_chain, key))} is {value}; it must be a finite number.")

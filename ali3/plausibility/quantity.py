@@ -68,5 +68,5 @@ def _ranges(text: str) -> dict[str, Range]:
     ranges = {}
     for entry in filter(None, text.split(", ")):
         *kind, low, high = entry.split()
-        ranges["".join(kind)] = float(low), float(high)
+        ranges[" ".join(kind)] = float(low), float(high)
     return ranges

@@ -31,6 +31,7 @@ SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
 _MAX_FILE_SIZE = 1_000_000_000  # bytes of a file, and of all files that it names
 MAX_TRIANGLES = 100_000
 """Of a drawn mesh, which takes 1.8 MB of a page."""
+_MAX_COORDINATE = float(np.finfo(np.float32).max)  # m
 _BYTES_PER_ELEMENT = 64  # bytes of memory for a point, an attribute or an index
 # sizes beyond which the unit of a mesh is doubtful, m
 _MIN_SIZE = 1e-3
@@ -46,21 +47,32 @@ def read_mesh(
 ) -> tuple[Positions, Triangles]:
     """Read the triangles of a mesh from a file.
 
-    Points of the same place are one point. The axes are the axes of the file: y is up in a glTF file. All parts of
-    a file with several are read, each where the file places it; colours and textures are left out. A size below 1 mm or
-    above 500 m is warned about.
+    Points at the same position are merged. The axes are the axes of the file: y is up in a glTF file. All parts of
+    a file with several are read, each where the file places it; colours and textures are left out. A mesh below 1 mm or
+    above 500 m across causes a warning.
 
-    `path`: ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``; `scale`: metres per unit of the file: 0.001
-    for millimetres, 0.0254 for inches; `most_triangles`: a finer mesh is thinned by merging points that are close to
-    each other; a warning says by how much they move. Raises `MeshError` if the file is of another kind, is damaged, has
-    no triangles, or has coordinates that are not finite; `FileError` if the file cannot be read.
+    Parameters
+    ----------
+    path : path-like
+        ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf`` file.
+    scale : float
+        Metres per unit of the file: 0.001 for millimetres, 0.0254 for inches.
+    most_triangles : int
+        A finer mesh is thinned by merging points that are close to each other; a warning says by how much they move.
 
     Returns
     -------
     positions : (n, 3) float32
         Points, m.
     triangles : (m, 3) uint32
-        Numbers of their points, counterclockwise as seen from outside.
+        Indices of their points, counterclockwise as seen from outside.
+
+    Raises
+    ------
+    MeshError
+        The file has another format, is damaged, has no triangles, or has coordinates that are not finite.
+    FileError
+        The file cannot be read.
     """
     points, triangles = _merge_equal_points(read_corners(path, scale).reshape(-1, 3))
     if not len(triangles):
@@ -95,12 +107,13 @@ def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = 
     if triangles.min() < 0 or triangles.max() >= len(points):
         raise MeshError(f"{path} is not a mesh: a triangle refers to a point that does not exist.")
     corners = points[triangles]
-    largest_float = float(np.finfo(np.float32).max)
-    n_bad = int((~(np.abs(corners) < largest_float).all(axis=(1, 2))).sum())
-    if n_bad:
-        raise MeshError(
-            f"{path} is not a mesh: {n_bad} of its {len(triangles)} triangles have coordinates that are not numbers."
-        )
+    for fault, is_valid in (
+        ("that are not finite numbers", np.isfinite(corners)),
+        (f"beyond {_MAX_COORDINATE:.2g} m", np.abs(corners) < _MAX_COORDINATE),
+    ):
+        if n_invalid := int((~is_valid.all(axis=(1, 2))).sum()):
+            of_triangles = f"{n_invalid} of its {len(triangles)} triangles"
+            raise MeshError(f"{path} is not a mesh: {of_triangles} have coordinates {fault}.")
     return corners
 
 
@@ -137,7 +150,7 @@ class _NamedBytes(dict[str, bytes]):
             self._named_files.file(unquote(name), self._file.parent, str(self._file)), _MAX_FILE_SIZE, MeshError
         )
 
-    def get(self, name: str, default: object = None) -> bytes:
+    def get(self, name: str, default: object = None) -> bytes:  # trimesh reads by `get`: a missing file is an error
         return self[name]
 
 
@@ -158,7 +171,11 @@ def _gltf_memory(content: bytes, name: str) -> int:
 
 
 def _merge_equal_points(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Points that differ as float32, shape (n, 3), and triangles with three of them, of 3 m corners, shape (3 m, 3)."""
+    """Merge corners, m, shape (3 k, 3), that are equal as float32.
+
+    Returns the points, shape (n, 3), and the triangles that still have three different ones, as indices, shape (k, 3)
+    at most.
+    """
     points, index = np.unique(corners.astype(np.float32), axis=0, return_inverse=True)
     return points.astype(float), _not_degenerate(index.reshape(-1, 3))
 

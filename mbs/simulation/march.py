@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
-from mbs.kernel.header.limits import MOST_PARTS
 from mbs.results import accuracy
 from mbs.results.comparison import instants
 from mbs.results.omitted_sensors import OmittedSensors
@@ -32,6 +31,8 @@ from mbs.simulation.refusal import refusal
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
+WATCHED_PARTS = 8
+"""Number of parts of a run between which `watch` of `march` is called."""
 CHUNK_SECONDS = 0.1  # wall time of one call of the kernel, between which progress is shown and Ctrl-C takes effect
 
 
@@ -55,7 +56,7 @@ def march(
     samples_per_pose : int
         Poses are kept for one of this many samples at most.
     watch : callable, optional
-        Receives the samples so far after each eighth of the run and returns whether the run ends there.
+        Receives the samples so far after each eighth of the run but the last, and returns whether the run ends there.
 
     Returns
     -------
@@ -80,12 +81,15 @@ def march(
     values[0] = list(instance.sensors())
     omitted = omitted_of_run(simulation, checked_inputs, h, every)
     compared = [int(k) for k in instants(len(values))] if records_coordinates else []
-    pauses = [int(k) * every for k in instants(len(values))] if simulation.bending.has_flexible_bodies else []
+    has_flexible_bodies = simulation.bending.has_flexible_bodies
+    observed_steps = {int(k) * every for k in instants(len(values))} if has_flexible_bodies else set()
+    watched_steps = set()
     if watch is not None:
-        pauses = sorted({*pauses, *(len(values) * k // MOST_PARTS * every for k in range(1, MOST_PARTS))})
+        watched_steps = {len(values) * k // WATCHED_PARTS * every for k in range(1, WATCHED_PARTS)}
+    pauses = sorted(observed_steps | watched_steps)
     positions = [simulation.state.q] if records_coordinates else []
     record = PositionRecord(simulation.system, simulation.state.q, len(values), samples_per_pose)
-    steps_done, wall, chunk, before = 0, 0.0, every, simulation.report
+    steps_done, kernel_time, chunk, report_before = 0, 0.0, every, simulation.report
     with progress_for(progress) as bar, attach_inputs(simulation, signals, t0, t0 + steps * h, h):
         while steps_done < steps:
             next_pauses = [k - steps_done for k in pauses if k > steps_done]
@@ -97,29 +101,31 @@ def march(
                 coordinates = np.empty((len(block), simulation.system.nq))
             clock_start = time.perf_counter()
             try:
-                instance.run(h, n, None, every, block, coordinates)
+                instance.run(h, n, every=every, out=block, positions=coordinates)
             except KernelError as error:
                 samples = round((simulation.time - t0) / h) // every + 1
-                wall += time.perf_counter() - clock_start
+                kernel_time += time.perf_counter() - clock_start
                 record.store(row, coordinates)
-                trajectory = trajectory_of(simulation, t0, h * every, values[:samples], wall, before, record, omitted)
+                trajectory = trajectory_of(
+                    simulation, t0, h * every, values[:samples], kernel_time, report_before, record, omitted
+                )
                 subject = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
                 raise refusal(simulation, subject, error, trajectory, step_given=True) from error
-            spent = time.perf_counter() - clock_start
-            wall += spent
+            call_time = time.perf_counter() - clock_start
+            kernel_time += call_time
             record.store(row, coordinates)
             steps_done += n
             positions += [
                 coordinates[k - row].copy() for k in compared if coordinates is not None and row <= k < row + len(block)
             ]
-            if next_pauses and n == next_pauses[0] and simulation.bending.has_flexible_bodies:
+            if steps_done in observed_steps:
                 simulation.bending.observe(simulation.time, simulation.state.q)
             bar.update(steps_done / steps)
-            if watch is not None and next_pauses and n == next_pauses[0] and watch(values[: steps_done // every + 1]):
+            if watch is not None and steps_done in watched_steps and watch(values[: steps_done // every + 1]):
                 values = values[: steps_done // every + 1]
                 break
-            chunk = next_chunk(chunk, spent, every)
-    return trajectory_of(simulation, t0, h * every, values, wall, before, record, omitted), positions
+            chunk = next_chunk(chunk, call_time, every)
+    return trajectory_of(simulation, t0, h * every, values, kernel_time, report_before, record, omitted), positions
 
 
 @contextmanager
@@ -139,27 +145,29 @@ def trajectory_of(
     t0: float,
     interval: float,
     values: Array,
-    wall: float,
-    before: Report,
+    kernel_time: float,
+    report_before: Report,
     record: PositionRecord,
     omitted: Callable[[int], OmittedSensors | None],
 ) -> Trajectory:
-    """Trajectory of the samples `values` (n, ns), with the counters since `before`.
+    """Trajectory of the samples `values` (n, ns), with the counters since `report_before`.
 
-    `interval`: between samples, s; `wall`: time in the kernel, s; `omitted`: makes the omitted sensors of so many
-    samples.
+    `interval`: time between samples, s; `kernel_time`: wall time of the calls of the kernel, s; `omitted`: returns the
+    omitted sensors for a number of samples.
     """
     report, settings = simulation.report, simulation.settings
     t = t0 + interval * np.arange(len(values), dtype=float)
     energy = accuracy.energy_text(report, simulation.system, settings.method)
-    estimate = accuracy.accuracy_from_energy(report, report.steps - before.steps, report.halvings - before.halvings)
+    estimate = accuracy.accuracy_from_energy(
+        report, report.steps - report_before.steps, report.halvings - report_before.halvings
+    )
     notices = report.capped_text, energy
     return recorded_trajectory(
-        simulation, t, values, settings, wall, record, omitted(len(values)), notices, accuracy=estimate
+        simulation, t, values, settings, kernel_time, record, omitted(len(values)), notices, accuracy=estimate
     )
 
 
-def next_chunk(chunk: int, spent: float, every: int) -> int:
+def next_chunk(chunk: int, call_time: float, every: int) -> int:
     """Steps of the next call, a multiple of `every`, for about CHUNK_SECONDS."""
-    factor = min(8.0, CHUNK_SECONDS / max(spent, 1e-9))
+    factor = min(8.0, CHUNK_SECONDS / max(call_time, 1e-9))
     return max(1, int(chunk * factor / every)) * every

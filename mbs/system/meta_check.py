@@ -18,6 +18,7 @@ _LISTS: dict[str, dict[str, type]] = {
     "road_files": {"name": str, "road": int, "start": str, "description": str},
 }
 """Keys and types of the entries of each list."""
+_TYPE_TEXTS = {str: "a text", int: "a whole number", float: "a number", list: "a list"}
 _OPTIONAL = ("constants", "road_files", "ahead")
 """Lists that older files do not have."""
 _ARRAY_OF_LIST = {"rows": "row_const", "inputs": "input_start", "sensors": "sen_type", "parameters": "par_value"}
@@ -32,7 +33,7 @@ def find_meta_error(meta: Any, lengths: Mapping[str, int]) -> str:
     if not isinstance(meta, dict):
         return "metadata is not an object"
     for key, kind in _FIELDS.items():
-        if not isinstance(meta.get(key), kind):
+        if not _has_type(meta.get(key), kind):
             return f"'{key}' is missing or has the wrong type"
     for key in ("step_s", "stop_time_s"):
         value = meta["experiment"].get(key)
@@ -57,7 +58,7 @@ def _find_list_error(key: str, entries: Any, lengths: Mapping[str, int]) -> str:
     for k, entry in enumerate(entries):
         for field, kind in _LISTS[key].items():
             if not (isinstance(entry, dict) and _has_type(entry.get(field), kind)):
-                return f"entry {k} of '{key}' has no '{field}' of type {kind.__name__}"
+                return f"entry {k} of '{key}' has no '{field}' that is {_TYPE_TEXTS[kind]}"
         if key == "inputs" and not all(
             bound in entry and (entry[bound] is None or _has_type(entry[bound], float)) for bound in ("min", "max")
         ):
@@ -66,6 +67,6 @@ def _find_list_error(key: str, entries: Any, lengths: Mapping[str, int]) -> str:
 
 
 def _has_type(value: Any, kind: type) -> bool:
-    if kind is float:  # an integer is a number, a bool is not
-        return isinstance(value, int | float) and not isinstance(value, bool)
-    return isinstance(value, kind)
+    if isinstance(value, bool):  # Python counts it as an integer
+        return kind is bool
+    return isinstance(value, int | float if kind is float else kind)

@@ -181,7 +181,7 @@ class System(CompiledModel):
         except KernelError as error:
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
-            meta = json_of(arrays.pop("meta"), SystemFileError, "The array 'meta' of the System file", finite=False)
+            meta = json_of(arrays.pop("meta"), SystemFileError, "The array 'meta' of the System file")
             error_text = find_meta_error(meta, {name: len(values) for name, values in arrays.items()})
             if error_text:
                 raise SystemFileError(f"The names in the System file were altered: {error_text}.")

@@ -11,7 +11,7 @@ import pytest
 from ali3 import processes
 from ali3.command_run import run_command
 from ali3.errors import FileError, UserError
-from ali3.message_text import shortened
+from ali3.message_text import one_line, shortened
 from ali3.processes import module_command
 from mbs.kernel import build
 
@@ -77,6 +77,17 @@ def test_no_value_makes_a_sentence_endless(error: Exception, capsys: pytest.Capt
 def test_a_usual_sentence_is_reported_whole() -> None:
     sentence = f"/{'folder/' * 25}car.fmu is not an FMU; its inputs are: {', '.join(f'input_{k}' for k in range(99))}."
     assert shortened(sentence) == sentence
+
+
+def test_a_word_is_shortened_above_its_limit() -> None:
+    assert shortened("x" * 240) == "x" * 240
+    assert shortened("x" * 241) == f"{'x' * 100}...{'x' * 60}"
+
+
+def test_one_line_is_short_also_with_control_characters() -> None:
+    zeros = r"\x00" * 50
+    assert one_line("\x00" * 10_000) == f"{zeros} ... {zeros}"
+    assert one_line("a\nb") == r"a\nb"
 
 
 def test_names_of_files_send_no_control_characters_to_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:

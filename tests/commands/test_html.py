@@ -53,7 +53,9 @@ def test_a_drawing_has_a_description(tmp_path: Path) -> None:
         axes = figure.subplots()
         axes.plot([0.0, 1.0], label="measured")
         axes.set(title="speed", xlabel="time, s")
-        file = drawing(figure, message).write(tmp_path / "a.svg")
+        drawn = drawing(figure, message)
+        assert drawn.words == (message or title), "a figure without a message has its title as alternative text"
+        file = drawn.write(tmp_path / "a.svg")
         tree = etree.parse(file)
         assert (tree.getroot().get("role"), tree.findtext("{*}title")) == ("img", title)
         assert read_description(file) == "A drive & more\npanel speed; x time, s; curves measured"

@@ -13,7 +13,7 @@ import psutil
 import pytest
 
 from ali3.errors import FileError, UserError
-from ali3.isolated_processes import Isolated, Lost
+from ali3.isolated_processes import READY, Isolated, Lost
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 Tell = Callable[[Any], None]
@@ -81,6 +81,50 @@ def test_a_process_keeps_its_state_between_tasks_and_may_print(worker: Isolated[
     assert process != os.getpid()
     assert worker.do("loud") == (2, process)
     assert worker.do("") == (3, process)
+
+
+def test_a_task_is_lost_if_another_thread_closes_before_it_is_sent(
+    worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    worker.do("")
+    started = worker._started
+
+    def started_and_closed() -> Any:
+        result = started()
+        worker.close()
+        return result
+
+    monkeypatch.setattr(worker, "_started", started_and_closed)
+    assert worker.do("") == Lost("was ended")
+
+
+def test_nothing_is_sent_if_another_thread_closes_meanwhile(
+    worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    worker.do("")
+    readings = iter([worker._process, None])
+    with monkeypatch.context() as patch:
+        patch.setattr(Isolated, "_process", property(lambda _: next(readings)), raising=False)
+        worker.send("word")
+        assert next(readings) is None, "the process is read once"
+
+
+def test_a_start_that_ends_at_its_time_limit_is_reported_as_late(
+    worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read_answer = worker._answer
+
+    def read_late(process: Any, limit: float | None, end: Callable[[], None]) -> Any:
+        answer = read_answer(process, limit, end)
+        if answer is not None and answer[0] == READY:
+            end()
+        return answer
+
+    monkeypatch.setattr(worker, "_answer", read_late)
+    lost = worker.do("hang")
+    assert isinstance(lost, Lost)
+    assert lost.late
+    assert lost.how.startswith("had not begun after 600 s")
 
 
 @pytest.mark.slow

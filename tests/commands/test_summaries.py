@@ -8,6 +8,7 @@ import pytest
 
 import mbs
 from ali3.plausibility import Plausibility, Summarised, Value, plausibility_of, quantities_of
+from ali3.plausibility.quantity import _ranges
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.model import Model
 from mbs.roads import RoadFile, RoadWarning, read_road, write_road
@@ -79,6 +80,10 @@ def test_the_road_command_writes_its_table(tmp_path: Path, capsys: pytest.Captur
         assert (away["value"], away["inside"]) == ((250.0, False) if more else (0.0, True))
         assert ("distance of the start from the road is 250 m" in captured.err) == bool(more)
         assert "usual" in captured.out
+
+
+def test_a_kind_in_the_table_of_quantities_may_have_two_words() -> None:
+    assert _ranges("light truck 1.5 2, van 1 2") == {"light truck": (1.5, 2.0), "van": (1.0, 2.0)}
 
 
 @pytest.mark.parametrize("of_file", [False, True])

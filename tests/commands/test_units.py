@@ -112,3 +112,12 @@ def test_misspelt_cars_worlds_and_manoeuvres_are_reported_before_anything_is_mad
         check_car(Path("xyz"))
     check_car(tmp_path)
     check_manoeuvre_option(None)
+
+
+def test_abbreviations_of_options_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    """Reports that repeat a command look for whole options."""
+    parser = Parser(prog="p")
+    parser.add_argument("--test-setting")
+    with pytest.raises(SystemExit):
+        parser.parse_args(["--test-set", "a.b=1"])
+    assert "did you mean '--test-setting'?" in capsys.readouterr().err

@@ -7,6 +7,7 @@ import pickle
 import random
 import signal
 import socket
+import time
 import tomllib
 import warnings
 import zipfile
@@ -23,8 +24,9 @@ import mbs.vehicle
 from ali3.alias_file import read_content
 from ali3.commands import COMMANDS
 from ali3.decimal_number import parse_number
-from ali3.errors import UserError
+from ali3.errors import FileError, UserError
 from ali3.read_parameter_set import read_parameter_set
+from ali3.reading import toml_of
 from ali3.scene.mesh_file import read_mesh
 from ali3.scene.scene import read_scene
 from hosts.common.errors import HostError
@@ -445,3 +447,41 @@ def test_a_pipe_in_the_place_of_an_fmu_is_called_so(command: str, tmp_path: Path
         done = run(importlib.import_module(main).main, *message)
     assert done.returncode == 2
     assert done.stderr.strip().endswith(f"error: {pipe} is a pipe or device; it must be a file.")
+
+
+DOTS = 250 * "."
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f'a = """\n{DOTS}\n"""',
+        f'a = """x\\"""{DOTS}"""""',
+        f"a = '''\n{DOTS}\n'''",
+        f'a = "\\"{DOTS}"',
+        f"a = 1  # {DOTS}",
+    ],
+)
+def test_dots_of_strings_and_comments_are_not_dots_of_a_key(text: str) -> None:
+    assert toml_of(text.encode(), FileError, "a.toml") == tomllib.loads(text)
+
+
+@pytest.mark.parametrize("prefix", ['a = """b"""""\n', "a = '''b'''\n", 'a = "\\\\"\n', '"".'])
+def test_a_key_of_many_parts_behind_a_string_is_refused(prefix: str) -> None:
+    with pytest.raises(FileError, match="a key has more than 200 parts"):
+        toml_of(f"{prefix}{300 * 'a.'}a = 1".encode(), FileError, "a.toml")
+
+
+@pytest.mark.parametrize("part", ['\n\\"""', '"\\', "'''\n", '\\"'])
+def test_strings_without_an_end_are_refused_soon(part: str) -> None:
+    start = time.monotonic()
+    with pytest.raises(FileError, match=r"is not a TOML file"):
+        toml_of(f'a = """\n{part * (900_000 // len(part))}'.encode(), FileError, "a.toml")
+    assert time.monotonic() - start < 10.0
+
+
+def test_whole_numbers_of_toml_have_64_bits() -> None:
+    assert toml_of(f"a = {-(2**63)}".encode(), FileError, "a.toml") == {"a": -(2**63)}
+    for number in (2**63, -(2**63) - 1):
+        with pytest.raises(FileError, match="a is a whole number that 64 bits cannot hold"):
+            toml_of(f"a = {number}".encode(), FileError, "a.toml")

@@ -5,6 +5,7 @@ import warnings
 import pytest
 
 from mbs import BendingWarning, Simulation, simulate
+from mbs.simulation.march import march
 from tests.flexible_engine.bodies import soft_pendulum
 
 
@@ -27,3 +28,17 @@ def test_a_stepped_run_warns_once() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error", BendingWarning)
         simulation.run(2.0, 0.005, progress=False)
+
+
+def test_a_run_with_flexible_bodies_is_watched_at_its_eighths_only() -> None:
+    watched: list[int] = []
+    march(
+        Simulation(soft_pendulum(2)),
+        1.6,
+        0.01,
+        None,
+        2,
+        False,
+        watch=lambda values: watched.append(len(values)) or False,
+    )
+    assert watched == [11, 21, 31, 41, 51, 61, 71]

@@ -1,5 +1,7 @@
 """System files whose header or names were altered under a right checksum: one sentence, never a raw KeyError."""
 
+import json
+import math
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -36,6 +38,7 @@ def test_the_end_of_the_header_is_zero() -> None:
 META_CHANGES: list[Callable[[dict[str, Any]], object]] = [
     lambda m: m.pop("experiment"),
     lambda m: m["experiment"].update(step_s=0.0),
+    lambda m: m.update(dimension=True),
     lambda m: m["report"].clear(),
     lambda m: m["sensors"].pop(),
     lambda m: m["inputs"][0].pop("max"),
@@ -53,6 +56,18 @@ def test_altered_names_are_a_sentence(change: Callable[[dict[str, Any]], object]
     change(meta)
     with pytest.raises(SystemFileError, match="names in the System file"):
         System.from_bytes(System(system.arrays, meta).to_bytes())
+
+
+def test_numbers_in_the_names_are_finite(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = mbs.compile(model())
+    meta = system.meta
+    meta["experiment"]["stop_time_s"] = math.inf
+    dumps = json.dumps
+    with monkeypatch.context() as patched:
+        patched.setattr(json, "dumps", lambda value, allow_nan, **more: dumps(value, **more))
+        data = System(system.arrays, meta).to_bytes()
+    with pytest.raises(SystemFileError, match=r"experiment\.stop_time_s is inf; it must be a finite number\.$"):
+        System.from_bytes(data)
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes of POSIX")

@@ -6,7 +6,8 @@ import math
 import numbers
 import sys
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -27,14 +28,17 @@ from hosts.study.measures.expression import similar_names
 class UserFunction:
     """A function in a file; made by `read_user_function`.
 
-    It includes its source, so that a worker on another machine does not need the file.
+    It holds the source of the file, so that a worker on another machine does not need the file.
     """
 
     name: str
     """Name of its column, or prefix of its columns."""
     file: str
+    """Path of the file, as the user gave it."""
     function: str
+    """Name of the function."""
     source: str
+    """Text of the file."""
 
     @property
     def text(self) -> str:
@@ -63,7 +67,7 @@ class UserFunction:
         return {f"{self.name}.{k}": v or "1" for k, v in declared.items()}
 
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
-        """Call the function; see `StudyMeasure`."""
+        """Call the function and return a measure for each column; see `StudyMeasure`."""
         columns = self.columns(result.units)
         values, note = dict.fromkeys(columns, math.nan), ""
         notes: dict[str, str] = {}
@@ -74,7 +78,7 @@ class UserFunction:
                 values_by_name = self._by_column(self._call(result, dict(parameters or {})), columns)
                 values = {name: _number(value) for name, value in values_by_name.items()}
                 notes = {
-                    name: f"{self.text} gave {value!r:.60} for it, not a finite number."
+                    name: f"{self.text} gave {value!r:.60}, not a finite number."
                     for name, value in values_by_name.items()
                     if not math.isfinite(values[name])
                 }
@@ -84,7 +88,8 @@ class UserFunction:
 
     def _call(self, result: Result, parameters: dict[str, Value]) -> Any:
         function = _load(self)
-        return function(result, parameters) if _takes_parameters(function) else function(result)
+        with _import_folder(self):
+            return function(result, parameters) if _takes_parameters(function) else function(result)
 
     def _by_column(self, value: Any, columns: Mapping[str, str]) -> dict[str, Any]:
         """The value of the function by the names of the columns. Raises `HostError` if it is not as declared."""
@@ -94,9 +99,10 @@ class UserFunction:
                 return {self.name: value}
             raise HostError(f"{self.text} gave {value!r:.60}; {self.function}.units declares a mapping.")
         if is_single:
+            example = ", ".join(f'{str(k)!r}: "1"' for k in list(value)[:3])
             raise HostError(
                 f"{self.text} gave a mapping; declare its names and units behind the function, such as "
-                f"{self.function}.units = {{{', '.join(f'{str(k)!r}: {chr(34)}1{chr(34)}' for k in list(value)[:3])}}}."
+                f"{self.function}.units = {{{example}}}."
             )
         columns_by_key = {name.removeprefix(f"{self.name}."): name for name in columns}
         if set(value) != set(columns_by_key):
@@ -122,6 +128,17 @@ def read_user_function(file: Path, function: str, name: str = "") -> UserFunctio
     return user_function
 
 
+@contextmanager
+def _import_folder(function: UserFunction) -> Iterator[None]:
+    """Add the folder of the file to the search path of modules, so that it can import other files there."""
+    folder = str(Path(path_of_caller(function.file)).resolve().parent)
+    sys.path.insert(0, folder)
+    try:
+        yield
+    finally:
+        sys.path.remove(folder)
+
+
 @lru_cache(maxsize=100)
 def _load(function: UserFunction) -> Callable[..., Any]:
     """The function, after running its file as a module, once in a process."""
@@ -129,14 +146,11 @@ def _load(function: UserFunction) -> Callable[..., Any]:
     module.__file__ = function.file
     # Data classes and pickling find the module of a class by its name.
     sys.modules[module.__name__] = module
-    folder = str(Path(path_of_caller(function.file)).resolve().parent)
-    sys.path.insert(0, folder)
     try:
-        exec(compile(function.source, function.file, "exec"), module.__dict__)
+        with _import_folder(function):
+            exec(compile(function.source, function.file, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
         raise HostError(_error_text(function, error)) from None
-    finally:
-        sys.path.remove(folder)
     result = getattr(module, function.function, None)
     if result is None:
         functions = {n: "" for n, value in vars(module).items() if inspect.isfunction(value)}

@@ -170,6 +170,11 @@ def other(result):
     return {"b": 1.0}
 other.units = {"a": "m"}
 
+def imports_late(result):
+    import neighbour_of_calls
+
+    return neighbour_of_calls.THRICE
+
 def infinite(result):
     return math.inf
 
@@ -187,6 +192,7 @@ NUMBER = 3
 @pytest.fixture
 def functions(tmp_path: Path) -> Path:
     (tmp_path / "neighbour.py").write_text("TWICE = 2\n")
+    (tmp_path / "neighbour_of_calls.py").write_text("THRICE = 3\n")
     (tmp_path / "mine.py").write_text(FUNCTIONS)
     return tmp_path
 
@@ -195,6 +201,8 @@ def test_a_users_functions(functions: Path, result: Result) -> None:
     peak = parse_measure("mine.py:peak", folder=functions)
     assert peak.columns(result.units) == {"peak": "m"}
     assert [m.value for m in peak.evaluate(result)] == [20.0]
+    late = parse_measure("mine.py:imports_late", folder=functions)
+    assert [m.value for m in late.evaluate(result)] == [3.0], "a function may import what is beside its file"
     both = parse_measure("mine.py:both", "mine", functions)
     assert both.columns(result.units) == {"mine.work": "kg.m", "mine.last": "m"}
     (functions / "mine.py").unlink()  # it carries its source
@@ -206,8 +214,8 @@ def test_a_users_functions(functions: Path, result: Result) -> None:
     ("function", "sentence"),
     [
         ("broken", r"mine.py:broken, line 14: ZeroDivisionError"),
-        ("nothing", "gave None for it, not a finite number"),
-        ("infinite", "gave inf for it, not a finite number"),
+        ("nothing", "gave None, not a finite number"),
+        ("infinite", "gave inf, not a finite number"),
         ("undeclared", r"undeclared.units = \{'a': \"1\"\}"),
         ("other", "gave b; other.units declares a"),
     ],
