@@ -53,11 +53,11 @@ def read_frame(stream: IO[bytes], types: Mapping[int, Any]) -> tuple[int, Any]:
 
 
 @cache
-def _adapter(kind: Any) -> Any:
+def _adapter(value_type: Any) -> Any:
     from pydantic import ConfigDict, TypeAdapter  # half of the import time of a small command
 
     # The settings of the list apply to dataclasses in it, which have no settings.
-    return TypeAdapter(list[kind], config=ConfigDict(arbitrary_types_allowed=True))
+    return TypeAdapter(list[value_type], config=ConfigDict(arbitrary_types_allowed=True))
 
 
 def _read_exactly(stream: IO[bytes], size: int) -> bytes:

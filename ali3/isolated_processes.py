@@ -16,7 +16,7 @@ from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import IO, Any, Generic, TypeAlias, TypeVar
+from typing import IO, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from ali3.call_mark import last_call
 from ali3.child_processes import how_ended
@@ -30,7 +30,7 @@ from ali3.processes import module_command
 from ali3.temporary_folder import temporary_folder
 
 DONE, MESSAGE, ERROR, READY, ALIVE = 0, 1, 2, 3, 4
-"""Kinds of frames: the result of a task, a message before it, an error as sentence and exit code, the process is ready,
+"""Kinds of frames: result of a task; message before it; error, as its sentence and exit code; the process is ready;
 the task is still running."""
 _START_TIMEOUT = 600.0  # s until Python and its packages are loaded, on a busy machine
 _MAX_TIMER = 1e7  # s that a timer can wait on all platforms
@@ -55,6 +55,19 @@ class Lost:
     """Result of `finish` of `Isolated.do` for its store."""
 
 
+class _ProcessEnd(NamedTuple):
+    """How a process ended."""
+
+    how: str
+    """End of a sentence, see `Lost`."""
+    call: str = ""
+    """Its last call, see `last_call`."""
+    stored: Any = None
+    """Result of `finish` for its store."""
+    survivors: int = 0
+    """Number of processes that it had started and that were ended with it."""
+
+
 class _Process:
     """A process with its folder, pipes and store."""
 
@@ -63,8 +76,9 @@ class _Process:
     ) -> None:
         self._resources = ExitStack()
         self.folder = self._resources.enter_context(temporary_folder())
-        self.is_flooded, self._lock = False, threading.Lock()
-        self.number: int | None = None
+        self._lock = threading.Lock()
+        self.is_flooded = False
+        self.pid: int | None = None
         self.answer_error = ""
         self._error_tail = b""
         life_pipe, self._life_pipe, self._memory = -1, -1, -1
@@ -124,11 +138,8 @@ class _Process:
                 os.killpg(self.process.pid, signal.SIGKILL)
         self.process.kill()
 
-    def end(self, finish: Callable[[Any, Path], Any]) -> tuple[str, str, Any, int]:
-        """Wait for the end of the process, or end it.
-
-        Returns how it ended, its last call, the result of `finish`, and how many processes were ended with it.
-        """
+    def end(self, finish: Callable[[Any, Path], Any]) -> _ProcessEnd:
+        """Wait for the end of the process, or end it."""
         with suppress(subprocess.TimeoutExpired):
             self.process.wait(1.0)  # its output is closed shortly before it ends
         self.kill()
@@ -151,7 +162,7 @@ class _Process:
             code = self.process.returncode
             code = 128 - code if self._confined and code > 128 else code  # as bubblewrap reports signals
             how = how_ended(code, self._error_tail.decode("utf-8", "replace"), call)
-        return how, call, stored, survivors
+        return _ProcessEnd(how, call, stored, survivors)
 
     def _survivor_count(self) -> int:
         with suppress(OSError, ValueError):
@@ -222,18 +233,31 @@ class Isolated(Generic[T, R]):
     ) -> R | Lost:
         """Do a task and wait for it.
 
-        `tell`: called with each message of the work; `limit`: longest time between messages, see
-        `ali3.processes.alive`, or with `in_all` longest time of the task, s, after which the process is ended;
-        `finish`: computes the result from the result of the work, or None if the process has ended, and from the store
-        of the process, see `ali3.processes.store`. Raises `UserError` if the work has raised it, or another error that
-        `run_command` would show.
+        Parameters
+        ----------
+        task : object
+            Argument of the work.
+        tell : callable
+            Called with each message of the work.
+        limit : float, optional
+            Time, s, without a message, see `ali3.processes.alive`, after which the process is ended.
+        finish : callable
+            Computes the result from the result of the work, or None if the process has ended, and from the store of
+            the process, see `ali3.processes.store`.
+        in_all : bool
+            Whether `limit` is the time of the whole task instead.
+
+        Raises
+        ------
+        UserError
+            The work has raised it, or another error that `run_command` would show.
         """
         data = pickle.dumps(task)
         process, is_new = self._started()
         expired_texts: list[str] = []
 
         def end() -> None:
-            has_begun = process.number is not None
+            has_begun = process.pid is not None
             expired_texts.append(
                 f"took more than {limit:g} s" if has_begun else f"had not begun after {_START_TIMEOUT:g} s"
             )
@@ -246,7 +270,7 @@ class Isolated(Generic[T, R]):
                 if answer[0] == MESSAGE:
                     tell(answer[1])
                 elif answer[0] == READY:
-                    process.number, begin = answer[1], time.monotonic()
+                    process.pid, begin = answer[1], time.monotonic()
                 timeout = limit
                 if in_all and limit is not None:
                     timeout = max(limit - (time.monotonic() - begin), 0.0)
@@ -255,10 +279,9 @@ class Isolated(Generic[T, R]):
             self._end()
             raise
         if answer is None:
-            how, call, stored = self._end(finish)
-            if expired_texts:
-                how = expired_texts[0] + call
-            return Lost(how, bool(expired_texts), stored)
+            end_of_process = self._end(finish)
+            how = expired_texts[0] + end_of_process.call if expired_texts else end_of_process.how
+            return Lost(how, bool(expired_texts), end_of_process.stored)
         kind, content = answer
         result: R | None = finish(content, process.store) if kind == DONE else None
         if expired_texts:
@@ -273,7 +296,7 @@ class Isolated(Generic[T, R]):
     def pid(self) -> int | None:
         """ID of the process; None if there is none, or it is not ready."""
         process = self._process
-        return None if process is None else process.number
+        return None if process is None else process.pid
 
     @property
     def folder(self) -> Path | None:
@@ -297,7 +320,7 @@ class Isolated(Generic[T, R]):
 
     def _answer(self, process: _Process, limit: float | None, end: Callable[[], None]) -> tuple[int, Any] | None:
         timer = threading.Timer(min(limit or 0.0, _MAX_TIMER), end)
-        timer.daemon = True  # nothing waits for it after Ctrl-C between any two lines
+        timer.daemon = True  # Python does not wait for it if Ctrl-C prevents its cancellation
         try:
             if limit is not None:
                 timer.start()
@@ -323,12 +346,12 @@ class Isolated(Generic[T, R]):
                 process.kill()
         return process, True
 
-    def _end(self, finish: Callable[[Any, Path], Any] = lambda result, store: None) -> tuple[str, str, Any]:
-        """End the process; returns how it ended, its last call, and the result of `finish`."""
+    def _end(self, finish: Callable[[Any, Path], Any] = lambda result, store: None) -> _ProcessEnd:
+        """End the process, unless another thread has ended it."""
         with self._lock:
             process, self._process = self._process, None
         if process is None:
-            return "was ended", "", None
-        how, call, stored, survivors = process.end(finish)
-        self.left += survivors
-        return how, call, stored
+            return _ProcessEnd("was ended")
+        result = process.end(finish)
+        self.left += result.survivors
+        return result

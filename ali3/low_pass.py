@@ -15,14 +15,14 @@ def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, pol
     interval : float
         Sampling interval, s.
     frequency : float
-        Cut-off of each direction, Hz: both together leave half of the amplitude there.
+        Cut-off of each direction, Hz.
     poles : int
-        Number of both directions together, even; 12 in 49 CFR 571.126.
+        Number of poles of both directions together, even; 12 in 49 CFR 571.126.
 
     Returns
     -------
     ndarray of shape (n,)
-        Ends are mirrored through the end point over three periods of the cut-off, as far as the signal is long enough.
+        Filtered samples.
 
     Raises
     ------
@@ -32,7 +32,8 @@ def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, pol
     Notes
     -----
     A "12-pole phaseless" filter is interpreted as six poles in each direction. Both directions together leave 1/2 of
-    the amplitude (-6 dB) at the cut-off, not 1/sqrt(2).
+    the amplitude (-6 dB) at the cut-off, not 1/sqrt(2). The signal is continued by its mirror image through each end
+    point over three periods of the cut-off, or over its length if that is shorter.
     """
     if not 0.0 < frequency < 0.5 / interval:
         raise ValueError(

@@ -65,7 +65,7 @@ def _escaped(text: str, retained: str = "") -> str:
 
 
 def sentence_of(message: str) -> str:
-    """Make a sentence of its words, with a capital and a full stop; empty stays empty."""
+    """The message with a capital and a full stop; empty if it is empty."""
     return f"{message[0].upper()}{message[1:]}." if message else ""
 
 

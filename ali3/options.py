@@ -156,8 +156,11 @@ def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", *
     parser.add_argument(name, *option.other_names, help=message, **more)
 
 
-def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:
-    """Arguments that differ from their defaults, as the user writes them. `names`: attributes of `options`."""
+def options_given(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:
+    """Names, as on the command line, of the options that differ from their defaults.
+
+    `names`: attributes of `options`.
+    """
     differing = [name for name in names if getattr(options, name) != parser.get_default(name)]
     actions = {action.dest: action for action in parser._actions}
     return [next(iter(actions[name].option_strings), name.upper()) for name in differing]

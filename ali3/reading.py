@@ -21,15 +21,17 @@ from ali3.message_text import brief, one_line, place_text
 Error = type[Exception]
 
 LARGEST_TOML = 1_000_000
-"""Bytes; parsing them takes a second."""
+"""Largest TOML file, bytes; parsing it takes a second."""
 LARGEST_TEXT = 10_000_000
+"""Largest file of text, bytes."""
 LARGEST_STATE = 100_000_000
 """Largest saved state of an FMU, bytes."""
 LARGEST_IN_PARTS = 2**40
 """Largest size of a file that is read in parts, bytes."""
 MAX_LINE = 10_000_000
-"""Bytes or characters."""
+"""Longest line of a text, bytes or characters."""
 DEEPEST = 100
+"""Deepest nesting of lists and tables."""
 LARGEST_WHOLE = 2**63 - 1
 """Largest whole number of TOML, a signed integer of 64 bits; the smallest is -2**63."""
 _MAX_NAME = 1000  # characters of the name of a missing file in a sentence
@@ -71,7 +73,7 @@ def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     return Path(file)
 
 
-def no_file(file: str | os.PathLike[str], hint: str = "") -> str:
+def missing_file_text(file: str | os.PathLike[str], hint: str = "") -> str:
     """A sentence on a path that is not a regular file; `hint` is appended if nothing exists there."""
     try:
         return _not_regular(str(file), Path(file).stat().st_mode)
@@ -148,7 +150,8 @@ def read_toml(
 def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
     """Tables of the content of a TOML file: numbers are finite, whole numbers have 64 bits.
 
-    `data`: bytes, at most `LARGEST_TOML`; `error`: raised with one sentence; `name`: name of the file in the sentence.
+    `data`: bytes, whose number the caller limits; `error`: raised with one sentence; `name`: name of the file in the
+    sentence.
     """
     text = file_text(data, error, name)
     text_of_keys = _STRINGS_AND_COMMENTS.sub("", text)

@@ -12,7 +12,7 @@ from ali3.units import typeset
 Range: TypeAlias = tuple[float, float]
 TABLE = Path(__file__).with_name("quantities.csv")
 WIDEST = ""
-"""Kind of an object whose file names none: its range is the widest of all kinds."""
+"""Kind of an object whose file names none: its range is the smallest that contains the ranges of all kinds."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,12 +32,12 @@ class Quantity:
     source: str
     """Source of the ranges."""
     near: Range | None = None
-    """Range that the correction of a mistake must reach; None: the range in `ranges`."""
+    """Range that a value must reach for a correction, such as that of a unit, to be suggested; None: as `ranges`."""
     shown_outside: bool = False
     """Whether tables of text show the quantity only if it is outside its range."""
 
     def range(self, kind: str = WIDEST) -> Range | None:
-        """Usual range of a kind of object; of an unknown kind the widest one; None without ranges."""
+        """Usual range of a kind of object; of an unknown kind the range that contains all; None without ranges."""
         if not self.ranges:
             return None
         if kind in self.ranges:

@@ -22,24 +22,26 @@ def chosen_times(t: NDArray[np.float64], most: int, epoch: NDArray[np.float64]) 
     if len(t) <= most:
         return np.arange(len(t))
     indices_before = np.flatnonzero((t[1:] == t[:-1]) | (epoch[1:] != epoch[:-1]))
-    steps = np.union1d(indices_before, indices_before + 1)
-    if len(steps) > most // 2:
-        steps = steps[:0]
-    grid = np.linspace(t[0], t[-1], most - len(steps))
+    jumps = np.union1d(indices_before, indices_before + 1)
+    if len(jumps) > most // 2:
+        jumps = jumps[:0]
+    grid = np.linspace(t[0], t[-1], most - len(jumps))
     indices_after = np.clip(np.searchsorted(t, grid), 1, len(t) - 1)
     nearest = np.where(grid - t[indices_after - 1] < t[indices_after] - grid, indices_after - 1, indices_after)
     nearest[0], nearest[-1] = 0, len(t) - 1
-    return np.union1d(nearest, steps)
+    return np.union1d(nearest, jumps)
 
 
-def largest_gap_of_motion(
+def interpolation_error_text(
     scene: Mapping[str, Any],
     t: NDArray[np.float64],
     columns: Mapping[str, NDArray[np.float64]],
     indices: NDArray[np.intp],
     epoch: NDArray[np.float64],
 ) -> str:
-    """A sentence on the error of the motion interpolated between the retained times; empty if it is not visible.
+    """Text of the error of the motion that is interpolated between the retained times; empty if it is not visible.
+
+    It is a sentence to append to another one, with a blank before it.
 
     Parameters
     ----------
@@ -52,7 +54,8 @@ def largest_gap_of_motion(
     indices : array of int
         Indices of the retained times.
     epoch : array of shape (n,)
-        The drawing does not move between two retained times of different epochs.
+        Number of each time that changes at a discontinuity, such as a rewind; between two retained times of different
+        epochs the motion is not interpolated.
     """
     samples = np.unique(np.linspace(0, len(t) - 1, min(len(t), _MAX_SAMPLES)).astype(np.intp))
     intervals = np.clip(np.searchsorted(indices, samples, side="right") - 1, 0, len(indices) - 2)
@@ -84,7 +87,7 @@ def _pose_errors(
     samples: NDArray[np.intp],
     fraction: NDArray[np.float64],
 ) -> tuple[float, float]:
-    """Largest errors of the distance, m, and angle, rad, of a frame interpolated between the times `a` and `b`.
+    """Largest errors of the position, m, and angle, rad, of a frame interpolated between the times `a` and `b`.
 
     `a`, `b`, `samples`: indices of times, shape (n,); `fraction`: position between `a` and `b`, 0 to 1, shape (n,).
     """

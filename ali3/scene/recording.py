@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ali3.scene.decimation import chosen_times, largest_gap_of_motion
+from ali3.scene.decimation import chosen_times, interpolation_error_text
 from ali3.scene.errors import ViewerError
 from ali3.scene.scene import check_scene, plain_scene
 from ali3.scene.scene_columns import drawable, pose_columns
@@ -112,7 +112,7 @@ class Recording:
         span = float(self.t[-1] - self.t[0])
         note = f"{len(indices)} of {count} times are shown, one every {span / (len(indices) - 1):.2g} s."
         if self.scene is not None:
-            note += largest_gap_of_motion(self.scene, self.t, self.columns, indices, self.epoch)
+            note += interpolation_error_text(self.scene, self.t, self.columns, indices, self.epoch)
         shorter.notes = [*self.notes, note]
         return shorter
 

@@ -13,9 +13,9 @@ from scipy.integrate import solve_ivp
 import mbs
 from benchmarks.car import manoeuvres
 from benchmarks.methods.kernel_methods import KERNEL, suits
+from benchmarks.methods.true_error import true_error
 from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
-from mbs.results.comparison import Comparison, compared_sensors, instants
-from mbs.simulation.prepared_system import length_of
+from mbs.results.comparison import compared_sensors, instants
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
 CLOSE = 1e-3
@@ -60,13 +60,9 @@ class Scene:
 
     def error(self, trajectory: mbs.Trajectory) -> float:
         """Largest error of a compared sensor relative to its size; forces are compared at `instants`."""
-        exact = self.truth()
-        compared = {name: sensor for name, sensor in compared_sensors(self.system()).items() if name in exact}
         assert trajectory.report is not None
-        comparison = Comparison(compared, length_of(self.system()), energy=trajectory.report.energy_floor)
-        comparison.add(exact, trajectory, instants(len(trajectory.t)))
-        gaps = comparison.gaps
-        return max((gaps[name] / size for name, size in comparison.sizes().items()), default=0.0)
+        load_samples, energy = instants(len(trajectory.t)), trajectory.report.energy_floor
+        return true_error(self.system(), self.truth(), trajectory, load_samples, energy)
 
 
 def _record(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:

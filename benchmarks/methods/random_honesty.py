@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 import mbs
 from benchmarks.methods.families import FAMILIES, Case, CaseRun
+from benchmarks.methods.true_error import true_error
 from benchmarks.references.newton_euler import NoReferenceError
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.header.limits import WRONG_ERROR
-from mbs.results.comparison import compared_sensors, sizes_of
+from mbs.results.comparison import compared_sensors
 from mbs.simulation.prepared_system import length_of
 
 Array = NDArray[np.float64]
@@ -74,11 +75,10 @@ def judge(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     h = float(rng.choice(case.steps))
     every = max(1, round(case.span / intervals / h))
     fixed_step = case.span / intervals / every  # the nearest step that reaches the instants
-    sensors = {name: sensor for name, sensor in compared_sensors(case.system).items() if name in case.truth}
-    size = sizes_of(case.truth, sensors, length_of(case.system))
+    sensors = compared_sensors(case.system)
 
     def of_range(values: Mapping[str, Array]) -> float:
-        return max((sensors[n].gap(values[n], case.truth[n]) / s for n, s in size.items()), default=0.0)
+        return true_error(case.system, case.truth, values)
 
     def of_length(values: Mapping[str, Array]) -> float:
         places = [np.abs(values[n] - true).max() for n, true in case.truth.items() if sensors[n].unit == "m"]

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import mbs
 import mbs.scenes
-from ali3.reading import is_file, no_file
+from ali3.reading import is_file, missing_file_text
 from fmu_src.geometry.system_with_poses import PosesError, posed_systems
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ def _scene(scene: str) -> Iterator[tuple[str, Callable[..., Any]]]:
         file, function = scene, "build"
     path = Path(file)
     if not is_file(path):
-        raise SceneError(no_file(path, " A scene of your own is given as path/to/file.py:function."))
+        raise SceneError(missing_file_text(path, " A scene of your own is given as path/to/file.py:function."))
     path = path.resolve()
     with _neighbours(path.parent):
         try:

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 from ali3.archives import Archive
 from ali3.errors import UserError
-from ali3.reading import is_file, no_file
+from ali3.reading import is_file, missing_file_text
 from ali3.temporary_folder import temporary_folder
 from fmu_src.native.archive import write_zip
 from fmu_src.native.compilation import compile_library, compile_packed
@@ -54,7 +54,7 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
 
 def _files(fmu: Path) -> dict[str, bytes]:
     if not is_file(fmu):
-        raise UserError(no_file(fmu))
+        raise UserError(missing_file_text(fmu))
     with Archive(fmu, UserError, kind="an FMU") as archive:
         return {name: archive.read(name) for name in archive.names}
 

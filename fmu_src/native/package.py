@@ -24,7 +24,7 @@ from fmu_src.variables.text_variables import TextVariable, road_resources, text_
 from fmu_src.variables.variables import Variable, table_records
 from mbs.results.comparison import compared_sensors
 from mbs.simulation.prepared_system import length_of
-from mbs.system.text import notices_before
+from mbs.system.text import model_notices
 
 GEOMETRY = "resources/geometry.json"
 """Where the scene lies in an FMU."""
@@ -99,7 +99,7 @@ class NativeContents:
             what: [[item["name"] for item in system.meta[f"{what}s"]] for system in self.systems]
             for what in ("row", "element")
         }
-        notices = [notices_before(system.meta) for system in self.systems]
+        notices = [model_notices(system.meta) for system in self.systems]
         return names | {"coordinate": [_over_tables(system) for system in self.systems], "notice": notices}
 
     @property

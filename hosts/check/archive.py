@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from ali3.archives import faults_of
-from ali3.reading import is_file, no_file
+from ali3.reading import is_file, missing_file_text
 from hosts.check.instance import Finding
 from hosts.common.errors import HostError
 
@@ -16,7 +16,7 @@ def check_archive(fmu: Path) -> list[Finding]:
     Raises `HostError` if the file is not a readable archive.
     """
     if not is_file(fmu):
-        raise HostError(no_file(fmu))
+        raise HostError(missing_file_text(fmu))
     return [
         Finding(CHECK, "bad", f"{fault.words} ({fault.clause})")
         if fault.clause

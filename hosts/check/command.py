@@ -18,7 +18,7 @@ from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
 from ali3.message_text import shortened
-from ali3.options import Parser, add_option, assignment, count, given_of
+from ali3.options import Parser, add_option, assignment, count, options_given
 from hosts.check.junit import Case, write_junit
 from hosts.check.sarif import write_sarif
 from hosts.common.errors import HostError
@@ -134,19 +134,23 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         (_REFERENCE_OPTIONS, reference, "--reference"),
         (_SOAK_OR_REFERENCE_OPTIONS, options.soak or reference, "--soak or --reference"),
     ):
-        given = given_of(parser, options, names)
+        given = options_given(parser, options, names)
         if given and not is_present:
             raise HostError(f"{given[0]} needs {requirement}.")
-    table = given_of(parser, options, _PARAMETER_OPTIONS)
+    table = options_given(parser, options, _PARAMETER_OPTIONS)
     modes = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
     if (options.soak or reference) and len(modes) > 1:
         raise HostError(f"{modes[0]} cannot be combined with {modes[-1]}.")
-    if reference and options.reference.is_file() and (folder_options := given_of(parser, options, _FOLDER_OPTIONS)):
+    if (
+        reference
+        and options.reference.is_file()
+        and (folder_options := options_given(parser, options, _FOLDER_OPTIONS))
+    ):
         raise HostError(
             f"{folder_options[0]} needs a folder of tables, whose finished comparisons are kept; {options.reference} "
             "is a single table."
         )
-    if (check_options := given_of(parser, options, _CHECK_OPTIONS)) and modes:
+    if (check_options := options_given(parser, options, _CHECK_OPTIONS)) and modes:
         raise HostError(f"{check_options[0]} cannot be combined with {modes[0]}.")
     report_files = {name: getattr(options, name) for name in ("junit", "sarif") if getattr(options, name) is not None}
     if report_files and (table or options.soak):

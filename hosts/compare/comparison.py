@@ -30,7 +30,7 @@ class Comparison:
 
     signals: dict[str, ComparedSignal]
     common: Alignment
-    """Common delay and drift of the signals that determine a delay each; of all signals if none does."""
+    """Common delay and drift of all signals whose own delay could be determined; of all signals if there is none."""
 
 
 def compare(
@@ -40,9 +40,12 @@ def compare(
 
     `longest_delay`: largest delay of the search, s; `skip`: time at the beginning that is not compared, s.
     """
-    pairs = {n: (curves[n].with_nearest_turns(s.between(skip, curves[n].end)), curves[n]) for n, s in outputs.items()}
-    signals = {n: _compare_signal(s, c, longest_delay) for n, (s, c) in pairs.items()}
-    determined = [pairs[n] for n, s in signals.items() if math.isfinite(s.alignment.delay)]
+    pairs = {}
+    for name, measured in outputs.items():
+        curve = curves[name]
+        pairs[name] = curve.with_nearest_turns(measured.between(skip, curve.end)), curve
+    signals = {name: _compare_signal(*pair, longest_delay) for name, pair in pairs.items()}
+    determined = [pairs[name] for name, signal in signals.items() if math.isfinite(signal.alignment.delay)]
     return Comparison(signals, align(determined or list(pairs.values()), longest_delay))
 
 
@@ -59,7 +62,7 @@ def measures(comparison: Comparison) -> list[Measure]:
     for name, s in comparison.signals.items():
         unit, d, r, a = s.measured.unit, s.deviations, s.rating, s.alignment
         rows: Sequence[tuple[str, float, str, str, str]] = (
-            ("rms", d.rms, unit, "root of the mean square of simulated minus measured", ""),
+            ("rms", d.rms, unit, "root mean square of simulated minus measured", ""),
             ("normalised_rms", d.normalised, "1", "rms over the standard deviation of the measured signal", d.note),
             ("mean", d.mean, unit, "mean of simulated minus measured", ""),
             ("largest", d.largest, unit, f"largest deviation, at {d.time_of_largest:.4g} s", ""),
@@ -74,5 +77,5 @@ def measures(comparison: Comparison) -> list[Measure]:
         results += [Measure(f"{name}.{suffix}", value, u, text, None, note) for suffix, value, u, text, note in rows]
     c = comparison.common
     results.append(Measure("delay", c.delay, "s", "of the log after the simulation, of all signals", None, c.note))
-    results.append(Measure("drift", c.drift, "1", "by how much the clock of the outputs runs fast", None, c.note))
+    results.append(Measure("drift", c.drift, "1", "by how much the clock of the log runs fast", None, c.note))
     return results

@@ -15,7 +15,7 @@ from hosts.measures.signal import Signal
 class Curve:
     """A simulated signal as a cubic spline of each run, constant beyond the ends of a run.
 
-    `end`: last time, s; the first is 0.
+    `end`: last time, s.
     """
 
     def __init__(self, result: Result, name: str) -> None:
@@ -32,7 +32,7 @@ class Curve:
         return self._evaluate(t, 0)
 
     def slope(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Derivative by the time at times in s."""
+        """Derivative with respect to time at times in s."""
         return self._evaluate(t, 1)
 
     def misfit(self, signal: Signal) -> NDArray[np.float64]:
@@ -40,9 +40,9 @@ class Curve:
         simulated = self(signal.time)
         if not self._angle:
             return np.asarray(simulated - signal.values)
-        results, number = np.empty(len(simulated)), self._run_numbers(signal.time)
-        for k in np.unique(number):
-            results[number == k] = angle_difference(simulated[number == k], signal.values[number == k])
+        results, run_numbers = np.empty(len(simulated)), self._run_numbers(signal.time)
+        for k in np.unique(run_numbers):
+            results[run_numbers == k] = angle_difference(simulated[run_numbers == k], signal.values[run_numbers == k])
         return results
 
     def with_nearest_turns(self, signal: Signal) -> Signal:
@@ -57,9 +57,9 @@ class Curve:
     def _evaluate(self, t: NDArray[np.float64], order: int) -> NDArray[np.float64]:
         if len(self._runs) == 1:
             return self._runs[0](t, order)
-        results, number = np.empty(len(t)), self._run_numbers(t)
-        for k in np.unique(number).tolist():
-            results[number == k] = self._runs[k](t[number == k], order)
+        results, run_numbers = np.empty(len(t)), self._run_numbers(t)
+        for k in np.unique(run_numbers).tolist():
+            results[run_numbers == k] = self._runs[k](t[run_numbers == k], order)
         return results
 
 
@@ -83,7 +83,8 @@ class _RunCurve:
 class SensedCurve(Curve):
     """A simulated signal as a sensor yields it: bias + gain * simulated((t - delay) / (1 + drift)).
 
-    `delay`: s; `bias`: bias in the unit of the signal.
+    `delay`: of the sensor, s; `drift`: by how much its clock runs fast, relative; `bias`: offset in the unit of the
+    signal; `gain`: factor of the signal.
     """
 
     def __init__(
@@ -98,7 +99,7 @@ class SensedCurve(Curve):
         return np.asarray(self._bias + self._gain * self._curve((t - self._delay) / self._stretch))
 
     def slope(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Derivative by the time at times in s."""
+        """Derivative with respect to time at times in s."""
         return np.asarray(self._gain / self._stretch * self._curve.slope((t - self._delay) / self._stretch))
 
     def _run_numbers(self, t: NDArray[np.float64]) -> NDArray[np.int64]:

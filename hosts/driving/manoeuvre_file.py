@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
 from ali3.near_names import did_you_mean
-from ali3.reading import LARGEST_TEXT, is_file, no_file, read_toml
+from ali3.reading import LARGEST_TEXT, is_file, missing_file_text, read_toml
 from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, text_of
@@ -44,7 +44,7 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
         table = _read_toml(path)
     else:
         if not is_file(path):
-            raise HostError(no_file(path))
+            raise HostError(missing_file_text(path))
         table = read_table(path)
     if stop_time is not None:
         return replace(table, stop_time=stop_time)

@@ -26,11 +26,11 @@ def apply_settings(
     fmu : Fmu
         Not yet initialised.
     manoeuvre : Manoeuvre
-        Its start values are replaced by those of the user.
+        Where the user sets a value, it replaces the start value of the manoeuvre.
     fidelity : float, optional
         Of the option ``--fidelity``.
     to_fmu : callable
-        Converts values of the manoeuvre to the names and units of the FMU, which those of the result have.
+        Converts values of the manoeuvre to the names and units of the FMU; the returned start values have these.
 
     Raises
     ------
@@ -42,7 +42,7 @@ def apply_settings(
     settings.add_options(fmu_options, fidelity)
     settings.discard_overwritten(to_fmu(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
     if manoeuvre.find_throttle:
-        reason = f"the manoeuvre {manoeuvre.name} takes the one that holds the speed"
+        reason = f"the manoeuvre {manoeuvre.name} finds the throttle that holds the speed"
         settings.discard_overwritten(to_fmu({THROTTLE: 0.0}), reason)
     if manoeuvre.driver:
         acts = to_fmu(dict.fromkeys(ACTS, 0.0))

@@ -12,7 +12,7 @@ from ali3.archives import Archive
 from ali3.limits import VARIABLE, at_most, raised
 from ali3.message_text import one_line
 from ali3.processes import command_name
-from ali3.reading import DEEPEST, is_file, no_file
+from ali3.reading import DEEPEST, is_file, missing_file_text
 from ali3.xml_memory import is_lack_of_memory
 from hosts.common.errors import HostError
 from hosts.fmu.scalars import ELEMENTS, Scalar, element_names, scalar_variables
@@ -30,7 +30,7 @@ def opened(path: Path) -> Archive:
     """Open an FMU as an archive. Raises `HostError` if the file does not exist, or has a fault of `ali3.archives`."""
     if not is_file(path):
         hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
-        raise HostError(no_file(path, hint))
+        raise HostError(missing_file_text(path, hint))
     return Archive(path, HostError, kind="an FMU")
 
 

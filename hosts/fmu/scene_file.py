@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.archives import is_archive
-from ali3.reading import is_file, no_file
+from ali3.reading import is_file, missing_file_text
 from ali3.scene.errors import SceneError
 from ali3.scene.scene import read_scene
 from hosts.common.errors import HostError
@@ -18,7 +18,7 @@ def scene_from(
 ) -> dict[str, Any] | None:
     """The scene of an FMU, or of a JSON file; see `scene_of`."""
     if not is_file(path):
-        raise HostError(no_file(path))
+        raise HostError(missing_file_text(path))
     if not is_archive(path):
         try:
             return read_scene(path)

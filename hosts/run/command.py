@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.command_run import run_command
-from ali3.options import Parser, add_option, given_of, name_and_text
+from ali3.options import Parser, add_option, name_and_text, options_given
 from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, fmu_options
@@ -60,7 +60,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.run.kerb import kerb_test
 
-    conflicting = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
+    conflicting = options_given(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
     if conflicting:
         raise HostError(f"{conflicting[0]} cannot be combined with --kerb, which defines the drive.")
     if options.fmu is not None and is_car(options.fmu):

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.command_run import GOOD, NOT_GOOD, run_command
-from ali3.options import Parser, add_option, given_of
+from ali3.options import Parser, add_option, options_given
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, fmu_options
 
@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
 def _use_recording(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     from hosts.recordings.recording_actions import replay_recording, save_manoeuvre, show_recording
 
-    misplaced = given_of(parser, options, [name for name in vars(options) if name not in _RECORDING_OPTIONS])
+    misplaced = options_given(parser, options, [name for name in vars(options) if name not in _RECORDING_OPTIONS])
     if misplaced:
         raise HostError(f"{misplaced[0]} is for driving; with --recording nothing is driven, so leave it out.")
     if options.replay and options.save_manoeuvre is not None:

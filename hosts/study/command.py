@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.command_run import NOT_GOOD, run_command
-from ali3.options import Parser, add_option, given_of
+from ali3.options import Parser, add_option, options_given
 from hosts.common.errors import HostError
 
 
@@ -88,7 +88,7 @@ def _report_limits(folder: Path) -> bool:
 def _find_target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.study.target import find_target, target_of
 
-    conflicting = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report"))
+    conflicting = options_given(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report"))
     if conflicting:
         raise HostError(f"{conflicting[0]} cannot be combined with --target, which makes its own runs.")
     if len(options.target) > 1:

@@ -18,7 +18,7 @@ from ali3.columns import some_of
 from ali3.files import atomic_file, make_folder, write_bytes, write_json
 from ali3.json_reading import read_json
 from ali3.message_text import VALUE, one_line
-from ali3.reading import no_file, read_bytes
+from ali3.reading import missing_file_text, read_bytes
 from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.study.study_file import SamplingEntry, Setting, SignalsEntry
@@ -137,7 +137,7 @@ def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
     """The FMU in a folder of results. Raises `HostError` if it is missing, or is not the FMU of the rows."""
     file = folder / str(record["fmu"])
     if not file.is_file():
-        raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")
+        raise HostError(f"{missing_file_text(file)} It made the runs of this study; put it back.")
     sha256 = hashlib.sha256(read_bytes(file, LARGEST_ARCHIVE, HostError)).hexdigest()
     if sha256 != record["fmu_sha256"]:
         raise HostError(

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ali3.command_run import run_command
 from ali3.decimal_number import number
-from ali3.options import Parser, add_option, given_of
+from ali3.options import Parser, add_option, options_given
 from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options
@@ -71,7 +71,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     other_options = _OF_SHOWN if options.live else _OF_LIVE
-    misplaced = given_of(parser, options, other_options)
+    misplaced = options_given(parser, options, other_options)
     if misplaced:
         raise HostError(f"{misplaced[0]} {'cannot be combined with' if options.live else 'needs'} --live.")
     if options.live:

@@ -8,7 +8,7 @@ from typing import Any
 from ali3.archives import is_archive
 from ali3.json_reading import read_json
 from ali3.processes import command_name
-from ali3.reading import is_file, is_file_or_folder, is_folder, no_file
+from ali3.reading import is_file, is_file_or_folder, is_folder, missing_file_text
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
@@ -71,7 +71,7 @@ def recordings_of(
     for path, name in zip(paths, _distinct_names(paths), strict=True):
         if not is_file_or_folder(path):
             hint = f" Build it with: {command_name('build')}" if path.suffix == ".fmu" else ""
-            raise HostError(no_file(path, hint))
+            raise HostError(missing_file_text(path, hint))
         suffix = path.suffix.lower()
         if is_recording(path):
             recording, message = recorded_view(path, name, geometry)

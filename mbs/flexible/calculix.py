@@ -12,7 +12,7 @@ from scipy.sparse.linalg import spsolve
 
 from ali3.extras import missing_module
 from ali3.message_text import brief
-from ali3.reading import is_file, no_file, open_file, read_bytes
+from ali3.reading import is_file, missing_file_text, open_file, read_bytes
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.foreign_file import MAX_BYTES, read_foreign
@@ -57,7 +57,7 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     files = [deck, *(deck.with_suffix(suffix) for suffix in (".sti", ".mas", ".dof"))]
     for path in files:
         if not is_file(path):
-            raise ModelError(no_file(path, " *FREQUENCY, SOLVER=MATRIXSTORAGE writes it."))
+            raise ModelError(missing_file_text(path, " *FREQUENCY, SOLVER=MATRIXSTORAGE writes it."))
     nodes = read_foreign(deck, _node_lines)
     text = StringIO("\n".join(["*NODE", *nodes]))
     points = read_foreign(deck, lambda path: np.asarray(meshio.read(text, file_format="abaqus").points, float))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
-from ali3.reading import is_file, no_file
+from ali3.reading import is_file, missing_file_text
 from mbs.common.errors import ModelError
 from mbs.flexible.bulk_data import grid_points
 from mbs.flexible.fe_model import FiniteElementModel
@@ -56,7 +56,7 @@ def read_nastran(
     """
     for path in (bulk_data, matrices):
         if not is_file(path):
-            raise ModelError(no_file(path))
+            raise ModelError(missing_file_text(path))
     points = read_foreign(Path(bulk_data), partial(grid_points, folder=folder))
     for number, (_, system) in points.items():
         if system != 0:

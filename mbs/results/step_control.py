@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-ALLOWED = 3.0
+WARNING_FACTOR = 3.0
 """Largest multiple of the tolerance without a warning, as estimates may be wrong by this factor."""
 
 
@@ -24,11 +24,11 @@ class Control:
     """Reason for this method; empty if the caller named it."""
     error: float
     """Estimate of the largest error of positions, relative to `length`: the distance from a coarser run times the ratio
-    of their step errors, at least a tenth of the tolerance, as smaller estimates are unreliable. In nine of ten
-    runs it is within ten times the error; errors of both runs are not included, and if guides prescribe all motion it
-    is 0. NaN if the step was given: no runs were compared."""
+    of their step errors. Errors that both runs have in common are not included. An estimate below a tenth of the
+    tolerance is unreliable and raised to it. It is 0 if guides prescribe all motion, and NaN if the step was given,
+    as no runs were compared."""
     h: float | None
-    """The fixed step, s; None: steps under error control."""
+    """The fixed step, s; None if the steps were under error control."""
     steps: int
     """Accepted steps of the returned run."""
     rejected: int
@@ -36,13 +36,13 @@ class Control:
     failed: int
     """Steps that were repeated because they did not converge."""
     forced: int
-    """Steps that exceed their part of the tolerance at any length."""
+    """Steps of the smallest length that were accepted although their error exceeded their part of the tolerance."""
     smallest: float
     """Smallest accepted step, s."""
     largest: float
     """Largest accepted step, s."""
     side_steps: int
-    """Steps to times between the steps at which no polynomial through the steps was accurate enough."""
+    """Extra steps to output times at which the dense output was not accurate enough."""
     runs: int
     """Number of runs, including those for the estimate and for the choice of the method."""
     moved: float = math.nan
@@ -53,8 +53,8 @@ class Control:
 
     @property
     def kept(self) -> bool:
-        """Whether the estimated error is at most three times the tolerance, or there is no estimate."""
-        return not self.error > ALLOWED * self.tolerance
+        """Whether the estimated error is at most `WARNING_FACTOR` times the tolerance, or there is no estimate."""
+        return not self.error > WARNING_FACTOR * self.tolerance
 
     def __str__(self) -> str:
         steps = (

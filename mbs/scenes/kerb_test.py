@@ -28,6 +28,8 @@ STEP = 0.01  # s
 EDGE = 7.5  # m from the front axle at rest to the kerb; front wheels pass it at 7.70 s, rear wheels at 8.16 s
 HEIGHT = 0.08  # m, of the kerb
 PIECE = 0.1  # s, length of a polynomial piece of the guide
+_SMOOTH_STEP = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0])
+"""Step from 0 to 1 on the interval 0 to 1, with first and second derivatives of zero at both ends."""
 
 
 def build(
@@ -44,7 +46,7 @@ def build(
     car : Car, optional
         By default the prototype.
     guide : callable, optional
-        Makes the guide of the x coordinate of the chassis' reference point, whose start is given, m; by default
+        Makes the guide of the x coordinate of the chassis' reference point from its value at the start, m; by default
         `smooth_guide`.
     """
     make_guide = smooth_guide if guide is None else guide
@@ -62,14 +64,13 @@ def fidelities() -> dict[Fidelity, Callable[[], Model]]:
 
 def speed(t: float | np.ndarray) -> np.ndarray:
     """Prescribed speed of the chassis at times in s, m/s."""
-    s5 = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0])
     up, down = (np.clip((np.asarray(t) - a) / (b - a), 0.0, 1.0) for a, b in (ACCELERATE, BRAKE))
-    return np.asarray(SPEED * (s5(up) - s5(down)))
+    return np.asarray(SPEED * (_SMOOTH_STEP(up) - _SMOOTH_STEP(down)))
 
 
 def distance(t: float | np.ndarray) -> np.ndarray:
     """Prescribed distance from rest at times in s, m: the integral of `speed`."""
-    integral = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0]).integ()
+    integral = _SMOOTH_STEP.integ()
     total = np.zeros(np.shape(t))
     for sign, (a, b) in ((1.0, ACCELERATE), (-1.0, BRAKE)):
         u = (np.asarray(t) - a) / (b - a)
@@ -111,6 +112,6 @@ def smooth_guide(m: Model, start: float) -> Guide:
 
 def _acceleration(t: np.ndarray) -> np.ndarray:
     """Prescribed acceleration at times in s, m/s2."""
-    slope = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0]).deriv()
+    slope = _SMOOTH_STEP.deriv()
     slopes = [slope(np.clip((t - a) / (b - a), 0.0, 1.0)) / (b - a) for a, b in (ACCELERATE, BRAKE)]
     return np.asarray(SPEED * (slopes[0] - slopes[1]))

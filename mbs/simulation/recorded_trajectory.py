@@ -15,7 +15,7 @@ from mbs.simulation.prepared_system import prepared
 from mbs.simulation.run_roads import changed_roads
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
-from mbs.system.text import notices_before
+from mbs.system.text import model_notices
 
 Array = NDArray[np.float64]
 NO_FORCE = 1e-6  # of the weight: force below which it counts as zero, as in `ali3_no_force`
@@ -64,7 +64,7 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
     `values` (n, ns): samples at the times `t` (n,), s.
     """
     meta = prepared(system).meta
-    notices, sensors = notices_before(meta), meta["sensors"]
+    notices, sensors = model_notices(meta), meta["sensors"]
     for k, sensor in enumerate(sensors):
         threshold = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0
         nonzero = np.flatnonzero(np.abs(values[:, k]) > threshold if "notice" in sensor else ())

@@ -8,31 +8,31 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     """Summary of a System, several lines; `report`: entry of `System.meta`."""
     rank, dofs = report["rank"], report["degrees_of_freedom"]
     space = "planar" if dimension == 2 else "spatial"
-    still = "   (nothing can move)" if dofs == 0 else ""
+    immobile = "   (nothing can move)" if dofs == 0 else ""
     source = "stated" if report["length_stated"] else "extent of the drawing"
-    r = report
+    redundant, fronts = report["redundant_equations"], f"{report['fronts']} fronts, largest {report['largest_front']}"
     lines = [
         f"System '{name}' ({space})",
-        f"  bodies                {r['bodies']:>8}",
-        f"  full coordinates      {r['full_coordinates']:>8}",
-        f"  linear equations      {r['linear_equations']:>8}   ({r['redundant_equations']} of them redundant)",
-        f"  coordinates           {r['coordinates']:>8}",
-        f"  rows                  {r['rows']:>8}   ({r['dependent_rows']} dependent ones removed)",
+        f"  bodies                {report['bodies']:>8}",
+        f"  full coordinates      {report['full_coordinates']:>8}",
+        f"  linear equations      {report['linear_equations']:>8}   ({redundant} of them redundant)",
+        f"  coordinates           {report['coordinates']:>8}",
+        f"  rows                  {report['rows']:>8}   ({report['dependent_rows']} dependent ones removed)",
         f"  rank at reference     {'not computed' if rank is None else rank:>8}",
-        f"  degrees of freedom    {'not computed' if dofs is None else dofs:>8}{still}",
-        f"  non-zeros of tangent  {r['tangent_nonzeros']:>8}   (lower triangle)",
-        f"  non-zeros of factor   {r['factor_nonzeros']:>8}   ({r['fronts']} fronts, largest {r['largest_front']})",
-        f"  force elements        {r['elements']:>8}",
-        f"  length, m             {r['length']:>8.4g}   ({source}; tolerances are relative to it)",
-        f"  inputs, sensors       {r['inputs']:>8}, {r['sensors']}",
+        f"  degrees of freedom    {'not computed' if dofs is None else dofs:>8}{immobile}",
+        f"  non-zeros of tangent  {report['tangent_nonzeros']:>8}   (lower triangle)",
+        f"  non-zeros of factor   {report['factor_nonzeros']:>8}   ({fronts})",
+        f"  force elements        {report['elements']:>8}",
+        f"  length, m             {report['length']:>8.4g}   ({source}; tolerances are relative to it)",
+        f"  inputs, sensors       {report['inputs']:>8}, {report['sensors']}",
     ]
-    if r.get("closed"):
-        lines.append(f"  closed by least squares        {_correction_text(r['closed'])}")
-    lines += [f"  {message}" for name in ("locked", "contradiction") if (message := r.get(name))]
+    if report.get("closed"):
+        lines.append(f"  closed by least squares        {_correction_text(report['closed'])}")
+    lines += [f"  {message}" for key in ("locked", "contradiction") if (message := report.get(key))]
     return "\n".join(lines)
 
 
-def notices_before(meta: Mapping[str, Any]) -> list[str]:
+def model_notices(meta: Mapping[str, Any]) -> list[str]:
     """Notes on a model from its metadata: that it or parts of it cannot move, or that initial velocities contradict
     each other.
     """

@@ -11,7 +11,7 @@ from pathlib import Path
 from ali3.columns import in_columns
 from ali3.command_run import run_command
 from ali3.errors import UserError
-from ali3.options import Parser, add_option, given_of, name_and_text
+from ali3.options import Parser, add_option, name_and_text, options_given
 from ali3.units import quantity
 
 _KINEMATICS_OPTIONS = ("travel", "fidelity", "points", "out")
@@ -62,7 +62,7 @@ def _cheapest(options: argparse.Namespace, parser: argparse.ArgumentParser) -> i
 
     if options.folder is not None:
         raise UserError("A car is copied to a FOLDER, or its levels are compared by --cheapest; give one of them.")
-    _check_unused(given_of(parser, options, _KINEMATICS_OPTIONS), "--kinematics")
+    _check_unused(options_given(parser, options, _KINEMATICS_OPTIONS), "--kinematics")
     return report(options)
 
 
@@ -84,7 +84,7 @@ def _kinematics(options: argparse.Namespace, parser: argparse.ArgumentParser) ->
 
         if options.folder is not None:
             raise UserError("A car is copied to a FOLDER, or its curves are drawn by --kinematics; give one of them.")
-        _check_unused(given_of(parser, options, ("cheapest",)), "a call without --kinematics")
+        _check_unused(options_given(parser, options, ("cheapest",)), "a call without --kinematics")
         return report(options)
 
     return run_command(run, (ModelError,))
@@ -95,9 +95,9 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.read_car import car_names, read_car
 
-    _check_unused(given_of(parser, options, _KINEMATICS_OPTIONS), "--kinematics")
+    _check_unused(options_given(parser, options, _KINEMATICS_OPTIONS), "--kinematics")
     if options.list or options.folder is not None:
-        _check_unused(given_of(parser, options, ("json", "picture")), "a CAR alone, --kinematics or --cheapest")
+        _check_unused(options_given(parser, options, ("json", "picture")), "a CAR alone, --kinematics or --cheapest")
     if options.list:
         print("\n".join(in_columns([(name, read_car(BuiltCar, name).description) for name in car_names()])))
         return 0

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ali3.command_run import run_command
 from ali3.errors import UserError
-from ali3.options import Parser, add_option, given_of
+from ali3.options import Parser, add_option, options_given
 from ali3.units import quantity
 from mbs.worlds.package_worlds import world_names
 
@@ -98,7 +98,7 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         if options.out is not None:
             raise UserError("--out needs --world; name a road file as OUTPUT.road.")
         return make_road(options)
-    road_options = given_of(parser, options, _ROAD_OPTIONS)
+    road_options = options_given(parser, options, _ROAD_OPTIONS)
     if road_options:
         raise UserError(f"{road_options[0]} cannot be combined with --world.")
     return world(options.world, options.out or Path("out", "worlds"), options.picture, options.thin, options.json)

@@ -1,4 +1,4 @@
-/* Declarations that the files of the FMI 3.0 interface share. */
+/* Adapter of an instance to the interface of FMI 3.0: declarations that its files share. */
 #ifndef ALI3_FMI3_FACE_H
 #define ALI3_FMI3_FACE_H
 #include "fmi3.h"
@@ -16,14 +16,14 @@ typedef struct {
 extern const fmi3_table fmi3_the_table;
 
 typedef struct {
-  ali3_float_control control; /* first, see float_control.c */
+  ali3_float_control control; /* first member, as float_control.c reads it through the pointer of the host */
   fmi3InstanceEnvironment environment;
   fmi3LogMessageCallback log;
   fmi3IntermediateUpdateCallback update;
   bool updating; /* during the host's intermediate update */
   slave *s;
   uint32_t *items[2];        /* work: expanded value references, `capacity` each */
-  double *unit, *derivative; /* work: a unit seed and the derivatives by it, `capacity` each */
+  double *unit, *derivative; /* work: seed vector and directional derivatives, `capacity` each */
   size_t capacity;           /* number of variables */
 } fmi3_face;
 
@@ -38,11 +38,11 @@ enum {
   FMI3_RUN = SLAVE_STEPPING | SLAVE_STEP_FAILED
 };
 
-/* The face of an instance if the function may be called now, otherwise NULL. */
+/* The adapter of an instance if the function may be called now, otherwise NULL. */
 fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned phases);
 /* Logs an error if a required pointer of the call is NULL; returns `valid`. */
 bool fmi3_check_pointers(fmi3_face *face, const char *function, bool valid);
-/* Writes the numbers of the variables of arrays to face->items[list]. False: a reference is unknown or the arrays do
+/* Writes the indices of the variables of arrays to face->items[list]. False: a reference is unknown or the arrays do
  * not have n_values values, and an error was logged. */
 bool fmi3_expand(fmi3_face *face, int list, const fmi3ValueReference *reference, size_t n, size_t n_values);
 /* Number of values of one array, 1 for time. The reference must be below n_arrays. */

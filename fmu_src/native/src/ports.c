@@ -1,25 +1,24 @@
-/* Ports that no host has set before the first step, and those that none sets any more: FMI holds their last values,
- * which is said. */
+/* Warns of ports that the host has not set before the first step, or no longer sets: FMI holds their last values. */
 #include <math.h>
 
 #include "slave.h"
 
-enum { HABIT = 10 };               /* times that a port was set, after which its silence tells something */
-static const double SILENCE = 0.5; /* s, longer than between any of them */
+enum { MIN_TIMES_SET = 10 }; /* times that a port must have been set before its absence is reported */
+static const double MIN_PAUSE = 0.5; /* s beyond the longest interval between two of these times */
 
-/* A variable is set to a finite number, to what it was or to another one; of a port that is remembered. */
-void slave_port_given(slave *s, size_t i, bool changed) {
+/* Records when a port was set to a finite number, and when its value changed. */
+void slave_record_port_set(slave *s, size_t i, bool changed) {
   slave_rhythm *r = &s->rhythm[i];
   if (!slave_the_table.variable[i].port) return;
   const double now = s->calls.initialised ? ali3_time(s->fidelity.kernel) : s->calls.start_time;
   if (r->times == 0.0 || now > r->given) {
     if (r->times > 0.0) r->longest = fmax(r->longest, now - r->given);
-    r->times = fmin(r->times + 1.0, HABIT);
+    r->times = fmin(r->times + 1.0, MIN_TIMES_SET);
     r->given = now;
   }
   if (!changed || !(now > r->changed)) return;
   const double span = now - r->changed;
-  r->held = fmin(r->span, span); /* one long rest is none */
+  r->held = fmin(r->span, span); /* the shorter of the last two intervals: a single long one does not count */
   r->span = span;
   r->changed = now;
 }
@@ -52,8 +51,8 @@ static void say_stopped(slave *s, const slave_variable *first, size_t silent) {
               silent, first->name, given, first->name, held, first->unit);
 }
 
-/* After a step that began then: ports that nobody has set, or sets any more, but for whole numbers, which change at
- * events only. The step is a good one all the same. */
+/* Logs the warnings after a step that began at `begin`. Ports of whole numbers may cease to be set, as they change at
+ * events only. A warning does not change the status of the step. */
 void slave_watch_ports(slave *s, double begin) {
   const slave_table *t = &slave_the_table;
   const slave_variable *first = NULL, *stopped = NULL;
@@ -64,8 +63,8 @@ void slave_watch_ports(slave *s, double begin) {
     if (!(s->said[i] & SLAVE_GIVEN)) {
       s->said[i] |= SLAVE_GIVEN;
       if (silent++ == 0) first = &t->variable[i];
-    } else if (!t->variable[i].whole && r->times >= HABIT && begin - r->given > SILENCE + r->longest) {
-      s->rhythm[i].times = -HUGE_VAL; /* said */
+    } else if (!t->variable[i].whole && r->times >= MIN_TIMES_SET && begin - r->given > MIN_PAUSE + r->longest) {
+      s->rhythm[i].times = -HUGE_VAL; /* the warning is logged once */
       if (stops++ == 0) stopped = &t->variable[i];
     }
   }

@@ -97,7 +97,7 @@ typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
 
 enum {
-  SLAVE_GIVEN = 1,
+  SLAVE_GIVEN = 1, /* was set, or reported as not set */
   SLAVE_HELD_AT_END = 2,
   SLAVE_HELD_LAST = 4,
   SLAVE_HELD_FLAT = 8,
@@ -393,7 +393,7 @@ void slave_watch_outputs(slave *s);
 void slave_watch_start(slave *s);
 
 /* ports.c */
-void slave_port_given(slave *s, size_t i, bool changed);
+void slave_record_port_set(slave *s, size_t i, bool changed);
 void slave_watch_ports(slave *s, double begin);
 
 /* wheel_answers.c and road_jumps.c: checks of normals, answers on the road and forces on hubs */

@@ -215,7 +215,7 @@ slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const doub
     const bool clamped_value = check_value(s, reference[i], value[i], &clamped) == SLAVE_WARNING;
     if (clamped_value && warn_clamped(s, reference[i], value[i], clamped) == SLAVE_WARNING) worst = SLAVE_WARNING;
     s->said[reference[i]] |= SLAVE_GIVEN;
-    if (fabs(value[i]) < HUGE_VAL) slave_port_given(s, reference[i], clamped != s->value[reference[i]]);
+    if (fabs(value[i]) < HUGE_VAL) slave_record_port_set(s, reference[i], clamped != s->value[reference[i]]);
     store_value(s, reference[i], clamped);
   }
   return worst;

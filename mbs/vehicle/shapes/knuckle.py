@@ -9,6 +9,8 @@ from mbs.vehicle.shapes.appearance import CAST_STEEL, Anchor, Looks, inboard
 from mbs.vehicle.side import Side
 
 HUB_SIZE = 0.055, 0.030  # m: length and radius of the hub of a small car
+BEARING_LENGTH = 0.02  # m: length of the hub that is drawn beside the wheel centre
+ARM_RADIUS, STEERING_ARM_RADIUS = 0.020, 0.013  # m
 
 
 def draw_knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], arm: Anchor | None) -> None:
@@ -22,7 +24,8 @@ def draw_knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Ancho
     hub = inboard(centre, length)
     below = [joint for joint in joints if joint[1][2] <= hub[2]]
     above = [joint for joint in joints if joint[1][2] > hub[2]]
-    looks.tube(*below, (carrier, hub), *above, radius=0.020, **CAST_STEEL)
-    looks.cylinder(carrier, (inboard(hub, 0.02), centre), radius)
+    # one tube from the lowest joint through the hub to the highest one
+    looks.tube(*below, (carrier, hub), *above, radius=ARM_RADIUS, **CAST_STEEL)
+    looks.cylinder(carrier, (inboard(hub, BEARING_LENGTH), centre), radius)
     if arm is not None:
-        looks.tube((carrier, hub), arm, radius=0.013, **CAST_STEEL)
+        looks.tube((carrier, hub), arm, radius=STEERING_ARM_RADIUS, **CAST_STEEL)

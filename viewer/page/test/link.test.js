@@ -1,24 +1,29 @@
+// The connection of the page to the simulator: frames, messages, requests, reconnection.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { Link, readFrame } from "../src/simulator/link.js";
 
-/** A frame as the simulator packs it, written by hand. */
-function frame(numbers, values, { magic = 0x31463341, epoch = 7, flags = 1 } = {}) {
-  const buffer = new ArrayBuffer(96 + 8 * values.length);
+const HEAD = 96; // bytes: four integers, ten numbers
+const MAGIC = 0x31463341; // "A3F1"
+
+/** A frame as the simulator packs it: magic, epoch, flags, number of values; the numbers of `TEN`; the values. */
+function frame(numbers, values, { magic = MAGIC, epoch = 7, flags = 1 } = {}) {
+  const buffer = new ArrayBuffer(HEAD + 8 * values.length);
   const view = new DataView(buffer);
   [magic, epoch, flags, values.length].forEach((x, k) => view.setUint32(4 * k, x, true));
   numbers.forEach((x, k) => view.setFloat64(16 + 8 * k, x, true));
-  values.forEach((x, k) => view.setFloat64(96 + 8 * k, x, true));
+  values.forEach((x, k) => view.setFloat64(HEAD + 8 * k, x, true));
   return buffer;
 }
 
+/** Count, time, speed, wall, cost, worst, lateness, missed, deadline, saved. */
 const TEN = [1000, 2.5, 0.5, 12, 1e-4, 2e-4, 3e-4, 4, 0.004, 30];
 
 class Socket {
   /** @type {any[]} */
   static all = [];
   /** @type {any[]} */
-  said = [];
+  sent = [];
   readyState = 0;
   /** @type {(event: {reason: string}) => void} */
   onclose;
@@ -30,7 +35,7 @@ class Socket {
     this.readyState = 1;
   }
   send(text) {
-    this.said.push(JSON.parse(text));
+    this.sent.push(JSON.parse(text));
   }
   close() {
     this.lose("");
@@ -44,11 +49,11 @@ class Socket {
 function linked(handlers = {}) {
   Socket.all = [];
   /** @type {Data} */
-  const means = { WebSocket: Socket, time: 0, waits: [] };
-  means.now = () => means.time;
-  means.wait = (work, ms) => means.waits.push([work, ms]);
-  const link = new Link("ws://127.0.0.1:1/drive", handlers, means);
-  return { link, means, socket: Socket.all[0] };
+  const environment = { WebSocket: Socket, time: 0, timers: [] };
+  environment.now = () => environment.time;
+  environment.wait = (work, ms) => environment.timers.push([work, ms]);
+  const link = new Link("ws://127.0.0.1:1/drive", handlers, environment);
+  return { link, environment, socket: Socket.all[0] };
 }
 
 test("a frame is read number by number", () => {
@@ -68,94 +73,94 @@ test("what is not a frame is refused", () => {
 });
 
 test("every frame is acknowledged and handed on", () => {
-  const got = [];
-  const { socket } = linked({ frame: (found) => got.push(found.count) });
+  const received = [];
+  const { socket } = linked({ frame: (found) => received.push(found.count) });
   socket.open();
   socket.onmessage({ data: frame(TEN, []) });
-  assert.deepEqual(got, [1000]);
-  assert.deepEqual(socket.said, [{ type: "seen", count: 1000 }]);
+  assert.deepEqual(received, [1000]);
+  assert.deepEqual(socket.sent, [{ type: "seen", count: 1000 }]);
   assert.equal(socket.binaryType, "arraybuffer");
 });
 
-test("messages go to their handlers, and one that nobody handles is passed over", () => {
-  const got = [];
-  const { socket } = linked({ hello: (m) => got.push(m), event: (m) => got.push(m) });
+test("messages go to their handlers, and one that nobody handles is ignored", () => {
+  const received = [];
+  const { socket } = linked({ hello: (m) => received.push(m), event: (m) => received.push(m) });
   for (const m of [{ type: "hello", version: 1 }, { type: "devices", devices: [] }, { type: "refused", text: "No." }]) {
     socket.onmessage({ data: JSON.stringify(m) });
   }
-  assert.equal(got[0].version, 1);
-  assert.equal(got[1].kind, "refused message");
-  assert.equal(got[1].text, "No.");
-  assert.equal(got.length, 2);
+  assert.equal(received[0].version, 1);
+  assert.equal(received[1].kind, "refused message");
+  assert.equal(received[1].text, "No.");
+  assert.equal(received.length, 2);
 });
 
-test("a wish is said when it changes, and now and then", () => {
-  const { link, means, socket } = linked();
+test("a request is sent when it changes, and every 250 ms", () => {
+  const { link, environment, socket } = linked();
   link.want("keys", { throttle: [1, 2.5] }); // nobody hears it yet
   socket.open();
   for (let k = 0; k < 10; k++) link.want("keys", { throttle: [1, 2.5] });
-  assert.equal(socket.said.length, 1);
-  assert.deepEqual(socket.said[0], { type: "want", source: "keys", values: { throttle: [1, 2.5] } });
+  assert.equal(socket.sent.length, 1);
+  assert.deepEqual(socket.sent[0], { type: "want", source: "keys", values: { throttle: [1, 2.5] } });
   link.want("keys", { throttle: [0, 5] });
   link.want("gamepad", { steering: [0.25, null] });
-  assert.equal(socket.said.length, 3);
-  means.time = 250;
+  assert.equal(socket.sent.length, 3);
+  environment.time = 250;
   link.want("keys", { throttle: [0, 5] });
-  assert.equal(socket.said.length, 4);
+  assert.equal(socket.sent.length, 4);
   link.command("rewind", 5);
-  assert.deepEqual(socket.said[4], { type: "command", name: "rewind", value: 5 });
+  assert.deepEqual(socket.sent[4], { type: "command", name: "rewind", value: 5 });
 });
 
-test("a lost connection is said and comes back, sooner at first", () => {
+test("a lost connection is reported and tried again with increasing delays", () => {
   const words = [];
-  const { link, means, socket } = linked({ closed: (text, again) => words.push({ text, again }) });
+  const { link, environment, socket } = linked({ closed: (text, again) => words.push({ text, again }) });
   socket.open();
   link.want("keys", { throttle: [1, 2.5] });
   socket.lose("Too many pages are connected.");
   assert.equal(link.connected, false);
   assert.equal(link.send({ type: "report" }), false);
   assert.equal(words[0].text, "The simulator is not there: Too many pages are connected. Trying again in 0.3 s.");
-  means.waits[0][0]();
+  environment.timers[0][0]();
   assert.equal(Socket.all.length, 2);
   Socket.all[1].lose("");
   assert.equal(words[1].text, "The simulator is not there: Too many pages are connected. Trying again in 0.5 s.");
   for (let k = 1; k < 8; k++) {
-    means.waits[k][0]();
+    environment.timers[k][0]();
     Socket.all[k + 1].lose("");
   }
   assert.equal(words.at(-1).again, 4000);
-  means.waits[8][0]();
+  environment.timers[8][0]();
   const last = Socket.all.at(-1);
   last.open();
   last.onmessage({ data: '{"type":"hello"}' });
-  link.want("keys", { throttle: [1, 2.5] }); // said again
-  assert.equal(last.said.length, 1);
+  link.want("keys", { throttle: [1, 2.5] }); // sent again
+  assert.equal(last.sent.length, 1);
   last.lose("");
   assert.equal(words.at(-1).again, 250);
 });
 
 test("a link that is closed stays closed", () => {
   const words = [];
-  const { link, means, socket } = linked({ closed: (text, again) => words.push({ text, again }) });
+  const { link, environment, socket } = linked({ closed: (text, again) => words.push({ text, again }) });
   socket.open();
   link.close();
-  assert.deepEqual([words, means.waits], [[], []]);
+  assert.deepEqual([words, environment.timers], [[], []]);
   const other = linked();
   other.socket.lose("");
   other.link.close();
-  other.means.waits[0][0]();
+  other.environment.timers[0][0]();
   assert.equal(Socket.all.length, 1);
 });
 
-test("what is not understood is said, and the connection tried again", () => {
+test("what is not understood is reported, and the connection tried again", () => {
   for (const { data, why } of [{ data: "{", why: /JSON/ }, { data: frame(TEN, [], { magic: 1 }), why: /This is not a frame of a simulator/ }]) {
     const words = [];
-    const { means, socket } = linked({ closed: (text) => words.push(text), event: () => assert.fail() });
+    const { environment, socket } = linked({ closed: (text) => words.push(text), event: () => assert.fail() });
     socket.open();
     socket.onmessage({ data });
     assert.equal(words.length, 1);
     assert.match(words[0], /^The simulator is not there: what it says is not understood: .*\. Trying again in 0\.3 s\.$/);
     assert.match(words[0], why);
-    assert.equal(means.waits.length, 1);
+    assert.equal(environment.timers.length, 1);
   }
 });

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { spring } from "../src/shapes/spring.js";
 
 const EYE = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]; // prettier-ignore
-const materials = { of: () => undefined, named: () => undefined };
+const materials = { forShape: () => undefined, get: () => undefined };
 const frames = { pose: () => ({ rotation: EYE }) };
 
 /** Lowest and highest place of the wire's middle for a spring along z. */

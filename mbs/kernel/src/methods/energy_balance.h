@@ -1,4 +1,4 @@
-/* Energy balance of a run; energy_balance.c describes the functions. */
+/* Energy balance of a run, and other measures of the accuracy of its steps; energy_balance.c describes the functions. */
 #ifndef ALI3_METHODS_ENERGY_BALANCE_H
 #define ALI3_METHODS_ENERGY_BALANCE_H
 #include "../instance.h"

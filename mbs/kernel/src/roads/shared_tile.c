@@ -1,5 +1,5 @@
 /* Reads shared tiles of a road file and checks them: the entry by its checksum, which includes the number of the tile,
- * the record by the checksum in its entry, its sizes by their sum. */
+ * the record by the checksum in its entry, the sizes in its head by its length. */
 #include "shared_tile.h"
 
 #include <string.h>
@@ -12,12 +12,12 @@ typedef struct {
   int64_t offset;
   int32_t bytes;
   uint32_t record_crc;
-  uint32_t zero;
+  uint32_t reserved; /* 0 */
   uint32_t crc;
 } entry;
 
 typedef struct {
-  int32_t rows, columns, levels, zero;
+  int32_t rows, columns, levels, reserved /* 0 */;
 } head;
 
 static const char ALTERED[] = "was altered or damaged";
@@ -30,7 +30,7 @@ static uint32_t entry_crc(const unsigned char *bytes, int64_t number) {
   return ali3_crc32(checked, sizeof checked);
 }
 
-/* Coordinate of point i of a tile, -1 to 1. */
+/* Coordinate of point i of a tile, -31/32 to 31/32. */
 static double normalised_coordinate(int i) { return (i - 0.5 * (SIDE - 1)) / (SIDE / 2); }
 
 static double polynomial(const double *c, int n, double t) {
@@ -56,16 +56,16 @@ static void read_heights(const head *h, const unsigned char *from, double *to) {
 
 /* Writes SIDE x SIDE frictions; NULL, or what is wrong. */
 static const char *read_frictions(const head *h, const unsigned char *from, double *to) {
-  double levels_valid[MAX_LEVELS];
+  double level_frictions[MAX_LEVELS];
   if (h->levels == POINTS) {
     memcpy(to, from, POINTS * sizeof *to);
     return NULL;
   }
-  memcpy(levels_valid, from, (size_t)h->levels * sizeof *levels_valid);
-  const unsigned char *level_index = from + (size_t)h->levels * sizeof *levels_valid;
+  memcpy(level_frictions, from, (size_t)h->levels * sizeof *level_frictions);
+  const unsigned char *level_index = from + (size_t)h->levels * sizeof *level_frictions;
   for (int k = 0; k < POINTS; k++) {
-    if (h->levels > 1 && level_index[k] >= h->levels) return "names a friction that it does not have";
-    to[k] = levels_valid[h->levels > 1 ? level_index[k] : 0];
+    if (h->levels > 1 && level_index[k] >= h->levels) return "refers to a friction that it does not have";
+    to[k] = level_frictions[h->levels > 1 ? level_index[k] : 0];
   }
   return NULL;
 }
@@ -77,7 +77,7 @@ static int64_t record_size(const head *h, int32_t maps) {
       h->rows >= 1 && h->rows <= MAX_COEFFICIENTS && h->columns >= 1 && h->columns <= MAX_COEFFICIENTS;
   const int levels_valid =
       maps < 2 ? h->levels == 0 : (h->levels >= 1 && h->levels <= MAX_LEVELS) || h->levels == POINTS;
-  if (!(is_full || is_polynomial) || !levels_valid || h->zero != 0) return 0;
+  if (!(is_full || is_polynomial) || !levels_valid || h->reserved != 0) return 0;
   const int64_t reals = (int64_t)h->rows * h->columns + h->levels;
   return HEAD + reals * (int64_t)sizeof(double) + (h->levels > 1 && h->levels < POINTS ? POINTS : 0);
 }
@@ -89,7 +89,7 @@ const char *ali3_shared_tile(const ali3_tile_table *table, int64_t number, unsig
   if (!ali3_file_read(table->stream, table->table + number * ALI3_TILE_ENTRY, bytes, sizeof bytes))
     return "cannot be read";
   memcpy(&e, bytes, sizeof e);
-  if (e.zero != 0 || e.crc != entry_crc(bytes, number)) return ALTERED;
+  if (e.reserved != 0 || e.crc != entry_crc(bytes, number)) return ALTERED;
   const int64_t first = table->table + table->tiles * ALI3_TILE_ENTRY;
   if (e.bytes < HEAD || e.bytes > ALI3_MAX_RECORD || e.offset < first || e.offset > table->size - e.bytes)
     return "lies outside of the file";

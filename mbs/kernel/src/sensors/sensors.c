@@ -56,9 +56,9 @@ static double value_component(const ali3_instance *in, const int32_t *v, const d
 static double signal_of_modes(const ali3_instance *in, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const int32_t first = S->sig_ptr[i], n = S->sig_ptr[i + 1] - first, *col = S->sig_col + first;
-  if (!ali3_together(col, n) || S->n_tabled > 0) return signal(in, i, order);
+  if (!ali3_are_consecutive(col, n) || S->n_tabled > 0) return signal(in, i, order);
   const double *x = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
-  return (order == 0 ? S->sig_const[i] : 0.0) + ali3_product_from_far(S->sig_val + first, x + col[0], n);
+  return (order == 0 ? S->sig_const[i] : 0.0) + ali3_product_backward(S->sig_val + first, x + col[0], n);
 }
 
 /* Position of a point of a flexible body or its rates, by Leibniz' rule: r + sum of axis_i times signal_i of its modes. */

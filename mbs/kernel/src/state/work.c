@@ -89,7 +89,7 @@ ALI3_INLINED void work_along(ali3_instance *in, double weight) {
     const int32_t n = S->work_ptr[k + 1] - S->work_ptr[k];
     ALI3_EACH(0, n, ALI3_AT(after) = ALI3_AT(force);
               ALI3_AT(mean) = weight * ALI3_AT(force) + (1.0 - weight) * ALI3_AT(before))
-    in->next.work[k] = in->now.work[k] + ali3_product_from_far(mean, displacement, n);
+    in->next.work[k] = in->now.work[k] + ali3_product_backward(mean, displacement, n);
     before += n, displacement += n, mean += n, after += n;
   }
 }

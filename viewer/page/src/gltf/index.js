@@ -50,7 +50,7 @@ const pieces = scene.shapes.flatMap((shape) => {
   if (bent > NOTED_CHANGE) notes.push(`The ${shape.kind} '${title}' changes its form; it keeps that of the start, and a corner is off by ${rounded(1000 * bent, 2)} mm at most.`);
   return shapePieces.map((piece) => ({ ...piece, title }));
 });
-const bending = (scene.flexible ?? []).map((part) => ({ part, ...flexible(part, run, deformation, materials.named("steel")) }));
+const bending = (scene.flexible ?? []).map((part) => ({ part, ...flexible(part, run, deformation, materials.get("steel")) }));
 if (pieces.length + bending.length > 0) {
   if (ground) addGround();
   addNodes();

@@ -46,7 +46,7 @@ function meshesIn(object) {
 }
 
 /** A material without texture. @param {Data} material @param {Data} materials */
-const untextured = (material, materials) => (material.map ? materials.named(material.name) : material);
+const untextured = (material, materials) => (material.map ? materials.get(material.name) : material);
 
 /** Mesh of an object that is fixed in a frame, relative to its first mesh. @param {THREE.Object3D} object @param {string} frame @param {Data} materials @returns {Piece[]} */
 export function fixed(object, frame, materials) {

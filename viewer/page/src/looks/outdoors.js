@@ -12,19 +12,34 @@ import { HAZE, seenSky, skyBall } from "./sky.js";
 import { sharpen, sunLight } from "./sun.js";
 import { makeWorld } from "./world.js";
 
-/** Makes the look. @param {Data} view the SceneView @param {boolean} fine whether there is a graphics card */
+/** Direction of the sun: components upwards, across and along the scene. It is chosen by eye, as are the next numbers. */
+const SUN = { up: 0.72, across: 0.62, along: -0.38, strength: 3.4, color: "#fff1dc" };
+const EXPOSURE = 1.15;
+/** Distances at which the fog begins and is opaque, m: constant part, and factor of the extent of the scene. */
+const FOG = { near: [60, 15], far: [700, 60] };
+
+/** Makes the look. @param {Data} view the SceneView, whose `world` is the scene of three.js and whose `scene` is that of
+ * ALi3 @param {boolean} fine whether there is a graphics card @returns {Data} `restore` draws the reflections again after
+ * the graphics card was lost, `height` gives the height of the ground at a position or is null, `tell` are sentences
+ * about what could not be drawn */
 export function outdoors(view, fine) {
   const { world, renderer, up, extent, scene } = view;
   const x = across(up);
-  const direction = unit(add(scale(up, 0.72), add(scale(x, 0.62), scale(cross(up, x), -0.38))));
-  const sun = sunLight({ direction, reach: 1.2 * view.radius, strength: 3.4, color: "#fff1dc", size: fine ? 2048 : 1024 });
+  const direction = unit(add(scale(up, SUN.up), add(scale(x, SUN.across), scale(cross(up, x), SUN.along))));
+  const { strength, color } = SUN;
+  const sun = sunLight({ direction, reach: 1.2 * view.radius, strength, color, size: fine ? 2048 : 1024 });
   world.add(sun);
   renderer.toneMapping = THREE.ACESFilmicToneMapping;
-  renderer.toneMappingExposure = 1.15;
-  world.fog = new THREE.Fog(HAZE, 60 + 15 * extent, 700 + 60 * extent);
+  renderer.toneMappingExposure = EXPOSURE;
+  const [near, far] = [FOG.near, FOG.far].map(([constant, factor]) => constant + factor * extent);
+  world.fog = new THREE.Fog(HAZE, near, far);
   const environment = {};
   const pixels = new THREE.Vector2();
   const noise = noiseTexture(fine ? 8 : 1);
+  const sky = seenSky();
+  world.add(sky);
+  const land = makeWorld(scene, { up, noise, sun: new THREE.Vector3(...direction), fine });
+  if (land !== null) world.add(land.group);
   /** Draws the sky to a cube for background and reflections; returns it as a scene. */
   const makeSky = () => {
     environment.cube?.dispose();
@@ -35,10 +50,6 @@ export function outdoors(view, fine) {
     land?.mirror(environment.cube.texture);
     return skyScene;
   };
-  const sky = seenSky();
-  world.add(sky);
-  const land = makeWorld(scene, { up, noise, sun: new THREE.Vector3(...direction), fine });
-  if (land !== null) world.add(land.group);
   const light = reflecting(view, makeSky, { fine, intensity: 0.75 });
   const asphalt = groundMaterial({ noise, up, paint: 1, fine });
   const road = groundMaterial({ noise, up, fine });
@@ -48,12 +59,15 @@ export function outdoors(view, fine) {
   const draft = makeDraft(view, sun);
   const shadows = contactShadows(view);
   world.add(shadows.mesh);
-  /** Draft materials by the materials of the ground. */
-  const twins = new Map();
-  const dress = (on) => {
-    if (on && twins.size === 0) for (const { material, drafted } of [asphalt, road, grass]) twins.set(material, drafted(draft.light));
-    const owns = new Map([...twins].map(([own, twin]) => [twin, own]));
-    roads.dress((material) => (on ? twins : owns).get(material) ?? material);
+  /** Materials of the draft quality, which graphics in software draw sooner, by the materials of the ground. */
+  const draftMaterials = new Map();
+  /** Gives the roads the materials of the draft quality, or their own ones. */
+  const setDraft = (isDraft) => {
+    if (isDraft && draftMaterials.size === 0) {
+      for (const { material, drafted } of [asphalt, road, grass]) draftMaterials.set(material, drafted(draft.light));
+    }
+    const ownMaterials = new Map([...draftMaterials].map(([own, drafted]) => [drafted, own]));
+    roads.dress((material) => (isDraft ? draftMaterials : ownMaterials).get(material) ?? material);
   };
   return {
     follow(origin) {
@@ -67,7 +81,7 @@ export function outdoors(view, fine) {
     quality(level) {
       sharpen(sun, level === "high" ? 2048 : 1024);
       draft.set(level);
-      dress(draft.on);
+      setDraft(draft.on);
       land?.show(level, draft.light);
     },
     restore: light.bake,
@@ -78,7 +92,7 @@ export function outdoors(view, fine) {
       shadows.dispose();
       land?.dispose();
       roads.dispose();
-      for (const twin of twins.values()) twin.dispose();
+      for (const material of draftMaterials.values()) material.dispose();
       for (const { material } of [asphalt, road, grass]) material.dispose();
       noise.dispose();
       discard(sky);

@@ -154,7 +154,7 @@ export class Cameras {
     this.name = name;
     this.current = name === "orbit" ? this.free : this.rig;
     this.controls.enabled = name === "orbit";
-    this.view.parts.materials.clear(name === "driver");
+    this.view.parts.materials.setCameraInside(name === "driver");
     this._angle(VIEW_ANGLES[name] ?? VIEW_ANGLES.wheel);
     this.follow();
   }

@@ -121,8 +121,8 @@ export class Parts {
 
   /** Makes covers solid, which hide rigid and flexible parts inside, or transparent. @param {boolean} closed */
   close(closed) {
-    this.closed = closed && this.materials.covered;
-    this.materials.cover(closed);
+    this.closed = closed && this.materials.hasCovers;
+    this.materials.setCoversClosed(closed);
     for (const { object } of this.flexible) object.visible = !this.closed;
     for (const [name, carrier] of this.inner) carrier.visible = this.frames.pose(name).shown && !this.closed;
   }

@@ -143,7 +143,7 @@ export class SceneView {
       arrows: arrows.list.length > 0,
       stress: flexible.some(({ bending }) => bending.stress !== null),
       deformation: flexible.length > 0,
-      closed: this.parts.materials.covered,
+      closed: this.parts.materials.hasCovers,
     };
   }
 

@@ -11,7 +11,7 @@ export function rounded([x, y, z]) {
 
 /** Makes a box. @param {Data} shape @param {import("./index.js").Context} context */
 export function box(shape, { materials }) {
-  const mesh = new THREE.Mesh(rounded(shape.size), materials.of(shape));
+  const mesh = new THREE.Mesh(rounded(shape.size), materials.forShape(shape));
   mesh.position.fromArray(shape.at ?? [0, 0, 0]);
   turnByAxes(mesh, shape.axes);
   return { object: mesh, frame: shape.frame };

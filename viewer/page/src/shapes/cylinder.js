@@ -16,7 +16,7 @@ export function bevelled(radius, height) {
 export function cylinder(shape, { materials }) {
   const [a, b] = shape.ends;
   const along = subtract(b, a);
-  const mesh = new THREE.Mesh(new THREE.LatheGeometry(bevelled(shape.radius, length(along)), 32), materials.of(shape));
+  const mesh = new THREE.Mesh(new THREE.LatheGeometry(bevelled(shape.radius, length(along)), 32), materials.forShape(shape));
   mesh.position.fromArray(middle(a, b));
   turn(mesh, alongY(unit(along) ?? [0, 1, 0]));
   return { object: mesh, frame: shape.frame };

@@ -12,11 +12,11 @@ const { share, most, foot, rod: thin, eye: ball, collar: wide, below, above } = 
 export function damper(shape, { materials, frames }) {
   const { radius, ends } = shape;
   const unitBody = new THREE.LatheGeometry(bevelled(1, 1), 20);
-  const body = new THREE.Mesh(unitBody, materials.of(shape, "dark_paint"));
-  const collar = new THREE.Mesh(unitBody, materials.named("steel"));
-  const rod = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 20), materials.named("chrome"));
+  const body = new THREE.Mesh(unitBody, materials.forShape(shape, "dark_paint"));
+  const collar = new THREE.Mesh(unitBody, materials.get("steel"));
+  const rod = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 20), materials.get("chrome"));
   const eye = new THREE.SphereGeometry(ball * radius, 12, 8);
-  const eyes = [0, 1].map(() => new THREE.Mesh(eye, materials.named("steel")));
+  const eyes = [0, 1].map(() => new THREE.Mesh(eye, materials.get("steel")));
   const object = new THREE.Group().add(body, collar, rod, ...eyes);
   const drawn = ends.map(([frame, local]) => frames.point(frame, local));
   let drawnLength = drawn.includes(null) ? null : length(subtract(drawn[1], drawn[0]));

@@ -18,7 +18,7 @@ export class Flexible {
     this.name = body.name ?? body.frame;
     this.bending = new Bending(body);
     this.tubes = new FrameTubes(body.nodes, body.beams, (body.radii ?? []).map((r) => Math.max(r, thinnest)));
-    this.plain = materials.named("steel");
+    this.plain = materials.get("steel");
     this.map = colourTexture();
     this.coloured = headlight({ map: this.map });
     /** Least radius of tubes in a draft, else 0, see `growing`. */

@@ -19,7 +19,7 @@ export function mesh(shape, { materials, scene }) {
   geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
   if (data.normals !== undefined) geometry.setAttribute("normal", new THREE.BufferAttribute(floats(data.normals), 3));
   else geometry = toCreasedNormals(geometry, CREASE);
-  const object = new THREE.Mesh(geometry, materials.of(shape, "plastic", { double: true }));
+  const object = new THREE.Mesh(geometry, materials.forShape(shape, "plastic", { doubleSided: true }));
   object.userData.cover = shape.cover;
   object.position.fromArray(shape.at ?? [0, 0, 0]);
   turnByAxes(object, shape.axes);

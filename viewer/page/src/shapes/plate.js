@@ -16,7 +16,7 @@ function normalOf(points) {
 /** Makes a plate through points of any frames, with a round edge. @param {Data} shape @param {import("./index.js").Context} context */
 export function plate(shape, { materials, rigid = false }) {
   const { points, thickness } = shape;
-  const material = materials.of(shape, "steel");
+  const material = materials.forShape(shape, "steel");
   const { group, place } = roundTubes(points.length, true, 0.75 * thickness, material);
   const faces = new THREE.Mesh(new THREE.BufferGeometry(), material);
   group.add(faces);

@@ -12,14 +12,14 @@ const DEFAULTS = shapes.spring;
 /** Makes a coil spring between two points; the thickness of its wire is constant, unless shapes are rigid. @param {Data} shape */
 export function spring(shape, { materials, frames, rigid = false }) {
   const { radius, wire = DEFAULTS.wire * radius, coils = DEFAULTS.coils, seat: begin = 0, ends } = shape;
-  const material = materials.of({ color: DEFAULTS.color, ...shape }, "paint");
+  const material = materials.forShape({ color: DEFAULTS.color, ...shape }, "paint");
   const geometry = new THREE.BufferGeometry();
   geometry.setIndex(coilTriangles(coils));
   const coil = new THREE.Mesh(geometry, material);
   Object.assign(coil.userData, { alone: true, round: true }); // its form changes
   coil.userData.coarse = coilTriangles(coils, 2); // triangles for drafts
   const seat = new THREE.CylinderGeometry(1, 1, 1, 24);
-  const seats = [0, 1].map(() => new THREE.Mesh(seat, materials.named("dark_paint")));
+  const seats = [0, 1].map(() => new THREE.Mesh(seat, materials.get("dark_paint")));
   const object = new THREE.Group().add(coil, ...seats);
   let drawnHeight = 0;
   const update = (at) => {

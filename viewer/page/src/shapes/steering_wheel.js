@@ -9,7 +9,7 @@ import { turn } from "./place.js";
 export function steeringWheel(shape, { materials, frames, scene }) {
   const { radius, frame } = shape;
   const axis = unit(shape.axis ?? scene.frames?.[frame]?.axis ?? [0, 0, 1]) ?? [0, 0, 1];
-  const look = (part) => (part.of_shape ? materials.of({ color: part.color, ...shape }, part.material) : materials.named(part.material, part.color));
+  const look = (part) => (part.of_shape ? materials.forShape({ color: part.color, ...shape }, part.material) : materials.get(part.material, { color: part.color }));
   const object = new THREE.Group().add(...composed(shapes.steering_wheel.parts, { radius }, look));
   const up = rotate(transpose(frames.pose(frame).rotation), scene.up ?? [0, 0, 1]);
   const top = unit(subtract(up, scale(axis, dot(up, axis)))) ?? across(axis);

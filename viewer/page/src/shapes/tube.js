@@ -23,7 +23,7 @@ export function roundTubes(count, closed, radius, material) {
 /** Makes a tube through points of any frames. @param {Data} shape @param {import("./index.js").Context} context */
 export function tube(shape, { materials }) {
   const { points, radius } = shape;
-  const { group, place } = roundTubes(points.length, false, radius, materials.of(shape, "steel"));
+  const { group, place } = roundTubes(points.length, false, radius, materials.forShape(shape, "steel"));
   const frame = points[0][0];
   if (points.every(([other]) => other === frame)) {
     place(points.map(([, local]) => local));

@@ -12,7 +12,7 @@ const WHEEL = shapes.wheel;
 
 /** Makes rubber with tread blocks and lines on the side. */
 function rubber(part, lengths, materials) {
-  const material = materials.named("rubber").clone();
+  const material = materials.get("rubber").clone();
   if (!materials.options.ghost) {
     const start = part.tread / (profileOf(part, lengths).length - 1);
     material.color.set("#48494c");
@@ -50,7 +50,7 @@ export function wheel(shape, context) {
   const { radius, width, rim = WHEEL.rim * radius, axis = [0, 1, 0] } = shape;
   const lengths = { rim, side: radius - rim, width };
   const tyre = rubber(WHEEL.parts.find((part) => part.tread !== undefined), lengths, materials);
-  const look = (part) => (part.tread === undefined ? materials.named(part.material, part.color, undefined, part.double) : tyre);
+  const look = (part) => (part.tread === undefined ? materials.get(part.material, { color: part.color, doubleSided: part.double }) : tyre);
   const object = new THREE.Group().add(...composed(WHEEL.parts, lengths, look, outward(shape, axis, context)));
   object.position.fromArray(shape.at ?? [0, 0, 0]);
   const y = unit(axis) ?? [0, 1, 0];
