@@ -29,10 +29,10 @@ class FrameError(Exception):
 
 def write_frame(stream: IO[bytes], kind: int, value: Any) -> None:
     """Write a value: numbers, text, bytes, lists, mappings, arrays, and dataclasses of these. `kind`: 0 to 255."""
-    blocks: list[bytes] = []
+    blocks = _Blocks()
     text = json.dumps(_encode(value, blocks)).encode()
-    stream.write(_HEAD.pack(kind, len(text), sum(map(len, blocks))))
-    stream.writelines((text, *blocks))
+    stream.write(_HEAD.pack(kind, len(text), blocks.size))
+    stream.writelines((text, *blocks.parts))
     stream.flush()
 
 
@@ -67,17 +67,29 @@ def _read_exactly(stream: IO[bytes], size: int) -> bytes:
     return data
 
 
-def _encode(value: Any, blocks: list[bytes]) -> Any:
+class _Blocks:
+    """Bytes of arrays, one after another."""
+
+    def __init__(self) -> None:
+        self.parts: list[bytes] = []
+        self.size = 0
+
+    def add(self, part: bytes) -> list[int]:
+        """Append bytes; returns their offset and size."""
+        self.parts.append(part)
+        self.size += len(part)
+        return [self.size - len(part), len(part)]
+
+
+def _encode(value: Any, blocks: _Blocks) -> Any:
     if value is None or isinstance(value, (bool, str)) or type(value) in (int, float):
         return value
     if isinstance(value, np.ndarray):
         if value.dtype.kind not in _ARRAY_KINDS:
             raise TypeError(f"an array of {value.dtype} does not pass between processes")
-        blocks.append(np.ascontiguousarray(value).tobytes())
-        return {_ARRAY: [value.dtype.str, list(value.shape), sum(map(len, blocks[:-1])), len(blocks[-1])]}
+        return {_ARRAY: [value.dtype.str, list(value.shape), *blocks.add(np.ascontiguousarray(value).tobytes())]}
     if isinstance(value, (bytes, bytearray)):
-        blocks.append(bytes(value))
-        return {_BYTES: [sum(map(len, blocks[:-1])), len(blocks[-1])]}
+        return {_BYTES: blocks.add(bytes(value))}
     if isinstance(value, np.generic):
         return value.item()
     if isinstance(value, (int, float)):  # of a derived class

@@ -40,7 +40,9 @@ def page(
     """
     for text, end in [(style, "</style"), *((script, "</script") for script in scripts)]:
         if end in text.lower() or "<!--" in text or "\r" in text or "\0" in text:
-            raise ValueError(f"A script or style of the page '{title}' holds {end}, <!--, a carriage return or a zero.")
+            raise ValueError(
+                f"A script or style of the page '{title}' holds {end}, <!--, a carriage return or a NUL character."
+            )
     directives = {
         "default-src": "'none'",
         "script-src": " ".join(map(_hash, scripts)) or "'none'",

@@ -16,8 +16,8 @@ def locked(folder: str | os.PathLike[str], busy: str = "") -> Iterator[None]:
 
     The lock is released when the process ends in any way.
 
-    `busy`: message if another program has locked the folder; by default this waits for it. Raises `FileError` if
-    another program has locked the folder, or it cannot be written.
+    `busy`: message of a `FileError` that is raised if another program has locked the folder; by default this waits
+    until it is free. Raises `FileError` if the folder cannot be written.
     """
     lock = FileLock(make_folder(folder) / ".lock", timeout=0 if busy else -1)
     try:

@@ -18,7 +18,7 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, **options: Any) -> None:
         # without abbreviations, as reports look for options in the command that they repeat
-        defaults = {"formatter_class": argparse.RawDescriptionHelpFormatter, "allow_abbrev": False}
+        defaults: dict[str, Any] = {"formatter_class": argparse.RawDescriptionHelpFormatter, "allow_abbrev": False}
         super().__init__(**defaults | options)
         # argparse knows no negative values other than plain decimals, such as -30mm, -1e3 or -1:1
         self._negative_number_matcher = re.compile(rf"-{DECIMAL}")

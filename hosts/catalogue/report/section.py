@@ -33,7 +33,8 @@ def make_section(
 ) -> Section:
     """Make the section of a test.
 
-    `records`: one per car, by its label; `command`: command of the whole report, empty if unknown.
+    `records`: one per car, by its label; `settings`: values of the settings of the test, by name, those missing are the
+    default; `command`: command of the whole report, empty if unknown.
     """
     finished = {label: record for label, record in records.items() if isinstance(record, TestRecord)}
     content: list[Content] = [_standard_element(standard) for standard in test.standards]
