@@ -70,6 +70,7 @@ def test_plots_of_a_measure_with_a_long_name_have_a_file_each(tmp_path: Path) ->
     assert len([*(tmp_path / "analysis").glob("*.svg")]) == text.count("data:image/svg+xml") == 5
 
 
+@pytest.mark.slow
 def test_the_report_of_an_incomplete_study_with_limits_and_messages(frame: pd.DataFrame, tmp_path: Path) -> None:
     half = frame.iloc[:60].copy()
     half["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(60)]
