@@ -150,7 +150,7 @@ def test_a_distribution_is_drawn_of_a_random_sample_only(method: str, count: int
     plt.close(figure)
 
 
-def test_one_parameter_has_no_indices_and_a_grid_no_percentiles(tmp_path: Path) -> None:
+def test_one_parameter_has_no_indices_and_a_grid_no_percentiles() -> None:
     """Of one parameter an index is 1 whatever the model does."""
     data = study_data(frame_of({"mass": [1.0, 2.0]}, {"peak": np.array([3.0, 4.0])}, UNITS, method="grid"))
     indices = indices_of(data, data.responses[0])
