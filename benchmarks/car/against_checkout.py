@@ -62,11 +62,7 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
         )
     label = f"the program that repeats steps, with the kernel of {checkout},"
     include = (kernel / "include",)
-    header = (kernel / "include" / "ali3.h").read_text(encoding="utf-8")
-    defines = () if "ali3_system_attach" in header else ("LOOPS_ALONE",)
-    build.compile_c(
-        [SOURCE, *sources], build.host_target(), program, include=include, defines=defines, what=label, shared=False
-    )
+    build.compile_c([SOURCE, *sources], build.host_target(), program, include=include, what=label, shared=False)
     scene_steps = json.dumps([[scene.name, scene.step] for scene in scenes])
     command = [sys.executable, "-c", _COMMANDS, scene_instructions.__file__, str(program), scene_steps, str(steps)]
     environment = os.environ | {"PYTHONPATH": str(checkout)}

@@ -4,13 +4,15 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 import mbs
 from ali3.scene.scene_columns import columns_of
 from ali3.scene.scene_parts import frames_of
 from fmu_src.geometry.binding import bind
 from fmu_src.geometry.renamed_columns import with_renamed_columns
 from fmu_src.geometry.roads import with_parameters
-from fmu_src.geometry.shifted_shapes import moved_part
+from fmu_src.geometry.sensor_rows import Array
 from fmu_src.variables.variables import Variable, by_name_in_system
 
 FRAME_TUBE = "frame tube"
@@ -83,3 +85,38 @@ def lost_frames(system: mbs.System) -> list[str]:
 def geometry_file(scene: Mapping[str, Any]) -> bytes:
     """The scene of `geometry` as a file of the FMU, JSON."""
     return json.dumps(scene, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
+
+
+def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str, Any]:
+    """A shape, arrow or flexible part in frames with other origins.
+
+    `moved`, shape (3,): place of the old origin in the new frame, m, by frame.
+    """
+    shifted = dict(part)
+    frame = part.get("frame")
+    if frame is not None:
+        shift = moved.get(frame)
+        if shift is None:
+            return shifted
+        if part.get("kind") == "cylinder":
+            shifted["ends"] = [_shifted_point(point, shift) for point in part["ends"]]
+        elif "nodes" in part:
+            shifted["nodes"] = [_shifted_point(point, shift) for point in part["nodes"]]
+        else:
+            shifted["at"] = _shifted_point(part.get("at", (0.0, 0.0, 0.0)), shift)
+        return shifted
+    for key in ("points", "ends", "between"):
+        if key in part:
+            shifted[key] = [_shifted_anchor(anchor, moved) for anchor in part[key]]
+    if "vector" in part:
+        shifted["at"] = _shifted_anchor(part["at"], moved)
+    return shifted
+
+
+def _shifted_anchor(anchor: Any, moved: Mapping[str, Array]) -> list[Any]:
+    name, point = anchor
+    return [name, _shifted_point(point, moved[name]) if name in moved else list(point)]
+
+
+def _shifted_point(place: Any, shift: Array) -> list[float]:
+    return [float(x) + 0.0 for x in np.asarray(place, float) + shift]

@@ -1,5 +1,6 @@
 """Finds the FMU of a command: a file, or the cached FMU of a car, built on demand."""
 
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -49,3 +50,8 @@ def find_fmu(fmu_or_car: Path | None, tell: Callable[[str], None]) -> FoundFmu:
 def fmu_file(fmu_or_car: Path | None) -> Path:
     """The path of the FMU of a command; messages of its build are printed. See `find_fmu`."""
     return find_fmu(fmu_or_car, lambda line: print(line, flush=True)).path
+
+
+def snake_case(name: str) -> str:
+    """The file name of an FMU in lower case with underscores, as scenes, cars and result files are named."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()

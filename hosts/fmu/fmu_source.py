@@ -11,7 +11,7 @@ from typing import Any, Protocol, TypeVar
 
 from hosts.common.numbers import Value
 from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.alias_option import aliases_of
+from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.named_fmu import NamedFmu, with_aliases
 from hosts.fmu.named_row import NamedRow
@@ -36,8 +36,8 @@ class FmuSource:
 
     @classmethod
     def named(cls, path: Path, variables: Variables, file: str | Path | None) -> FmuSource:
-        """The source of an FMU with the aliases of a file; see `aliases_of`."""
-        return cls(path.absolute(), aliases_of(file, variables))
+        """The source of an FMU with the aliases of a file; see `find_aliases`."""
+        return cls(path.absolute(), Aliases() if file is None else find_aliases(file, variables))
 
     @classmethod
     def of(cls, fmu: _OpenFmu) -> FmuSource:

@@ -7,7 +7,6 @@ was run (JSON).
 from __future__ import annotations
 
 import argparse
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -78,7 +77,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.driving.run_checks import check_columns, communication_step, steps_of
     from hosts.driving.runs_with_progress import run_with_bar
     from hosts.fmu.fmu import Fmu
-    from hosts.fmu.fmu_file import fmu_file
+    from hosts.fmu.fmu_file import fmu_file, snake_case
     from hosts.fmu.fmu_source import FmuSource
     from hosts.recordings.load_manoeuvre import check_manoeuvre_option, manoeuvre_of
     from hosts.run.course_result import course_result
@@ -100,7 +99,7 @@ def _run(options: argparse.Namespace) -> int:
         manoeuvre, settings = apply_settings(opened, manoeuvre, set_options, options.fidelity, source.fmu_values)
         manoeuvre = replace(manoeuvre, start=source.ali3_values(manoeuvre.start))
         without_manoeuvre = options.manoeuvre is None
-        stem = _snake_case(path.stem) if without_manoeuvre else f"{_snake_case(path.stem)}_{manoeuvre.name}"
+        stem = snake_case(path.stem) if without_manoeuvre else f"{snake_case(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         steps_per_row = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
@@ -119,7 +118,3 @@ def _driver_setting(text: str) -> tuple[str, float]:
     """``NAME=VALUE`` with a number, or one with a unit where that of the name is known."""
     name, value = name_and_text(text)
     return name, quantity(unit_of(name) or unit_of(f"vehicle.{name}") or "")(value)
-
-
-def _snake_case(name: str) -> str:
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()

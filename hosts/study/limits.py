@@ -65,8 +65,7 @@ def shares(frame: pd.DataFrame) -> list[Share]:
 
     Notes
     -----
-    A run that lacks a measure is outside of its limit; a measure that does not exist in a run does not count. Tables of
-    earlier versions do not distinguish both; there a measure without a value counts as lacking.
+    A run that lacks a measure is outside of its limit; a measure that does not exist in a run does not count.
     """
     about, results = frame.attrs, []
     points = frame["point"].to_numpy(dtype=np.int64)
@@ -96,10 +95,7 @@ def shares(frame: pd.DataFrame) -> list[Share]:
 def _lacks_measure(column: str, frame: pd.DataFrame) -> NDArray[np.bool_]:
     """Runs that lack a measure if it has no value; in the others it does not exist then. Shape (runs,)."""
     status = frame["status"].astype(str).to_numpy()
-    if "missing" not in frame:
-        return np.asarray(status != DONE)
-    names_by_run = [None if names is None else names.split(MISSING) for names in frame["missing"].astype(object)]
-    lacks_column = [names is None or column in names for names in names_by_run]
+    lacks_column = [column in names.split(MISSING) for names in frame["missing"].astype(str)]
     return np.asarray((status == FAILED) | ((status != DONE) & np.array(lacks_column, dtype=np.bool_)))
 
 

@@ -21,6 +21,7 @@ from hosts.common.options import ROAD
 from hosts.fmu.description_file import opened
 from hosts.fmu.description_record import description_record
 from hosts.fmu.fmu import described
+from hosts.fmu.fmu_file import snake_case
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.variables import Variables
 
@@ -111,7 +112,7 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
 
 def build_command(path: Path) -> str:
     """The command that builds an FMU of this file name for a page."""
-    snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", re.sub(r"(FMI3|FMI3Scalar|Python)$", "", path.stem)).lower()
+    snake = snake_case(re.sub(r"(FMI3|FMI3Scalar|Python)$", "", path.stem))
     with opened(path) as archive:
         has_car = any(name.startswith(f"{_RESOURCES}car/") for name in archive.names)
     label = f"{'--car' if has_car else '--scene'} {quote(snake)}"

@@ -8,13 +8,14 @@ from contextlib import AbstractContextManager
 from mbs.common.checks import flag
 from mbs.common.lazy_value import LazyValue
 from mbs.compiler.assembly_modes import mode_arrays
-from mbs.compiler.drawing import drawing
 from mbs.compiler.generated.library import library_of
 from mbs.compiler.model_to_system import check_model, compiled
 from mbs.compiler.overconstrained import TOLERANCE, closed_loops
 from mbs.compiler.ports import with_ports_of
 from mbs.compiler.tree import tree_arrays
 from mbs.model.model import Model
+from mbs.shapes.frames import FrameNames, places_of
+from mbs.shapes.scene import drawing_of
 from mbs.system.compiled_model import CompiledModel
 from mbs.system.drawing import Drawing
 from mbs.system.system import System
@@ -61,7 +62,8 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
 
     def draw() -> Drawing:
         with correction():
-            return drawing(model, frames.T, frames.constant, start)
+            names = FrameNames.of(model)
+            return drawing_of(model, places_of(model, frames.T.tocsr(), frames.constant, names), names, start)
 
     def compile_with_ports(system: System) -> System | None:
         if make_ported is None:

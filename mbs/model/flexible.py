@@ -292,7 +292,7 @@ class Interface(Body):
         key = tuple(np.round(v, 12).tolist())
         if key not in self._vectors:
             vector_name = f"{self.name}.vector {len(self._vectors) + 1}"
-            rotated = self._new_coordinates(vector_name, "vector", v)
+            rotated = self._new_coordinates(vector_name, v)
             middle = (carried + rotated) * 0.5
             rows = []
             for k in range(3):
@@ -312,7 +312,7 @@ class Interface(Body):
         if not np.any(motion):
             return owner.vector(local)
         vector_name = f"{self.name}{part}"
-        new = self._new_coordinates(vector_name, "vector", local)
+        new = self._new_coordinates(vector_name, local)
         deformed = self._deformed(local, motion)
         rows = []
         for k in range(3):
@@ -333,10 +333,10 @@ class Interface(Body):
             for i in range(3)
         ]
 
-    def _new_coordinates(self, name: str, kind: str, drawn: Vector) -> AffineVector:
+    def _new_coordinates(self, name: str, drawn: Vector) -> AffineVector:
         """Three coordinates without mass."""
         self.model.unique("joint", name)
-        numbers = [self.model.new_coordinate(f"{name}.{'xyz'[k]}", kind, float(drawn[k]), k) for k in range(3)]
+        numbers = [self.model.new_coordinate(f"{name}.{'xyz'[k]}", "vector", float(drawn[k]), k) for k in range(3)]
         return AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
 
 

@@ -11,20 +11,24 @@ from ali3.scene import scene_parts
 from ali3.scene.base64_numbers import encoded
 from mbs.common.checks import Vector
 from mbs.common.vectors import in_space
+from mbs.elements.road import PortRoad
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model.checked_shapes import Shape
 from mbs.model.flexible import FlexibleBody
+from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.table_bodies import TabledBody
+from mbs.roads.scene_part import scene_part
 from mbs.shapes.arrows import force_arrows
 from mbs.shapes.default_shapes import Defaults
-from mbs.shapes.frames import FrameNames, frames_of, numbers
+from mbs.shapes.frames import FrameNames, frames_of, numbers, place_drawn
 from mbs.shapes.joint_points import joint_geometry
-from mbs.shapes.roads import road_entries
-from mbs.shapes.shared_points import shared_points
 from mbs.system.drawing import Drawing, Places, matrices
 
 TABLED_REASON = "a table moves it, and pictures follow coordinates"
+JOINT_TYPES = ("spherical", "revolute", "universal", "weld")
+"""Types of joints that constrain a common point."""
+OFFSET = 0.1  # m, from the point of a joint to further common points
 SLIDING_REASON = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
 Scene = dict[str, Any]
 
@@ -210,3 +214,61 @@ def _initial_position(
         return _initial_position(frames, starts, frame["parent"], np.array(frame["at"]) + point)
     origin, axes = starts[name]
     return np.asarray(origin + axes @ point)
+
+
+def road_entries(model: Model) -> list[dict[str, Any]]:
+    """Entries of all roads, and of the level planes on which wheels roll without slip.
+
+    A road file is entered by its path. A road at a port is left out because only the host knows its heights; the roads
+    after it keep their numbers.
+    """
+    # without a path the road of the model is used
+    files_by_road = {file.road: file for file in model.road_files if file.start}
+    entries: list[tuple[int, dict[str, Any]]] = []
+    for number, road in enumerate(model.roads):
+        if isinstance(road, PortRoad):
+            continue
+        file = files_by_road.get(number)
+        entry = scene_part(road) if file is None else {"kind": "file", "variable": file.name, "path": file.start}
+        entries.append((number, entry))
+    plane_levels = sorted({joint.rolls.level for joint in model.joints if joint.rolls is not None})
+    for number, level in enumerate(plane_levels, len(model.roads)):
+        entries.append((number, {"kind": "flat", "height": level}))
+    # an entry without a number has the number of its position
+    return [
+        entry if number == position else entry | {"number": number} for position, (number, entry) in enumerate(entries)
+    ]
+
+
+def shared_points(model: Model, names: FrameNames) -> list[tuple[str, list[float], str, list[float]]]:
+    """Common points of all joints: for each point two frames and its coordinates in both, m.
+
+    A joint with an axis gives two points on it, a weld three. In a flexible body the coordinates are those in its
+    floating frame, without the deformation at the node. Joints that a parameter switches off are left out.
+    """
+    points, drawn = [], model.drawn()
+    for joint in model.joints:
+        ends = joint.ends
+        if ends is None or joint.type not in JOINT_TYPES or joint.switch is not None:
+            continue
+        if any(body.is_point for body in ends.bodies):
+            continue
+        positions = [place_drawn(drawn, point) for point in ends.points]
+        for offset in _offsets(model.dimension, drawn, joint):
+            (frame_1, r_1), (frame_2, r_2) = (
+                names.anchor(body, position + offset) for body, position in zip(ends.bodies, positions, strict=True)
+            )
+            points.append((frame_1, numbers(r_1), frame_2, numbers(r_2)))
+    return points
+
+
+def _offsets(dimension: int, drawn: Vector, joint: Joint) -> list[Vector]:
+    """Vectors from the point of a joint to all common points of its bodies, m."""
+    offsets = [np.zeros(3)]
+    if joint.type == "weld":
+        offsets += [OFFSET * e for e in np.eye(3)[:2]]
+    elif joint.type == "revolute" and dimension == 2:
+        offsets.append(np.array([0.0, 0.0, OFFSET]))
+    elif joint.type == "revolute" and joint.ends is not None and joint.ends.axis is not None:
+        offsets.append(OFFSET * place_drawn(drawn, joint.ends.axis))
+    return offsets

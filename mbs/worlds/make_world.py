@@ -18,6 +18,7 @@ from mbs.roads.write_road import write_road
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.thinned_world import STEP, measure_thinning, thinned_spacing
 from mbs.worlds.world_file import is_world
+from mbs.worlds.world_plausibility import world_plausibility as world_plausibility  # summary of `read_world`
 from mbs.worlds.world_record import make_record, world_record
 from mbs.worlds.world_road_file import grid_shape, write_world_road
 from mbs.worlds.world_types import WorldDescription

@@ -62,6 +62,7 @@ def check(seed: int, folder: Path) -> bool:
     return fault == "it is read"
 
 
+@pytest.mark.slow
 def test_archives_are_unpacked_in_their_folder_or_refused(tmp_path: Path) -> None:
     unpacked = sum(check(seed, tmp_path) for seed in range(200))
     assert 20 < unpacked < 180

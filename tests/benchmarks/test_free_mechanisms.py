@@ -38,6 +38,7 @@ def test_each_joint_and_each_force_has_a_mechanism(monkeypatch):
     assert {kind.name for kind in ElementType} - types == OF_CARS
 
 
+@pytest.mark.slow
 def test_energy_momentum_keeps_the_energy_of_each():
     for name in ELEMENTS:
         actual = measure(name, 0.2, 150, "energy_momentum")

@@ -21,6 +21,7 @@ def test_every_way_makes_its_steps(prototype_fmu: Path) -> None:
         assert (row["us_of_processor"] is None) == ("Async" in row["way"])
 
 
+@pytest.mark.slow
 def test_other_numbers_on_threads_are_an_error(prototype_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     step = VectorEnvironment.step
 

@@ -135,7 +135,7 @@ def test_the_engine_in_fine_steps_moves_as_the_reference(family):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("seed", "number", "h"), [(2, 54, 0.02), (7, 968, 0.01)])
-def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, number, h, monkeypatch):
+def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, number, h):
     """The hatchback down 6.5 cm, 5.3 % off, which the run with a quarter of the step took for right; and up 11.2 cm.
 
     By the largest range in a unit. There it told 1.7 % of 5.8 %, that with half the step 9.9 %, an eighth 5.0 %: a

@@ -133,6 +133,7 @@ def test_two_tracks_turn_where_brakes_and_drive_differ_from_side_to_side(drive: 
     assert first > 0.01  # the outer wheels carry more and push more: a left turn is pushed to the left
 
 
+@pytest.mark.slow
 def test_the_bank_of_the_road_is_computed_by_position_and_accelerates_the_car(drive: Drive) -> None:
     """Laps of 2200 m on a banked road; roll adds 3 % of the acceleration to the signal."""
     time = np.arange(0.0, 190.0, H)

@@ -95,6 +95,7 @@ def test_names_of_files_send_no_control_characters_to_a_terminal(capsys: pytest.
     assert capsys.readouterr().err == "error: m.toml has '\\x1b[2J\\x9b' in\nits second line.\n"
 
 
+@pytest.mark.slow
 def test_errors_of_ours_keep_their_traceback() -> None:
     for error in (ZeroDivisionError(), ModuleNotFoundError("No module named 'x'", name="x")):
         with pytest.raises(type(error)):

@@ -96,7 +96,7 @@ def test_a_simulation_reports_a_start_beside_its_road(tmp_path: Path, of_file: b
 
 
 @pytest.mark.slow
-def test_the_picture_of_a_car_has_all_points_of_its_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_picture_of_a_car_has_all_points_of_its_file(tmp_path: Path) -> None:
     assert car_command(["saloon", "--picture", str(tmp_path / "saloon.png")]) == 0
     assert (tmp_path / "saloon.png").read_bytes().startswith(b"\x89PNG")
     points = named_points(load("saloon"))

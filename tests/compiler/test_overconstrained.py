@@ -54,6 +54,7 @@ def exact():
     return results
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loop", LOOPS)
 def test_all_methods_move_a_shifted_drawing_as_the_exact_one(loop, exact):
     for size, methods in ((2e-5, methods_of(loop)), (1e-11, ("ali3p",))):

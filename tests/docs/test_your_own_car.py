@@ -1,25 +1,20 @@
 """The commands and snippets of docs/your_own_car.md run and print what it says."""
 
 import io
-import os
 import re
-import subprocess
-import sys
 import tomllib
 from contextlib import chdir, redirect_stderr, redirect_stdout
-from pathlib import Path
 
 import fmpy
 import pytest
 
 from ali3.command import main
+from tests.docs.test_documents import ROOT, run
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "your_own_car.md").read_text(encoding="utf-8")
 COMMANDS = re.findall(r"^    ali3 (.*)$", PAGE, re.MULTILINE)
-ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8", "MPLBACKEND": "Agg"}
 
 
 def blocks(language):
@@ -104,17 +99,9 @@ def test_the_warning_of_the_page(folder):
 
 def test_the_snippet_in_python(folder):
     (code,) = blocks("python")
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code],
-        capture_output=True,
-        text=True,
-        check=False,
-        cwd=folder,
-        env=ENVIRONMENT,
-    )
-    assert done.returncode == 0, done.stderr
-    assert re.search(r"\d+ numbers can be tuned, front\.damper\.damping = 1200", done.stdout)
-    assert 3.0 < float(re.search(r"after 2 s (\d+) m/s", done.stdout)[1]) < 15.0
+    printed = run(code, folder)
+    assert re.search(r"\d+ numbers can be tuned, front\.damper\.damping = 1200", printed)
+    assert 3.0 < float(re.search(r"after 2 s (\d+) m/s", printed)[1]) < 15.0
 
 
 def test_build_drive_and_tune(folder):

@@ -57,6 +57,7 @@ def test_the_tangent_is_that_of_the_force_but_for_what_the_wheel_does_through_th
         assert expected[1, 0] < 2.0 * r.S[1, 0]  # what is left out is there
 
 
+@pytest.mark.slow
 def test_steps_converge_with_a_strong_assistance() -> None:
     """Wheel and pinion with a spring at the rack: the wheel ends where its torque has the spring in balance."""
     h = 0.02

@@ -5,8 +5,7 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-from mbs.flexible.beam_interpolation import bending_functions
-from mbs.flexible.beam_mass import beam_mass_points
+from mbs.flexible.beam_mass import beam_mass_points, bending_functions
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.section import rectangle

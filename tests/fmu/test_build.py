@@ -63,6 +63,7 @@ def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: py
     assert [fmpy.read_model_description(str(out / f"{name}.fmu")).modelName for name in names] == names
 
 
+@pytest.mark.slow
 def test_invalid_commands_are_refused_in_one_sentence(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for scene, options, message in (
         ("x", (), "no scene 'x'. The scenes are: "),
@@ -78,6 +79,7 @@ def test_invalid_commands_are_refused_in_one_sentence(file: Path, capsys: pytest
         assert message in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_what_this_machine_runs_is_built_first(
     file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -108,6 +108,7 @@ def test_faults_are_sentences_and_nothing_is_built(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
     car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

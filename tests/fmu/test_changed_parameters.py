@@ -14,6 +14,7 @@ from tests.fmu.calls import ERROR, OK
 from tests.fmu.scenes import loaded_beam
 
 
+@pytest.mark.slow
 def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[..., Path]) -> None:
     system = mbs.compile(loaded_beam())
     actual = changes(

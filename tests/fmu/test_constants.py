@@ -97,6 +97,7 @@ def tabled(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     return lambda kind: build_fmu(system, "tabled", folder, [fmpy.platform], kind=kind)
 
 
+@pytest.mark.slow
 def test_a_table_of_constants_is_a_map_of_fmi_ls_struct(tabled: Callable[[str], Path], host: HostMaker) -> None:
     """Its terminal and manifest as the layered standard has them (modelica/fmi-ls-struct, 1.0.0-rc.1)."""
     fmu = tabled("fmi3")

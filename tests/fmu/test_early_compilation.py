@@ -83,6 +83,7 @@ def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     assert list(place.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_what_a_build_has_compiled_is_not_begun_again(
     commands: list[list[str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -103,6 +104,7 @@ def test_what_a_build_has_compiled_is_not_begun_again(
     assert (count(), count()) == (2, 0)
 
 
+@pytest.mark.slow
 def test_folders_with_the_same_sources_share_their_objects(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """A changed C file is another file for the compiler, a changed header makes all of them others."""
     monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "cache")
@@ -128,6 +130,7 @@ def test_folders_with_the_same_sources_share_their_objects(monkeypatch: pytest.M
     assert given() & here == {str(tmp_path / "table.c")}
 
 
+@pytest.mark.slow
 def test_kinds_share_the_objects_of_generated_code(tmp_path: Path) -> None:
     """The compiler knows an object by the place of its source, its headers and its options."""
 

@@ -70,6 +70,7 @@ def host3(tmp_path_factory: pytest.TempPathFactory) -> Host3:
     return run
 
 
+@pytest.mark.slow
 def test_where_a_wheel_leaves_its_table(build: Callable[..., Path], host: HostMaker, host3: Host3) -> None:
     """Its time is that of the last good inner step, from which the next step is refused as any other."""
     fmu, start, length, shown = build("carried_off", "fmi3_scalar"), {"force": -50.0}, 0.5, "travel"

@@ -114,6 +114,7 @@ def test_a_write_to_a_freed_block_and_a_second_free_are_seen(ends: Ends) -> None
         assert done.returncode == code
 
 
+@pytest.mark.slow
 def test_ends_of_a_host_in_python(ends: Ends, own_python: Python) -> None:
     assert [text for end in ENDS if (text := ends.in_python(own_python, end, watched=True))] == []
 

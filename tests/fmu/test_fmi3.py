@@ -147,6 +147,7 @@ def test_terminals_name_variables_that_are_there(build: Callable[..., Path]) -> 
     assert set(members) <= variables
 
 
+@pytest.mark.slow
 def test_a_dimension_is_the_first_thing_in_its_variable(build: Callable[..., Path]) -> None:
     """FMI Library passes over one behind annotations; the names of elements stand in a file beside the description."""
     fmu = build("answered", "fmi3")

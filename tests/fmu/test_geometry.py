@@ -185,6 +185,7 @@ def test_a_car_is_drawn_with_its_stress_by_default_and_without_the_poses_of_its_
     assert scene_of(systems["wheels"])["flexible"] == []
 
 
+@pytest.mark.slow
 def test_gauges_under_other_names_read_what_is_called_so_and_are_left_out_in_other_units() -> None:
     system = posed_systems({0: load("prototype").model}, 0, None)[0]
     scene, table = scene_of(system), {v.name: v for v in variable_table(system.meta, pose=False, step_size=0.01)}

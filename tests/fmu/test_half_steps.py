@@ -37,6 +37,7 @@ def drive(
     return np.array(rows), [m for m in driven.messages if WORDS in m]
 
 
+@pytest.mark.slow
 def test_the_reported_error_is_right_and_the_named_step_is_sufficient(prototype_fmu: Path, host: HostMaker) -> None:
     """By the same motion with steps of 0.05 ms.
 

@@ -155,6 +155,7 @@ def test_variables_without_another_name_are_reported_with_the_reason(tmp_path: P
         assert why in next(iter(actual.left_out.values()))
 
 
+@pytest.mark.slow
 def test_a_body_on_the_ground_and_a_road_without_friction_are_reported_under_other_names(host, tmp_path) -> None:
     """The force of the ground counts downwards; the friction is set while driving."""
     (tmp_path / "names.toml").write_text(

@@ -106,6 +106,7 @@ def test_a_start_reports_contradicting_velocities_and_locked_parts(build: Callab
     assert all(any(text in message for message in driven.messages) for text in notices)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings(
     "ignore::mbs.simulation.large_bending.BendingWarning"
 )  # one body a bar bends by 0.05 rad, as warned

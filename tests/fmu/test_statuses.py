@@ -115,6 +115,7 @@ def test_an_inertia_that_no_body_has(build: Callable[..., Path], host: HostMaker
     assert host(fmu).start({"xx": 0.35}).step(0.0, H) == OK
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "status", "shorter"),
     [("fast_armature", Status.TURNS_TOO_FAR, 1e-3), ("fast_cart", Status.UNRESOLVED, 1e-5)],

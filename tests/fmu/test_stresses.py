@@ -259,6 +259,7 @@ def test_unread_in_python_they_cost_nothing(monkeypatch: pytest.MonkeyPatch) -> 
     assert calls == ["model"] + ["follow"] * len(run.t)
 
 
+@pytest.mark.slow
 def test_a_system_that_nothing_follows_has_no_stresses(tmp_path: Path) -> None:
     """From a file, with more than the car has, to a tolerance: a sentence, never 0."""
     system = compile(prototype_car.build())

@@ -93,6 +93,7 @@ def test_a_fit_by_a_heading_over_three_turns(fmu: Path, log: Path, tmp_path: Pat
     assert actual["value"] == pytest.approx(1.0, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_reference_in_another_range(fmu: Path, log: Path, tmp_path: Path) -> None:
     good = altered(log, tmp_path, lambda yaw: np.mod(yaw, math.tau), every=10)
     done = run(check, fmu, "--reference", good, "--step", 0.01)

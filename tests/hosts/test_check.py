@@ -89,6 +89,7 @@ def test_it_checks_with_set_values(tuned: Path, tmp_path: Path, capfd: pytest.Ca
     assert recorded[0] != recorded[1]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of memory")
 def test_an_fmu_without_memory_is_not_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
     """What an FMU says is told as lack of memory, and an error that has another cause is not."""

@@ -86,6 +86,7 @@ def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(f
     assert "in steps of 0.02 s" in done.stdout
 
 
+@pytest.mark.slow
 def test_a_stopped_check_of_a_folder_resumes_with_the_other_tables(
     fmu: Path, result: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -69,6 +69,7 @@ def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path:
     assert colours(picture) > 200
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("held", ["", "# held: steering, brake\n"])
 def test_a_result_is_a_manoeuvre_that_repeats_the_run(
     fmus: dict[str, Path], turn: Path, tmp_path: Path, held: str

@@ -166,6 +166,7 @@ def test_an_fmu_without_outputs_runs(fmu: Path, tmp_path: Path) -> None:
     assert pd.read_csv(file)["time"].iloc[-1] == 0.25
 
 
+@pytest.mark.slow
 def test_a_table_at_an_interval_repeats_its_run_or_reports_that_it_cannot(fmu: Path, tmp_path: Path) -> None:
     """Here inputs are held over each step."""
     tables = {"moves": "0,0\n0.25,2\n", "stays": "0,1\n0.1,1\n0.1,2\n0.25,2\n"}

@@ -58,6 +58,7 @@ def test_steering_that_stays_brings_the_circle_it_begins_with() -> None:
     assert actual["radius"] == pytest.approx(abs(radius))
 
 
+@pytest.mark.slow
 def test_runs_that_are_looked_at_have_their_marks(prototype_fmu: Path) -> None:
     """Those of commands with a bar and of the catalogue, with a pilot and without; a run that nobody sees has none."""
     table = np.array([0.0, 1.0, 11.5])

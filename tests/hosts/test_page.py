@@ -107,6 +107,7 @@ def test_fmus_of_others(
     assert message in refusal(changed(tuned, tmp_path, changes=other), capsys)
 
 
+@pytest.mark.slow
 def test_an_invalid_road_is_refused(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     roads = {"roads": [{"kind": "file", "variable": "road.file", "path": "resources/roads/own.road"}]}
     fmu = changed(tuned, tmp_path, DRAWING | roads)
@@ -144,6 +145,7 @@ def test_a_result_with_a_deleted_world_names_the_command_that_makes_it(tuned: Pa
     assert remedy in next(item["why"] for item in recording.scene["missing"] if item["name"] == f"The road {gone}")
 
 
+@pytest.mark.slow
 def test_a_result_with_deleted_scenery_reports_it(tuned: Path, tmp_path: Path) -> None:
     """Its ground is drawn from the road file; what stood on it was known to the record that has gone."""
     fmu = changed(tuned, tmp_path, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})

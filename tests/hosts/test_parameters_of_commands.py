@@ -40,6 +40,7 @@ def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
     ]
 
 
+@pytest.mark.slow
 def test_parameter_sets_without_effect_are_reported(
     tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -44,6 +44,7 @@ def test_what_the_parameter_is_set_to(tmp_path, monkeypatch):
         road_value("bad.csv", tmp_path / "out")
 
 
+@pytest.mark.slow
 def test_a_run_on_a_table(sledge, tmp_path, capsys):
     (tmp_path / "hill.csv").write_text(TABLE.format(3.0))
     out = tmp_path / "out"
@@ -53,6 +54,7 @@ def test_a_run_on_a_table(sledge, tmp_path, capsys):
     assert table["z"][-1] == pytest.approx(3.2, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("x", "start", "message"),
     [

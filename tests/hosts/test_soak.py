@@ -214,7 +214,7 @@ def test_the_watch_counts() -> None:
     assert (counts.top_speed, counts.farthest, counts.halvings, counts.capped) == (29.0, 390.0, 5.0, 1.0)
 
 
-def test_growing_memory_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_growing_memory_is_seen() -> None:
     memory = Memory()
     pages = []
     for _ in range(40):

@@ -26,6 +26,7 @@ def driven(fmu: Path, folder: Path, *more: str) -> Path:
     return table
 
 
+@pytest.mark.slow
 def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(prototype_fmu: Path, tmp_path: Path) -> None:
     result = driven(prototype_fmu, tmp_path, "--stop-time", "5")
     page = tmp_path / f"{result.stem}.html"

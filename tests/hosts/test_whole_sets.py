@@ -44,6 +44,7 @@ def test_it_keeps_the_values_of_a_manoeuvre_or_a_world(variables: Variables, tmp
     assert settings.start["initial.speed"] == 5.0
 
 
+@pytest.mark.slow
 def test_a_manoeuvre_is_driven_as_without_it(variables: Variables, prototype_fmu: Path, tmp_path: Path) -> None:
     whole = whole_set(variables, tmp_path / "whole.ssv")
     results = []

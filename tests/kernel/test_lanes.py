@@ -111,6 +111,7 @@ def test_cars_by_table_have_the_bits_of_single_runs(halvings: int) -> None:
     assert (alone > 0) == (halvings > 0)  # what is made alone is divided: lanes get no step wrong
 
 
+@pytest.mark.slow
 def test_flexible_cars_have_the_bits_of_single_runs() -> None:
     """Also beside cars whose steps are halved, or refused without halves; those and the first few are made alone."""
     halved, statuses, width = 0, set[int](), WIDTHS[-1]

@@ -67,6 +67,7 @@ def error(system, names, end, h, method, expected):
     return float(np.linalg.norm([run[n][-1] - e for n, e in zip(names, expected, strict=True)])), run.report
 
 
+@pytest.mark.slow
 def test_the_governor_gets_better_with_every_halving_of_the_step():
     _, height, spin, *_ = reduced_governor(0.5)
     system = compile(flyball.build())

@@ -85,6 +85,7 @@ def test_forces_do_not_depend_on_who_looked_when(method):
     assert second.sensors == first.sensors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])
 def test_newtons_law_closes_on_the_car_at_4_ms(method):
     """M qdd + Phi_q' lam = Q at the reported state, in newtons; with extrapolated values it was open by 660."""

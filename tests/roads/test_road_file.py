@@ -235,7 +235,7 @@ def test_parameters_of_the_built_in_road_have_no_effect_on_a_file_and_are_report
         mbs.Simulation(car, parameters={"road.file": tmp_path / "a.road", "road.kerb_x": 3.0})
 
 
-def test_files_are_fixed_once_it_runs(tmp_path, car, road):
+def test_files_are_fixed_once_it_runs(car, road):
     simulation = mbs.Simulation(car)
     with pytest.raises(ValueError, match="'road.file' is fixed"):
         simulation.set_parameter("road.file", road)

@@ -79,7 +79,7 @@ def test_the_coherence_of_two_tracks_is_that_of_an_isotropic_surface() -> None:
             assert squared[band].mean() == pytest.approx(np.mean((x * k1(x)) ** 2), abs=0.08), (apart, centre)
 
 
-def test_a_long_road_is_computed_on_a_strip(tmp_path) -> None:
+def test_a_long_road_is_computed_on_a_strip() -> None:
     """2 km: the other side holds the longest wave; the density is that of a square."""
     heights = rough_heights(8000, 8, 0.25, ISO_8608["D"], 1)
     n, result, _ = density(heights)

@@ -104,7 +104,7 @@ def refused(path, data, car, sentence, python=True):
             read_road(other)
 
 
-def with_table(data, entries, header=True):
+def with_table(data, entries):
     """The file with other entries of the first tiles, all checksums put right."""
     for number, fields in entries.items():
         packed = ENTRY.pack(*fields[:4], 0)[:-4]

@@ -34,7 +34,7 @@ def pendulum(**options):
     return compile(pendulum_model(**options))
 
 
-def free_mass(acceleration_input=True):
+def free_mass():
     """A particle without gravity, pushed along x by an input."""
     m = Model("free mass", dimension=2, gravity=(0.0, 0.0))
     body = m.point_mass("body", mass=MASS, position=(0.0, 0.0))

@@ -219,6 +219,7 @@ def test_a_smooth_function_parts_no_step() -> None:
         assert len(function_breaks(lambda t, w=rate: np.sin(2.0 * np.pi * w * t), 0.0, SPAN, H)[0]) == 0
 
 
+@pytest.mark.slow
 def test_a_pulse_in_a_long_run_is_met_with_little_memory() -> None:
     """Samples are kept for a part of the run; a jump at the border of two parts is found once."""
     requested, h = [0], 1e-3

@@ -91,6 +91,7 @@ def test_each_table_and_key_that_is_missing(name):
             assert named or not keys_of(table_at(Car, outer, data))[last].is_required(), path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SWEPT)
 def test_each_key_that_is_misspelt(name):
     for path in [*tables(load(name)._data), *(p for p in numbers(name) if not p.split(".")[-1].isdigit())]:

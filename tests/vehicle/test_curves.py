@@ -370,6 +370,7 @@ def test_track_change_is_of_both_wheels(content: dict, copied: Path) -> None:
         car_from(content["saloon"], copied, "x")
 
 
+@pytest.mark.slow
 def test_the_axle_with_links_has_its_own_curves(content: dict, folder: Path) -> None:
     whole = linked("saloon")
     data = content["saloon"] | {"rear": whole._data["rear"], "chassis": whole._data["chassis"]}

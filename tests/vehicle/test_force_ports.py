@@ -117,6 +117,7 @@ def test_what_a_tyre_at_a_port_replaces_is_left_out() -> None:
         with_ports(hatchback(), tyre="hub", road="planes")
 
 
+@pytest.mark.slow
 def test_free_hubs_let_the_car_fall() -> None:
     """Without tyres nothing carries it: its centre of mass has the acceleration of gravity."""
     s = mbs.Simulation(system(hatchback, (("tyre", "hub"),)))

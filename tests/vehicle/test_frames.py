@@ -255,6 +255,7 @@ GAUGES_REFUSED: list[tuple[dict[str, object], str, str]] = [
 ]
 
 
+@pytest.mark.slow
 def test_a_gauge_on_matrices_that_cannot_be_is_refused(tmp_path: Path) -> None:
     car = exported(tmp_path)
     for gauge, line, sentence in GAUGES_REFUSED:

@@ -117,6 +117,7 @@ def car(fidelity: int, more: bool) -> mbs.System:
     return mbs.compile(changed.model(fidelity=fidelity))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fidelity", quick((3,), (1, 3)))
 def test_ten_more_gauges_change_no_mode_no_state_and_no_other_output(fidelity):
     few, many = car(fidelity, False), car(fidelity, True)

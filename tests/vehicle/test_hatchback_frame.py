@@ -85,6 +85,7 @@ def test_all_forces_on_the_chassis_enter_by_its_ports() -> None:
     np.testing.assert_allclose(moment, 0.0, rtol=0, atol=1e-5 * weight)
 
 
+@pytest.mark.slow
 def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -> None:
     """Damping of the frame is no work of the list; it is a small part of what the tyres and dampers take."""
     run = Simulation(system(3)).run(3.0, 0.001, inputs={"throttle": 0.6, "steering": 0.2})
@@ -94,6 +95,7 @@ def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -
     assert np.abs(residual).max() < 2e-3 * run["energy.drive"][-1]
 
 
+@pytest.mark.slow
 def test_the_scene_gives_the_gauges() -> None:
     """Gauges of sill, rail and cross member from the rows of stress and the amplitudes alone, and from the weight
     that the element carries between its ends, 18 to 20 kPa; its inertia in the turn is up to 2.1e-4 of a gauge more.

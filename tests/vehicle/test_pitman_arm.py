@@ -176,6 +176,7 @@ def test_the_ratio_of_the_box_as_a_parameter_is_that_of_the_file():
     assert built["steering_arm_angle"][-1] == pytest.approx(2.0 / 15.0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_friction_is_at_the_steering_wheel():
     inputs = {"steering_wheel_angle_demand": lambda t: 2.0 * t}
     smooth, rough = run(TRAPEZOID, inputs), run(CAR.changed({"steering": ARM | {"friction": 0.8}}), inputs)

@@ -158,6 +158,7 @@ def test_the_reaction_of_hub_motors_is_on_the_carriers() -> None:
     assert lever * np.mean(relieved) == pytest.approx(torque, rel=0.03)
 
 
+@pytest.mark.slow
 def test_a_pressure_gives_the_torque_of_the_pedal_at_the_same_share_which_reports_it() -> None:
     pedal = simulation(rigid, outputs="loops", full_pressure=8e6)
     port = simulation(rigid, brakes="pressure", full_pressure=8e6)
@@ -179,6 +180,7 @@ def test_a_pressure_gives_the_torque_of_the_pedal_at_the_same_share_which_report
     assert now["wheel_FL.brake_power"] == pytest.approx(now["wheel_FL.brake_torque"] * now["wheel_FL.omega"], rel=1e-2)
 
 
+@pytest.mark.slow
 def test_a_requested_torque_reports_its_pressure() -> None:
     """Of brakes as those of the car file, whose sides differ here: both cars brake alike."""
     result = {"brakes.side": 0.1, "ports.full_pressure": 8e6}
@@ -347,6 +349,7 @@ def test_a_gear_that_is_asked_for_is_engaged_and_the_drive_shifts_by_itself_with
     assert [n for n in observation if n in sensors] == sensors
 
 
+@pytest.mark.slow
 def test_a_clutch_transmits_the_torque_of_its_pedal() -> None:
     """Released it changes no bit; pressed the car rolls as in neutral; between it has the torque that is left."""
     plain, ported = simulation(rigid, 3.0), simulation(rigid, 3.0, clutch="pedal")

@@ -71,6 +71,7 @@ def test_beyond_full_lock_the_angle_is_limited_and_reported(car):
     assert not Simulation(car).run(0.1, 0.01, inputs={"steering": 1.0}, estimate_error=False).notices
 
 
+@pytest.mark.slow
 def test_friction_is_the_additional_torque_of_the_hands():
     """At a constant rate of the wheel the torque is larger by the friction; the car does not notice."""
     rubbing = CAR.changed({"steering.friction": 0.8})

@@ -42,6 +42,7 @@ def test_the_file_gives_full_lock_by_the_table():
     assert {c.name: c.value for c in model.constants}["vehicle.steering_wheel_angle_max"] == largest
 
 
+@pytest.mark.slow
 def test_a_straight_table_is_the_constant_ratio():
     straight = [[k * 60.0, k * 42.0 / 6.0] for k in range(11)]
     car = CAR.changed({KEY: straight})
@@ -80,6 +81,7 @@ def test_power_of_the_hands_is_power_of_the_rack(tabled):
     np.testing.assert_allclose(hands, rack, rtol=0, atol=1e-9 * np.ptp(hands))
 
 
+@pytest.mark.slow
 def test_friction_is_at_the_steering_wheel():
     """Turned at a constant rate, the hands need it besides; the car does not notice."""
     inputs = {"steering_wheel_angle_demand": lambda t: 2.0 * t}

@@ -174,6 +174,7 @@ def test_between_answers_lies_their_mean_by_the_inverse_squares_of_the_distances
     assert s.sensors["z"] - level.sensors["z"] == pytest.approx(height_there - 0.3, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_car_climbs_an_edge_that_is_answered_as_a_kerb() -> None:
     """Ground and edge as one plane, the sum of both depths along their normals: no point of the chassis touches."""
     (on_kerb, _, one), (answered, turn, other) = (

@@ -96,6 +96,7 @@ def test_rods_springs_and_wheels_are_at_the_hard_points(car: str) -> None:
             )
 
 
+@pytest.mark.slow
 def test_levers_of_an_anti_roll_bar_turn_with_their_links() -> None:
     """In a run the link is as long as it is drawn, though only the angle of its lever is known."""
     system = mbs.compile(load("hatchback").model())

@@ -34,6 +34,7 @@ def systems(name: str) -> tuple[System, System]:
     return compile(car(name).model(fidelity="table")), compile(car(name).model())
 
 
+@pytest.mark.slow
 def test_fourteen_freedoms_and_all_outputs() -> None:
     tabled, linked = systems(CAR)
     report = tabled.meta["report"]
@@ -130,6 +131,7 @@ def test_wheels_of_a_car_by_curves_are_drawn_from_the_outputs_of_its_fmu() -> No
     assert actual["missing"] == []
 
 
+@pytest.mark.slow
 def test_stresses_are_refused_and_a_rack_with_mass_is_a_sentence() -> None:
     assert Fidelity.of("table") is Fidelity.TABLE
     assert Fidelity.TABLE.rigid

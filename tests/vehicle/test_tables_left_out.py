@@ -70,6 +70,7 @@ def test_without_points_that_touch_the_ground_there_is_no_work_of_it():
     assert "chassis.ground_force" not in [s["name"] for s in car.meta["sensors"]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", quick(("commonroad_320i", "hatchback"), NAMES, "proof"))
 def test_without_stops_it_is_reported_how_far_the_links_follow(name, tmp_path):
     file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"

@@ -79,6 +79,7 @@ def test_another_reader_finds_the_poses_of_the_recording(corner):
         assert np.abs(result[:, :3, :3] - rotation.as_matrix()).max() < (1e-4 if name == "wheel" else 1e-5), name
 
 
+@pytest.mark.slow
 def test_places_far_from_the_origin_are_relative_to_one_that_is_reported(corner, tmp_path):
     """At UTM coordinates single precision is 0.5 m; every node and every mesh on the ground is moved alike."""
     far, times = np.array([500_123.456, 5_400_123.4, 112.3]), T[::8]
@@ -151,6 +152,7 @@ def flexible_points(path, times):
     return np.array([row[index]["points"] for row in answer])
 
 
+@pytest.mark.slow
 def test_a_flexible_part_bends_by_its_modes_as_many_times_as_asked(tmp_path):
     path, deformation = tmp_path / "frame.glb", 10.0
     written = write_gltf(path, moving_car.recording(T), rate=240.0, deformation=deformation)

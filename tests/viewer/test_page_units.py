@@ -10,6 +10,7 @@ from viewer import page_build
 PAGE = Path(page_build.__file__).parent / "page"
 
 
+@pytest.mark.slow
 def test_units_of_the_page():
     """In one process: each file of its own would start Node again."""
     try:

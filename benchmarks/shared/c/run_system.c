@@ -2,10 +2,10 @@
  *   run_system SYSTEM STATE INPUTS STEP STEPS [REPEATS [CODE]]
  * INPUTS holds the values at the end of each step as doubles, a row a step; an empty file leaves the inputs as they are.
  * Prints the status and the iterations, factorizations and solves of these steps; with REPEATS also the least processor
- * time, s, of so many runs from the same state. CODE is a library of code that was generated for the System, which
- * LOOPS_ALONE does without: for kernels that cannot call it. Exit codes: 2 wrong arguments, 3 a file cannot be read,
- * 4 no System, 5 no memory, 6 the state is of another System, 7 the code is of another System. */
-#if !defined(LOOPS_ALONE) && !defined(_WIN32)
+ * time, s, of so many runs from the same state. CODE is a library of code that was generated for the System. Exit
+ * codes: 2 wrong arguments, 3 a file cannot be read, 4 no System, 5 no memory, 6 the state is of another System, 7 the
+ * code is of another System. */
+#ifndef _WIN32
 #include <dlfcn.h>
 #endif
 #include <inttypes.h>
@@ -28,7 +28,7 @@ static void *contents(const char *name, size_t *size) {
 }
 
 static int attach(ali3_system *system, const char *name, char *message, size_t size) {
-#if defined(LOOPS_ALONE) || defined(_WIN32)
+#ifdef _WIN32
   (void)system, (void)name, (void)message, (void)size;
   return 1;
 #else

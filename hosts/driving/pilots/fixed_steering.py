@@ -13,11 +13,10 @@ class FixedSteering:
     steering; None before.
     """
 
-    def __init__(self, pilot: Pilot, fixed_at: float, mean_over: float, name: str = "steering") -> None:
+    def __init__(self, pilot: Pilot, fixed_at: float, mean_over: float) -> None:
         self.pilot = pilot
         self.fixed_at = fixed_at
         self.mean_over = mean_over
-        self.name = name
         self.value: float | None = None
         self._sum = 0.0
         self._count = 0
@@ -32,8 +31,8 @@ class FixedSteering:
         if self.value is None and time >= self.fixed_at - 1e-9 and self._count:
             self.value = self._sum / self._count
         if self.value is not None:
-            return {**acts, self.name: self.value}
+            return {**acts, "steering": self.value}
         if time >= self.fixed_at - self.mean_over - 1e-9:
-            self._sum += acts[self.name]
+            self._sum += acts["steering"]
             self._count += 1
         return acts

@@ -10,17 +10,20 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.frames.tubes import TubesFrame
-from mbs.vehicle.shapes.anti_roll_bar import anti_roll_bar_shapes
 from mbs.vehicle.shapes.appearance import Looks
+from mbs.vehicle.shapes.axles import (
+    anti_roll_bar_shapes,
+    double_wishbone_shapes,
+    lower_arm_strut_shapes,
+    macpherson_shapes,
+    twist_beam_shapes,
+    wheel_shapes,
+)
 from mbs.vehicle.shapes.body_shell import body_shell_shapes
-from mbs.vehicle.shapes.double_wishbone import double_wishbone_shapes
 from mbs.vehicle.shapes.occupants import occupant_shapes
 from mbs.vehicle.shapes.powertrain import powertrain_shapes
 from mbs.vehicle.shapes.steering import steering_shapes, tie_rod_owner
-from mbs.vehicle.shapes.struts import lower_arm_strut_shapes, macpherson_shapes
 from mbs.vehicle.shapes.tube_frame import tube_frame_shapes
-from mbs.vehicle.shapes.twist_beam import twist_beam_shapes
-from mbs.vehicle.shapes.wheels import wheel_shapes
 
 SUSPENSIONS: Mapping[str, Callable[[Looks, str, Axle], None]] = {
     "double_wishbone": double_wishbone_shapes,

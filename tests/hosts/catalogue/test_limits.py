@@ -103,7 +103,7 @@ def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, messag
 
 
 def test_the_command_names_the_measure_outside_its_limits(
-    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     task = Task(
         "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(standard_test("drop"), {})

@@ -157,6 +157,7 @@ def test_chirp_has_the_responses_of_the_model(steered_by: str) -> None:
     assert actual["roll.phase_1_0_hz"] == pytest.approx(actual["lateral_acceleration.phase_1_0_hz"])
 
 
+@pytest.mark.slow
 def test_a_car_without_sideslip_and_roll_is_measured_without_them() -> None:
     car = BicycleCar(shown=("chassis.wz", "chassis.ay", "speed"), step=0.004)
     record = perform(standard_test("chirp_steer"), car)

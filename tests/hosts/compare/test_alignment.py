@@ -135,6 +135,7 @@ def test_signals_that_differ_alike_count_as_one(curve: Curve) -> None:
     assert others.delay_error == pytest.approx(alone / math.sqrt(count), rel=0.25)
 
 
+@pytest.mark.slow
 def test_a_signal_with_a_delay_of_its_own_is_reported(curve: Curve) -> None:
     """One of six is 5 ms late: the common delay is of none, and the sentence names the one."""
     names = "abcdef"

@@ -91,6 +91,7 @@ def test_a_set_parameter_is_not_driven_by_the_log(
     assert "Tunable parameters" not in output
 
 
+@pytest.mark.slow
 def test_a_car_starts_as_the_run_did(prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     step = ["--step", "0.01", "--out", str(tmp_path)]
     start = ["--set", "initial.speed=12", "--set", "initial.z=0.05", "--stop-time", "1.5"]

@@ -65,6 +65,7 @@ def test_given_values_that_are_refused_end_the_fit() -> None:
         fitted(4.0, 3)
 
 
+@pytest.mark.slow
 def test_values_with_which_no_run_starts_are_left_out(prototype_fmu: Path, tmp_path: Path) -> None:
     """A moment of inertia above the other two together is of no body: the FMU is not initialised with it."""
     t = np.array([0.0, 0.1, 0.2, 1.0])

@@ -28,6 +28,7 @@ def slow(task: int, tell: Tell) -> int:
     return task
 
 
+@pytest.mark.slow
 def test_an_error_ends_the_others_at_once() -> None:
     begin = time.monotonic()
     with pytest.raises(UserError, match="The first cannot begin"), Pool(slow, int, 2) as pool:
@@ -60,6 +61,7 @@ def driven(task: Path, tell: Tell) -> int:
         return len(run(fmu, Manoeuvre("slow", np.zeros(0), {}, 0.3), 0.01, Slow()).time)
 
 
+@pytest.mark.slow
 def test_a_long_run_that_makes_progress_is_not_ended(scene_fmu: Callable[..., Path]) -> None:
     """A test of a slow FMU was ended, because it told its progress after each of its runs alone."""
     fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:tuned")
@@ -77,6 +79,7 @@ def threads(task: int, tell: Tell) -> int:
     return int(os.environ["OMP_NUM_THREADS"])
 
 
+@pytest.mark.slow
 def test_runs_are_asked_for_as_processes_become_free(monkeypatch: pytest.MonkeyPatch) -> None:
     """And each process computes with one thread, whatever the environment says."""
     monkeypatch.setenv("OMP_NUM_THREADS", "7")

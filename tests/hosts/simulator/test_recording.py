@@ -92,6 +92,7 @@ def test_a_recording_that_begins_with_a_state(fmus: dict[str, Path], tmp_path: P
     assert replay(read_recording(tmp_path / "second")).different > 0
 
 
+@pytest.mark.slow
 def test_outputs_are_recorded_seldom(fmus: dict[str, Path], tmp_path: Path) -> None:
     """What is there is repeated bit for bit; a state between that is damaged is reported."""
     whole = read_recording(whole_drive(fmus["sledge"], tmp_path / "all"))
@@ -175,6 +176,7 @@ def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Pat
         export_manoeuvre(drive, part, 0.9)
 
 
+@pytest.mark.slow
 def test_a_step_that_was_refused_is_refused_again(fmus: dict[str, Path], tmp_path: Path) -> None:
     """No scene here refuses a step, so the recording claims one, and the replay tells that it is made now."""
     drive = Drive(fmus["sledge"], tmp_path / "drive", None, {})

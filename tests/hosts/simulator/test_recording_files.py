@@ -233,6 +233,7 @@ def test_missing_rows_are_reported(fmus: dict[str, Path], tmp_path: Path) -> Non
         export_manoeuvre(recorded, tmp_path / "m.csv")
 
 
+@pytest.mark.slow
 def test_the_command_shows_repeats_and_makes_a_manoeuvre(
     fmus: dict[str, Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -31,7 +31,7 @@ def frame_of(
         frame[name] = np.repeat(np.asarray(values), len(manoeuvres))
     for name, values in measures.items():
         frame[name] = np.asarray(values, dtype=float)
-    frame["status"], frame["reason"], frame["wall_seconds"] = "done", "", 0.1
+    frame["status"], frame["reason"], frame["missing"], frame["wall_seconds"] = "done", "", "", 0.1
     if failed is not None:
         rows = np.asarray(failed(frame))
         frame.loc[rows, "status"] = "failed"

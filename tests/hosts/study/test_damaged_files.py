@@ -41,6 +41,7 @@ def columns_of(part: Path) -> list[Any]:
     return [group.column(k) for k in range(group.num_columns)]
 
 
+@pytest.mark.slow
 def test_no_bit_of_a_part_is_read_as_other_rows(study_file: Callable[..., Path], tmp_path: Path) -> None:
     folder = tmp_path / "out"
     assert run_study(study_file(), folder, None, 1) is not None
@@ -61,6 +62,7 @@ def test_no_bit_of_a_part_is_read_as_other_rows(study_file: Callable[..., Path],
     assert 250 < refusals < 500  # names of columns, statistics and the like stand in the rest of a file
 
 
+@pytest.mark.slow
 def test_a_damaged_file_is_reported_and_its_runs_are_made_again(
     study_file: Callable[..., Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

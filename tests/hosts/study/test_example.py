@@ -9,6 +9,7 @@ from hosts.study.command import main
 EXAMPLE = Path(__file__).parents[3] / "examples" / "handling_study.toml"
 
 
+@pytest.mark.slow
 def test_the_example_is_a_plan(
     prototype_fmu: Path,
     tmp_path: Path,

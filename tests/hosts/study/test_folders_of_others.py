@@ -110,6 +110,7 @@ def alterations(record: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
             yield f"{path} {value}", altered
 
 
+@pytest.mark.slow
 def test_each_altered_record_is_read_or_one_sentence(folder: Path) -> None:
     """None ends in another error; those that keep their form are read as rows of what they say."""
     record = read_record(folder)

@@ -70,6 +70,7 @@ def test_plots_of_a_measure_with_a_long_name_have_a_file_each(tmp_path: Path) ->
     assert len([*(tmp_path / "analysis").glob("*.svg")]) == text.count("data:image/svg+xml") == 5
 
 
+@pytest.mark.slow
 def test_the_report_of_an_incomplete_study_with_limits_and_messages(frame: pd.DataFrame, tmp_path: Path) -> None:
     half = frame.iloc[:60].copy()
     half["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(60)]
@@ -149,7 +150,7 @@ def test_a_distribution_is_drawn_of_a_random_sample_only(method: str, count: int
     plt.close(figure)
 
 
-def test_one_parameter_has_no_indices_and_a_grid_no_percentiles(tmp_path: Path) -> None:
+def test_one_parameter_has_no_indices_and_a_grid_no_percentiles() -> None:
     """Of one parameter an index is 1 whatever the model does."""
     data = study_data(frame_of({"mass": [1.0, 2.0]}, {"peak": np.array([3.0, 4.0])}, UNITS, method="grid"))
     indices = indices_of(data, data.responses[0])

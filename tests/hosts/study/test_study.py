@@ -80,6 +80,7 @@ def columns(folder: Path) -> dict[str, object]:
     return {n: c.to_numpy().tobytes() if c.dtype.kind in "if" else c.tolist() for n, c in table.items()}
 
 
+@pytest.mark.slow
 def test_rows_have_the_bits_of_new_instances(folder: Path) -> None:
     table = read_study(folder)
     file = folder.parent / "study.toml"

@@ -62,6 +62,7 @@ def test_the_stiffness_for_a_lowest_place(
     assert min(float(row.split(",")[place]) for row in table[1:]) == pytest.approx(record["reached"], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_value_that_cannot_be_met(
     seek: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -35,6 +35,7 @@ def test_the_plan_names_its_workers(
     assert message in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("x", "reported"), [(550.0, 0), (0.0, 1)])
 def test_a_start_is_reported_where_a_run_has_it(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], x: float, reported: int

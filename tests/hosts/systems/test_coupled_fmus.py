@@ -291,6 +291,7 @@ def test_planes_of_a_road_that_is_stepped_before_the_car_go_from_answer_to_answe
     assert any("the last one was off by" in text for text in messages)
 
 
+@pytest.mark.slow
 def test_as_one_model_car_and_trailer_start_as_each_stands_alone() -> None:
     pose = mbs.Pose(speed=10.0)
     whole = mbs.Simulation(trailer.with_trailer(), pose=pose).sensors

@@ -42,6 +42,7 @@ def test_the_files_are_small(proving_ground):
     assert proving_ground.json.stat().st_size < 5e6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", quick(("all",), PARTS, "proof"))
 def test_the_road_agrees_with_its_drawing_to_5_mm_and_its_description_to_3_mm(proving_ground, part):
     x, y = places(part, 4000)

@@ -291,7 +291,7 @@ def test_no_message_does_more_than_be_refused(attach, start):
     assert not run.said("no longer read")
 
 
-def test_without_sdl_one_sentence_is_reported_and_the_program_continues(monkeypatch, tmp_path, start):
+def test_without_sdl_one_sentence_is_reported_and_the_program_continues(monkeypatch, start):
     monkeypatch.setitem(sys.modules, "sdl2", None)
     run = start()
     assert run.told == [
