@@ -16,7 +16,6 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
-from mbs.simulation.march import WATCHED_PARTS
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
 COUNTERS = ("steps", "halvings", "divisions", "abrupt_steps", "branch_changes", "predictor_path")
@@ -163,7 +162,7 @@ class CoarserRuns:
         `smooth_from` samples if the difference in the latest eighth of the whole is at most `AGREED` of `limit` and,
         growing on as in that eighth, stays below `limit`.
         """
-        compared, samples, eighth = self.refined.compared, len(run.t), len(run.t) / WATCHED_PARTS
+        compared, samples, eighth = self.refined.compared, len(run.t), len(run.t) / MOST_PARTS
         columns = {sensor["name"]: k for k, sensor in enumerate(self.refined.system.meta["sensors"])}
         whole = Comparison(compared, self.refined.length, self.refined.before)
         whole.add(run)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
+from mbs.kernel.header.limits import MOST_PARTS
 from mbs.results import accuracy
 from mbs.results.comparison import instants
 from mbs.results.omitted_sensors import OmittedSensors
@@ -31,8 +32,6 @@ from mbs.simulation.refusal import refusal
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
-WATCHED_PARTS = 8
-"""Number of parts of a run between which `watch` of `march` is called."""
 CHUNK_SECONDS = 0.1  # wall time of one call of the kernel, between which progress is shown and Ctrl-C takes effect
 
 
@@ -85,7 +84,7 @@ def march(
     observed_steps = {int(k) * every for k in instants(len(values))} if has_flexible_bodies else set()
     watched_steps = set()
     if watch is not None:
-        watched_steps = {len(values) * k // WATCHED_PARTS * every for k in range(1, WATCHED_PARTS)}
+        watched_steps = {len(values) * k // MOST_PARTS * every for k in range(1, MOST_PARTS)}
     pauses = sorted(observed_steps | watched_steps)
     positions = [simulation.state.q] if records_coordinates else []
     record = PositionRecord(simulation.system, simulation.state.q, len(values), samples_per_pose)
