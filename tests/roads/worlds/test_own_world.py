@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 
 import mbs
 from mbs.roads.road_header import RoadFileError
@@ -299,6 +300,24 @@ def test_a_kept_world_is_warned_of_with_the_name_and_the_spacing_of_its_own_file
         warnings = [line for line in capsys.readouterr().err.splitlines() if line.startswith("warning")]
         expected = [] if width == 6.0 else [f"warning: {file}: courses.0 width of the course is 60 m"]
         assert [line.partition(";")[0] for line in warnings] == expected
+
+
+def test_a_world_is_made_again_when_the_buffer_of_its_gltf_file_has_changed(tmp_path, own_cache):
+    triangle = trimesh.Trimesh([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 0.0, -5.0]], [[0, 1, 2]])
+    content = trimesh.exchange.gltf.export_gltf(trimesh.Scene(triangle), merge_buffers=True)
+    (buffer,) = (name for name in content if name.endswith(".bin"))
+    mesh = content["model.gltf"].replace(buffer.encode(), b"a%20buffer.bin")
+    (tmp_path / "mesh.gltf").write_bytes(mesh)
+    (tmp_path / "described.toml").write_text('kind = "grid"\nheights = "mesh.gltf"\n', encoding="utf-8")
+    points = triangle.vertices.astype("<f4").tobytes()
+    for level in (1.0, 2.0):
+        triangle.vertices[:, 1] = level
+        raised = content[buffer].replace(points, triangle.vertices.astype("<f4").tobytes())
+        (tmp_path / "a buffer.bin").write_bytes(raised)
+        for source in ("mesh.gltf", "described.toml"):
+            assert main(["--world", str(tmp_path / source), "--out", str(tmp_path / "out")]) == 0
+            road = mbs.read_road(tmp_path / "out" / Path(source).with_suffix(".road").name)
+            assert road.heights[0, 0] == level
 
 
 def test_heights_widths_and_banks_of_a_course_file(tmp_path):
