@@ -130,7 +130,7 @@ def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
     if file.suffix.lower() == ".road":
         shutil.copyfile(file, target)
     else:
-        write_road(road, target)
+        write_road(road, target, name=file)
     bounds, entry = (-PLANE_HALF_WIDTH, -PLANE_HALF_WIDTH, PLANE_HALF_WIDTH, PLANE_HALF_WIDTH), scene_part(road)
     if entry["kind"] == "grid":  # beyond a level strip of frictions the grid continues
         (x, y), (dx, dy), (nx, ny) = entry["origin"], entry["spacing"], entry["shape"]

@@ -36,9 +36,9 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     begin = time.perf_counter()
     file = _world_file(name_or_file)
     name, source_files = named_files(file)
-    # Not among the warnings of a cached world: it may have been made from a copy of the file.
+    # Not of what is made: a page has a coarser spacing.
     described = _plausibilities_of_description(file)
-    key = cache_key([file, *source_files]) + ("-thin" if thin else "")
+    key = cache_key([file, *source_files], name_or_file) + ("-thin" if thin else "")
     paths, cached = world_files(key, lambda folder: _make_files(file, name, folder, thin), out)
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw_record(out / f"{name}.json", target), picture)

@@ -302,6 +302,17 @@ def test_a_kept_world_is_warned_of_with_the_name_and_the_spacing_of_its_own_file
         assert [line.partition(";")[0] for line in warnings] == expected
 
 
+def test_what_is_warned_of_a_kept_road_names_the_file_that_was_given(tmp_path, own_cache, capsys):
+    heights = np.repeat([0.0, 1.0], 20)[:, None] * np.ones(40)  # a wall
+    for folder in ("a", "b", "b"):
+        (tmp_path / folder).mkdir(exist_ok=True)
+        np.savez(tmp_path / folder / "wall.npz", heights=heights, origin=(0.0, 0.0), spacing=(0.5, 0.5))
+        file = tmp_path / folder / "wall.toml"
+        file.write_text('kind = "grid"\nheights = "wall.npz"\n', encoding="utf-8")
+        assert main(["--world", str(file), "--out", str(tmp_path / "out")]) == 0
+        assert f"warning: {file}: at x = 9.5 m, y = 0 m a face of 1 m rises" in capsys.readouterr().err
+
+
 def test_a_world_is_made_again_when_the_buffer_of_its_gltf_file_has_changed(tmp_path, own_cache):
     triangle = trimesh.Trimesh([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 0.0, -5.0]], [[0, 1, 2]])
     content = trimesh.exchange.gltf.export_gltf(trimesh.Scene(triangle), merge_buffers=True)
