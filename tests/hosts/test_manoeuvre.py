@@ -234,6 +234,8 @@ def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
         ("stop_time = \n", r"is not a TOML file"),
         ('held = [["u"]]\n[inputs]\ntime = [0, 1]\nu = [0, 1]\n', r"m\.toml"),
         ("[inputs]\nu = [0, 1]\ntime = 5\n", r"m\.toml"),
+        ("[inputs]\ntime = [-2, 1]\nu = [0, 1]\n", r"m\.toml begins at -2 s; a run begins at 0: add 2 s"),
+        ("stop_time = 1\n[start]\na.b = 1\n'a.b' = 2\n", r"m\.toml, \[start\]: 'a\.b' is given twice"),
     ],
 )
 def test_bad_toml_files_are_refused(tmp_path: Path, text: str, message: str) -> None:
