@@ -22,6 +22,7 @@ from hosts.common.numbers import Value, text_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_table import check_begin, read_table
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
+from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.state_file import read_state
 
 SUFFIXES = (".toml", ".csv")
@@ -98,6 +99,8 @@ class _ManoeuvreFile(_StrictModel):
             raise ValueError(f"inputs: time goes back from {back[0]:g} s to {back[1]:g} s")
         if odd := next((name for name in self.held if name == "time" or name not in self.inputs), None):
             raise ValueError(f"held has '{odd}'; it must be a list of names of [inputs]")
+        if self.driver and (driven := [name for name in ACTS if name in self.inputs]):
+            raise ValueError(f"[inputs] has {', '.join(driven)}, which the driver of [driver] acts on")
         if self.find_throttle and (self.driver or "throttle" in self.inputs):
             conflict = "[driver]" if self.driver else "throttle in [inputs]"
             raise ValueError(f"with find_throttle there is no {conflict}")
