@@ -1,5 +1,6 @@
 """Runs a command: errors become one sentence, Ctrl-C one line, and the exit code gives the result."""
 
+import io
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -24,6 +25,8 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
     `work`: returns the exit code; `errors`: errors of the user besides `UserError` and `OSError`, whose message is
     printed with the exit code 2; `is_confined`: the option ``--confined``. Returns the exit code.
     """
+    if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
+        sys.stdout.reconfigure(errors="backslashreplace")  # what its encoding lacks ends no command
     try:
         with stopped_by_signals():
             if is_confined:

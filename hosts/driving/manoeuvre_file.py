@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
@@ -12,14 +13,16 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.reading import LARGEST_TEXT, is_file, missing_file_text, read_toml
 from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, text_of
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_table import read_table
+from hosts.driving.manoeuvre_table import check_begin, read_table
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
+from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.state_file import read_state
 
 SUFFIXES = (".toml", ".csv")
@@ -96,6 +99,8 @@ class _ManoeuvreFile(_StrictModel):
             raise ValueError(f"inputs: time goes back from {back[0]:g} s to {back[1]:g} s")
         if odd := next((name for name in self.held if name == "time" or name not in self.inputs), None):
             raise ValueError(f"held has '{odd}'; it must be a list of names of [inputs]")
+        if self.driver and (driven := [name for name in ACTS if name in self.inputs]):
+            raise ValueError(f"[inputs] has {', '.join(driven)}, which the driver of [driver] acts on")
         if self.find_throttle and (self.driver or "throttle" in self.inputs):
             conflict = "[driver]" if self.driver else "throttle in [inputs]"
             raise ValueError(f"with find_throttle there is no {conflict}")
@@ -105,7 +110,7 @@ class _ManoeuvreFile(_StrictModel):
 def _read_toml(path: Path) -> Manoeuvre:
     # TOML reads ``initial.speed = 1`` as a table ``initial``
     content = {
-        key: dict(_flattened(value)) if isinstance(value, dict) else value
+        key: _flattened(value, f"{path}, [{key}]") if isinstance(value, dict) else value
         for key, value in read_toml(path, HostError, largest=LARGEST_TEXT).items()
     }
     try:
@@ -114,6 +119,8 @@ def _read_toml(path: Path) -> Manoeuvre:
         raise HostError(f"{path}: {Sentences(_ManoeuvreFile, content).of(error)[0]}") from None
     inputs = {name: np.array(column, dtype=np.float64) for name, column in file.inputs.items()}
     time = inputs.pop("time", np.zeros(0))
+    if len(time):
+        check_begin(float(time[0]), float(time[-1]), path)
     stop_time = file.stop_time or (float(time[-1]) if len(time) else math.nan)
     driver = {name: value if isinstance(value, str) else text_of(value) for name, value in file.driver.items()}
     state: tuple[bytes | None, float] = None, 0.0
@@ -123,9 +130,17 @@ def _read_toml(path: Path) -> Manoeuvre:
     return Manoeuvre(path.stem, time, inputs, stop_time, file.start, driver, *state, held, file.find_throttle)
 
 
-def _flattened(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+def _flattened(table: Mapping[str, Any], where: str) -> dict[str, Any]:
+    """Values by the whole names of their keys. Raises `HostError` if one is given twice, as ``a.b`` and ``"a.b"``."""
+    counts = Counter(name for name, _ in _named_values(table))
+    if repeated := next((name for name, count in counts.items() if count > 1), None):
+        raise HostError(f"{where}: {brief(repeated)} is given twice.")
+    return dict(_named_values(table))
+
+
+def _named_values(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     for key, value in table.items():
         if isinstance(value, dict):
-            yield from ((f"{key}.{rest}", inner) for rest, inner in _flattened(value))
+            yield from ((f"{key}.{rest}", inner) for rest, inner in _named_values(value))
         else:
             yield key, value

@@ -104,7 +104,8 @@ class Variable:
 
         Raises `HostError` if it has another type or is out of the range.
         """
-        if self.kind == "String" or isinstance(value, str):
+        is_truth_of_a_number = isinstance(value, bool) and self.kind != "Boolean"
+        if self.kind == "String" or isinstance(value, str) or is_truth_of_a_number:
             if self.kind != "String" or not isinstance(value, str):
                 value_text = self.text(value) if is_finite(value) or isinstance(value, (bool, str)) else brief(value)
                 raise HostError(f"{source}: '{self.name}' is {value_text}; it must be {kind_text(self.kind)}.")

@@ -22,7 +22,12 @@ from mbs.roads.steep_faces import RoadWarning, steep_face
 
 
 def write_road(
-    road: PlaneRoad | KerbRoad | GridRoad, file: str | os.PathLike[str], *, shared: bool = False, tolerance: float = 0.0
+    road: PlaneRoad | KerbRoad | GridRoad,
+    file: str | os.PathLike[str],
+    *,
+    shared: bool = False,
+    tolerance: float = 0.0,
+    name: object = None,
 ) -> None:
     """Write a road to a file that the kernel and FMUs read.
 
@@ -36,6 +41,8 @@ def write_road(
         Whether equal tiles of a grid are stored once, which FMUs of version 0.1.0 do not read.
     tolerance : float
         With `shared`: largest deviation of polynomials that are stored instead of the heights of tiles, m.
+    name : object, optional
+        Name of the road in messages; by default `file`.
 
     Raises
     ------
@@ -50,12 +57,13 @@ def write_road(
         A grid has a wall, a face that is higher than the radius of a wheel.
     """
     instance_of((PlaneRoad, KerbRoad, GridRoad), road, "What write_road writes", "a PlaneRoad, KerbRoad or GridRoad")
+    name = file if name is None else name
     with atomic_file(file) as target, target.open("wb") as out:
         if shared and isinstance(road, GridRoad):
-            _write_shared_tiles(road, out, file, tolerance)
+            _write_shared_tiles(road, out, name, tolerance)
         else:
-            _write_content(road, out, file)
-    if isinstance(road, GridRoad) and (warning := steep_face(road, file)):
+            _write_content(road, out, name)
+    if isinstance(road, GridRoad) and (warning := steep_face(road, name)):
         warnings.warn(warning, RoadWarning, stacklevel=2)
 
 

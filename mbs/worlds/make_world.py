@@ -43,7 +43,9 @@ def read_world(file: Path) -> WorldDescription:
         raise RoadFileError(
             f"{file}: bounds are {list(world.bounds)}; they must be [x0, y0, x1, y1] with x0 < x1, y0 < y1."
         )
-    for place in world.places:
+    for k, place in enumerate(world.places):
+        if place.name in (other.name for other in world.places[:k]):
+            raise RoadFileError(f"{file}: two places have the name '{place.name}', by which a start is chosen.")
         x, y, _ = place.at
         if not (x0 <= x <= x1 and y0 <= y <= y1):
             raise RoadFileError(f"{file}: the place '{place.name}' lies at ({x:g}, {y:g}), outside of the world.")
@@ -130,7 +132,7 @@ def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
     if file.suffix.lower() == ".road":
         shutil.copyfile(file, target)
     else:
-        write_road(road, target)
+        write_road(road, target, name=file)
     bounds, entry = (-PLANE_HALF_WIDTH, -PLANE_HALF_WIDTH, PLANE_HALF_WIDTH, PLANE_HALF_WIDTH), scene_part(road)
     if entry["kind"] == "grid":  # beyond a level strip of frictions the grid continues
         (x, y), (dx, dy), (nx, ny) = entry["origin"], entry["spacing"], entry["shape"]

@@ -35,14 +35,10 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     """
     begin = time.perf_counter()
     file = _world_file(name_or_file)
-    name = file.stem
-    files = [file]
-    if file.suffix.lower() == ".toml":
-        name, source_files = named_files(file)
-        files += source_files
-    # Not among the warnings of a cached world: it may have been made from a copy of the file.
+    name, source_files = named_files(file)
+    # Not of what is made: a page has a coarser spacing.
     described = _plausibilities_of_description(file)
-    key = cache_key(files) + ("-thin" if thin else "")
+    key = cache_key([file, *source_files], name_or_file) + ("-thin" if thin else "")
     paths, cached = world_files(key, lambda folder: _make_files(file, name, folder, thin), out)
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw_record(out / f"{name}.json", target), picture)

@@ -26,9 +26,12 @@ MAX_ENTRIES = 12
 COMPLETE_MARK = "made"
 
 
-def cache_key(files: Iterable[Path]) -> str:
-    """Key of the world made from files; it changes with their content and with the code."""
-    digest = hashlib.sha256()
+def cache_key(files: Iterable[Path], name: str = "") -> str:
+    """Key of the world made from files; it changes with their content and with the code.
+
+    `name`: what the user calls the world, which stands in its warnings.
+    """
+    digest = hashlib.sha256(name.encode(errors="surrogateescape"))
     sources = [path for entry in CODE for path in _source_files(ROOT / entry)]
     for path in (*sources, *files):
         data = read_bytes(path, MAX_BYTES, RoadFileError)

@@ -141,7 +141,7 @@ def _object_values(world: WorldDescription) -> Iterator[Value]:
         x0, y0, x1, y1 = world.bounds
         tree_keys: dict[str, Any] = {"trees.distance": world.trees.distance, "bounds": list(world.bounds)}
         yield Value(QUANTITIES["trees"], world.trees.distance / min(x1 - x0, y1 - y0), tree_keys)
-    for name in ("courses", "obstacles", "areas", "bands", "places", "signs", "buildings"):
+    for name in ("courses", "obstacles", "areas", "bands", "signs", "buildings"):
         features = getattr(world, name)
         duplicates = [k for k, feature in enumerate(features) if feature in features[:k]]
         if features:

@@ -59,6 +59,19 @@ def test_missing_memory_is_named_as_the_cause(
     assert capsys.readouterr().err.endswith("raise the limit (ulimit -v).\n")
 
 
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
+def test_what_the_encoding_of_the_output_lacks_ends_no_command(encoding: str) -> None:
+    code = "from ali3.command_run import run_command; run_command(lambda: print('a \\u2212\\udcff') or 0)"
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=Path(__file__).parents[2],
+        env={**os.environ, "PYTHONIOENCODING": encoding},
+        capture_output=True,
+    )
+    minus = "\u2212".encode(encoding, "backslashreplace")
+    assert (done.returncode, done.stderr, done.stdout.strip()) == (0, b"", b"a " + minus + b"\\udcff")
+
+
 @pytest.mark.parametrize(
     "error",
     [

@@ -170,7 +170,7 @@ course = "iso_3888_1"
 speed = 20
 [inputs]
 time = [0, 1, 1, 2]
-steering = [0, -0.0, 0.5, 0.1]
+hand_brake = [0, -0.0, 0.5, 0.1]
 front.damper.damping = [1000, 1000, 2e3, 2e3]
 [state]
 file = "m.state"
@@ -201,7 +201,7 @@ def test_one_toml_file_has_all_of_a_manoeuvre_and_is_written_as_it_is_read(tmp_p
     assert manoeuvre.stop_time == 7.0
     assert manoeuvre.start == {"initial.speed": 15, "initial.yaw": 0.2, "road.file": "kerb.road", "flag": True}
     assert manoeuvre.driver == {"course": "iso_3888_1", "speed": "20"}
-    assert manoeuvre.at(1.5) == {"steering": pytest.approx(0.3), "front.damper.damping": 2000.0}
+    assert manoeuvre.at(1.5) == {"hand_brake": pytest.approx(0.3), "front.damper.damping": 2000.0}
     assert (manoeuvre.state, manoeuvre.state_time) == (b"state", 0.5)
     again = tmp_path / "again" / "m.toml"
     write_manoeuvre(manoeuvre, again, "What it is.")
@@ -234,6 +234,12 @@ def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
         ("stop_time = \n", r"is not a TOML file"),
         ('held = [["u"]]\n[inputs]\ntime = [0, 1]\nu = [0, 1]\n', r"m\.toml"),
         ("[inputs]\nu = [0, 1]\ntime = 5\n", r"m\.toml"),
+        ("[inputs]\ntime = [-2, 1]\nu = [0, 1]\n", r"m\.toml begins at -2 s; a run begins at 0: add 2 s"),
+        (
+            "[driver]\nspeed = 9\n[inputs]\ntime = [0, 1]\nsteering = [0, 1]\nbrake = [0, 1]\nu = [0, 1]\n",
+            r"\[inputs\] has steering, brake, which the driver of \[driver\] acts on",
+        ),
+        ("stop_time = 1\n[start]\na.b = 1\n'a.b' = 2\n", r"m\.toml, \[start\]: 'a\.b' is given twice"),
     ],
 )
 def test_bad_toml_files_are_refused(tmp_path: Path, text: str, message: str) -> None:

@@ -272,6 +272,12 @@ def test_values_of_the_command_line_are_of_their_kind(name: str, text: str, mess
         Settings(kinds()).add_texts([(name, text)], "--set")
 
 
+@pytest.mark.parametrize(("name", "kind"), [("depth", "a Real"), ("count", "an Integer"), ("gear", "an Enumeration")])
+def test_a_truth_value_is_no_number(name: str, kind: str) -> None:
+    with pytest.raises(HostError, match=f"'{name}' is true; it must be {kind}"):
+        Settings(kinds()).add_numbers({name: True}, "start of drive")
+
+
 def test_units_with_an_offset() -> None:
     kelvin, celsius = UnitDefinition({"K": 1}), UnitDefinition({"K": 1}, 1.0, 273.15)
     assert kelvin.convert(293.15, celsius) == pytest.approx(20.0, rel=1e-12)

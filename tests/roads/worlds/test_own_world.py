@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 
 import mbs
 from mbs.roads.road_header import RoadFileError
@@ -183,6 +184,7 @@ def test_an_invalid_course_is_refused(tmp_path, course, sentence):
         ('[ground]\nheights = "../none.npz"\n', "'../none.npz' is not below the folder"),
         ('[ground]\nheights = "a.npz"\nvariation = { height = 1.0, length = 20.0 }\n', "heights and a variation"),
         ('[[places]]\nname = "far"\nat = [90.0, 0.0, 0.0]\n', "'far' lies at \\(90, 0\\), outside"),
+        (2 * '[[places]]\nname = "a"\nat = [9.0, 0.0, 0.0]\n', "two places have the name 'a', by which a start is"),
         ('[[places]]\nname = "Far away"\nat = [9.0, 0.0, 0.0]\n', "places.0.name is 'Far away'"),
         ('[[obstacles]]\nkind = "wall"\nat = [9.0, 0.0, 0.0]\n', "obstacles.0"),
         ("[frictions]\ntar = 1.0\n", "frictions has the name 'tar'; a name is 'asphalt'"),
@@ -299,6 +301,35 @@ def test_a_kept_world_is_warned_of_with_the_name_and_the_spacing_of_its_own_file
         warnings = [line for line in capsys.readouterr().err.splitlines() if line.startswith("warning")]
         expected = [] if width == 6.0 else [f"warning: {file}: courses.0 width of the course is 60 m"]
         assert [line.partition(";")[0] for line in warnings] == expected
+
+
+def test_what_is_warned_of_a_kept_road_names_the_file_that_was_given(tmp_path, own_cache, capsys):
+    heights = np.repeat([0.0, 1.0], 20)[:, None] * np.ones(40)  # a wall
+    for folder in ("a", "b", "b"):
+        (tmp_path / folder).mkdir(exist_ok=True)
+        np.savez(tmp_path / folder / "wall.npz", heights=heights, origin=(0.0, 0.0), spacing=(0.5, 0.5))
+        file = tmp_path / folder / "wall.toml"
+        file.write_text('kind = "grid"\nheights = "wall.npz"\n', encoding="utf-8")
+        assert main(["--world", str(file), "--out", str(tmp_path / "out")]) == 0
+        assert f"warning: {file}: at x = 9.5 m, y = 0 m a face of 1 m rises" in capsys.readouterr().err
+
+
+def test_a_world_is_made_again_when_the_buffer_of_its_gltf_file_has_changed(tmp_path, own_cache):
+    triangle = trimesh.Trimesh([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 0.0, -5.0]], [[0, 1, 2]])
+    content = trimesh.exchange.gltf.export_gltf(trimesh.Scene(triangle), merge_buffers=True)
+    (buffer,) = (name for name in content if name.endswith(".bin"))
+    mesh = content["model.gltf"].replace(buffer.encode(), b"a%20buffer.bin")
+    (tmp_path / "mesh.gltf").write_bytes(mesh)
+    (tmp_path / "described.toml").write_text('kind = "grid"\nheights = "mesh.gltf"\n', encoding="utf-8")
+    points = triangle.vertices.astype("<f4").tobytes()
+    for level in (1.0, 2.0):
+        triangle.vertices[:, 1] = level
+        raised = content[buffer].replace(points, triangle.vertices.astype("<f4").tobytes())
+        (tmp_path / "a buffer.bin").write_bytes(raised)
+        for source in ("mesh.gltf", "described.toml"):
+            assert main(["--world", str(tmp_path / source), "--out", str(tmp_path / "out")]) == 0
+            road = mbs.read_road(tmp_path / "out" / Path(source).with_suffix(".road").name)
+            assert road.heights[0, 0] == level
 
 
 def test_heights_widths_and_banks_of_a_course_file(tmp_path):
