@@ -1,5 +1,5 @@
-/* Loops over contiguous numbers in vectors of two or four. Each number has the bits of a scalar loop, and sums keep
- * their order. */
+/* Loops over contiguous numbers in vectors of two or four. Element-wise loops give the bits of a scalar loop; sums have
+ * the order that each function states, the same for one instance and for lanes. */
 #ifndef ALI3_NUMBER_PAIRS_H
 #define ALI3_NUMBER_PAIRS_H
 #include <stdbool.h>
@@ -28,11 +28,11 @@
 #define ALI3_BY_FOURS
 #endif
 
-/* Whether n ascending indices are consecutive, as indices of modes mostly are. */
+/* Whether n ascending indices are consecutive, as those of modes mostly are. */
 static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
 
-/* First entry of a column of a front, of length n, to compute for the entries from `from` on: a multiple of four
- * entries before the end, up to three above the diagonal, which are not read. */
+/* First entry of a column of length n to compute for the entries from `from` on, so that their number is a multiple of
+ * four: up to three entries above the diagonal are computed and never read. `from` itself if there are fewer. */
 static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
@@ -43,7 +43,7 @@ static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 #endif
 }
 
-/* ali3_by_fours for a first entry of three or more. */
+/* The same for `from` >= 3, without the comparison. */
 static inline int64_t ali3_by_fours_below(int64_t from, int64_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
@@ -108,8 +108,8 @@ static inline void ali3_take_two(real *restrict y, const real *restrict x, real 
   ALI3_EACH(0, n, ALI3_AT(y) -= ALI3_AT(x) * a + ALI3_AT(z) * b)
 }
 
-/* x y in two alternating sums, so that additions are pipelined. In separate loops: a vector load of y[0], which back
- * substitution has just written alone, would wait for the cache. */
+/* Dot product in two alternating sums, so that additions are pipelined. In separate loops: a vector load of y[0], which
+ * back substitution has just written alone, would wait for the cache. */
 static inline real ali3_product_in_two(const real *restrict x, const real *restrict y, int64_t n) {
   real even = {0}, odd = {0};
   ALI3_SHORT
@@ -120,8 +120,8 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 }
 
 #ifndef ALI3_WIDTH
-/* x y in four sums, from the end to the start: the first entries, which back substitution has found last, enter the
- * last additions. */
+/* Dot product in four sums, from the end to the start: the first entries, which back substitution has found last, enter
+ * the last additions. */
 static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
   ali3_four sum = {0};
   int64_t i = n;
@@ -133,9 +133,9 @@ static inline double ali3_product_from_far(const double *restrict x, const doubl
   return all;
 }
 
-#define ali3_numbers_from_far ali3_product_from_far /* x the same for all lanes */
+#define ali3_numbers_from_far ali3_product_from_far /* x: the same numbers in all lanes */
 
-/* (x + z) y in the same order */
+/* Dot product of x + z with y in the same order. */
 static inline double ali3_sum_product_from_far(const double *restrict x, const double *restrict z,
                                                const double *restrict y, int64_t n) {
   ali3_four sum = {0};
@@ -186,13 +186,13 @@ static inline real ali3_largest(const real *x, int64_t n) {
   return most;
 }
 
-/* sum + x y of three numbers, the components of a point or a direction. */
+/* sum plus the dot product of three components of a point or a direction. */
 static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
   return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/* Three numbers in registers: of one instance as a vector of four, whose last number is the next one in memory. It may
- * be read, as arrays of coordinates have one number more (`ali3_pool_padded`), and is not used. */
+/* Three numbers in registers: of one instance a vector of four, whose last number is the next one in memory. It is read
+ * and not used, so that arrays passed here have one number more (`ali3_pool_padded`). */
 #ifdef ALI3_WIDTH
 typedef struct {
   real x, y, z;
@@ -209,7 +209,7 @@ static inline void ali3_three_add(ali3_three *to, const real *x, real a) {
   to->z += a * x[2];
 }
 
-/* to += a x by components */
+/* to += a[i] x[i] */
 static inline void ali3_three_add_each(ali3_three *to, const double *a, const real *x) {
   to->x += a[0] * x[0];
   to->y += a[1] * x[1];
@@ -220,7 +220,7 @@ static inline void ali3_three_put(real *to, const ali3_three *a) { to[0] = a->x,
 
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { to->x += a->x, to->y += a->y, to->z += a->z; }
 
-/* sum + a x */
+/* sum + a . x */
 static inline real ali3_three_sum(real sum, const ali3_three *a, const real *x) {
   return sum + a->x * x[0] + a->y * x[1] + a->z * x[2];
 }
@@ -246,7 +246,7 @@ static inline double ali3_three_sum(double sum, const ali3_three *a, const doubl
 }
 #endif
 
-/* sum + x y of the components of a point in Phi_q and in coordinates. */
+/* sum plus the dot product of the components of a point in Phi_q and in coordinates. */
 static inline real ali3_points_sum(real sum, const real *x, const real *y) {
 #ifdef ALI3_WIDTH
   return ali3_triple_sum(sum, x, y);

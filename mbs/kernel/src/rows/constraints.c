@@ -133,12 +133,10 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
 ALI3_BY_PROCESSOR(in->system, void, constraints, (ali3_instance * in, const real *q, const real *s, real *Phi, real *J),
                   (in, q, s, Phi, J))
 
-/* The coordinates at which rows are evaluated. */
 const real *ali3_near_origin(ali3_instance *in, const real *q) {
   return in->system->size.has_pose ? near_origin(in, q) : q;
 }
 
-/* Phit = d Phi / dt */
 void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit) {
   const ali3_system *S = in->system;
   memset(Phit, 0, (size_t)S->size.nc * sizeof *Phit);

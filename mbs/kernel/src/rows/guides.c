@@ -13,7 +13,6 @@ enum { GAIN = 1, GAIN_2 = 3, LOW, HIGH };
 
 bool ali3_guide_filters(int32_t type) { return type == ALI3_GUIDE_OF_INPUT || type == ALI3_GUIDE_OF_TWO_INPUTS; }
 
-/* Demand of the inputs of a filtered guide: gain times input, or the sum of two. */
 double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input) {
   const ali3_system *S = in->system;
   const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
@@ -21,7 +20,6 @@ double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input
   return S->guide_type[g] == ALI3_GUIDE_OF_INPUT ? first : first + real[GAIN_2] * input[S->guide_second[g]];
 }
 
-/* A demand clamped to the limits of its guide. */
 double ali3_guide_held(const ali3_instance *in, int32_t g, double demand) {
   const double *real = in->parameters.guide_real + in->system->guide_real_ptr[g];
   if (in->system->guide_type[g] == ALI3_GUIDE_OF_INPUT) return demand;
@@ -35,7 +33,6 @@ static double target_of(const ali3_instance *in, int32_t g, const double *input)
 
 static ali3_cubic_table table_of(const double *real, int32_t nreal) { return ali3_cubic_table_at(real, nreal / 3, 0); }
 
-/* ds/du of a guide by a table of u. */
 double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s) {
   const int32_t *at = in->system->guide_real_ptr + g;
   const ali3_cubic_table table = table_of(in->parameters.guide_real + at[0], at[1] - at[0]);
@@ -104,7 +101,6 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
  * more than noise of samples, and than SAME times their largest value, which is more than round-off. */
 static const double ABRUPT = 0.05, SAME = 1e-9;
 
-/* Measures the range of rate and acceleration of each guide of time, and from it the least jump that counts. */
 void ali3_guides_measure(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
@@ -149,10 +145,8 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
   return end;
 }
 
-/* The first break of a guide of time after t and before `end`, otherwise `end`. */
 double ali3_guides_until(const ali3_instance *in, double t, double end) { return first_break(in, t, end, true); }
 
-/* The first such break at which rate or acceleration of the guide jump. */
 double ali3_guides_break(const ali3_instance *in, double t, double end) { return first_break(in, t, end, false); }
 
 /* s = f(u): s' = f' u' and s'' = f' u'' + f'' u'^2. */
@@ -165,7 +159,6 @@ static void guide_by_table(const ali3_instance *in, ali3_vectors *v, int32_t g) 
   v->sdd[g] = slope * v->sdd[u] + curvature * v->sd[u] * v->sd[u];
 }
 
-/* Evaluates guides of time and by tables at t; filtered ones keep their values. */
 void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++)
