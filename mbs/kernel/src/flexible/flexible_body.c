@@ -210,7 +210,6 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_energy,
                   (const ali3_instance *in, const double *q, double *gravity, double *elastic),
                   (in, q, gravity, elastic))
 
-/* F += weight K without the geometric stiffness of gravity. */
 void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
@@ -220,7 +219,6 @@ void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
   }
 }
 
-/* out += weight K x. */
 void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);

@@ -106,7 +106,6 @@ static double step_change(const ali3_instance *in) {
   return change;
 }
 
-/* Counts an abrupt step after a step from in->next to in->now. */
 void ali3_abrupt_force(ali3_instance *in) {
   ali3_report *r = &in->report;
   for (int32_t c = 0; c < in->system->n_contact; c++) {

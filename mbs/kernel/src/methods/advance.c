@@ -100,13 +100,11 @@ static double part_end(const ali3_instance *in, double t, double h, double *guid
   return piece_end < t - near ? fmin(piece_end, inputs) : fmin(inputs, t);
 }
 
-/* Whether a step of h to time t is divided at a jump, or ends at one of a guide. */
 bool ali3_parted(const ali3_instance *in, double t, double h) {
   double guide;
   return part_end(in, t, h, &guide) < t || guide < HUGE_VAL;
 }
 
-/* A step by the method of the settings, in parts that end where inputs or guides jump. */
 ali3_status ali3_advance(ali3_instance *in, const ali3_request *request) {
   const double t = request->t, h = request->h;
   double guide;

@@ -17,10 +17,11 @@ static const double CLOSES = 0.5; /* ratio of violations above which rows have c
 static const double KEPT_VIOLATION = 2e-5, KEPT_RESIDUAL = 0.3;
 
 /* If the residual decreases, rates of signals change by less than REACH residuals times 2/h afterwards (`reach` of
- * ../elements/element.h); used in Systems with expensive iterations. With an eighth of it some steps did not converge;
- * after MAX_SETTLING iterations sliders use their secants again. */
+ * ali3_element_args); used in Systems with flexible bodies, whose iterations are expensive. With an eighth of it some
+ * steps did not converge; after MAX_SETTLING iterations sliders use their secants again. */
 static const double REACH = 4.0;
 enum { MAX_SETTLING = 12 };
+/* Whether sliders use REACH after this number of iterations. */
 static inline bool ali3_settles(const ali3_system *S, int32_t iterations) {
   return ali3_defect_corrected(S) && iterations <= MAX_SETTLING;
 }

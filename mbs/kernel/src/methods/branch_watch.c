@@ -68,7 +68,6 @@ static void report(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind,
   r->branch_time = t;
 }
 
-/* Before a step: stores its initial angles and, where branches may be close, its initial state. */
 void ali3_branch_before(ali3_instance *in) {
   const ali3_system *S = in->system;
   in->branch.near = false;
@@ -252,12 +251,10 @@ double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, doub
   return jumped ? AFTER_JUMP : 1.0;
 }
 
-/* After a controlled step, which ali3_branch_fraction has checked for jumps. */
 void ali3_branch_look(ali3_instance *in, double t) {
   if (has_modes(in)) report_left_modes(in, t);
 }
 
-/* After a completed step. */
 ali3_status ali3_branch_after(ali3_instance *in, const ali3_request *step) {
   const ali3_system *S = in->system;
   const size_t size = (size_t)ali3_triad_count(S) * sizeof(double);

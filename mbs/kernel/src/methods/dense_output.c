@@ -50,7 +50,6 @@ static void evaluate_basis(double x, int order, double weight[TERMS]) {
   }
 }
 
-/* q, qd and qdd of *result at x, -1 to 1, of the step of h that in->kept.origin, in->kept.centre and in->now hold. */
 void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *result) {
   const ali3_vectors *node[NODES] = {&in->kept.origin, &in->kept.centre, &in->now};
   const double scale[3] = {1.0, 0.5 * h, 0.25 * h * h}; /* of a derivative with respect to x */
@@ -122,8 +121,6 @@ static void write_outputs(ali3_instance *in, double *out, double *positions) {
   if (positions != NULL) memcpy(positions, in->now.q, (size_t)in->system->size.nq * sizeof(double));
 }
 
-/* Sensors (ns) and coordinates (nq) at `time` of the step from t that in->kept.origin, in->kept.centre, in->now
- * hold. */
 ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double time,
                               double *out, double *positions) {
   const bool relative = ali3_method_of(in)->relative;

@@ -287,8 +287,6 @@ static bool carries_projected(const ali3_instance *in) {
   return in->system->n_flexible > 0 && in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM;
 }
 
-/* Makes a step from in->now to in->next; in->now changes only if it succeeds. t: time at its end, s; h, s, may be
- * negative; `middle`: its middle as a fraction of the step of ali3_inputs_begin. */
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double middle, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -350,7 +348,6 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   return ali3_energy_momentum(in, request->t, request->h, 0.5, request->reading != ALI3_READ_NOTHING);
 }
 
-/* Adds steps from `from`, with the carried velocities, to the accuracy measures. */
 void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h) {
   const bool n_past = from->history[ALI3_HISTORY_COUNT] >= 1.0 &&
                       from->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;

@@ -84,7 +84,6 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   return status;
 }
 
-/* After steps of which nothing was read. */
 void ali3_energy_momentum_report(ali3_instance *in) {
   ali3_constraints(in, in->now.q, in->now.s, in->step.Phi, in->tangent.J);
   ali3_energy_momentum_show(in, &in->now);

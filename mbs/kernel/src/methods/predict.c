@@ -36,7 +36,6 @@ ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool f
 ALI3_BY_PROCESSOR(in->system, bool, predict, (ali3_instance * in, const ali3_request *request, bool from_past),
                   (in, request, from_past))
 
-/* Stores the mean acceleration and the multipliers of the step from in->now to in->next. */
 void ali3_predict_accept(ali3_instance *in, double h) {
   if (in->system->n_flexible > 0) return;
   const double *D = in->step.D, *qd = in->now.qd, square = h * h;
@@ -45,7 +44,6 @@ void ali3_predict_accept(ali3_instance *in, double h) {
   ali3_history_append(in, h, x);
 }
 
-/* Stores the mean rate of the step from in->now to in->next, of systems with flexible bodies. */
 void ali3_predict_rates(ali3_instance *in, double h) {
   if (in->system->n_flexible == 0) return;
   for (int32_t i = 0; i < in->system->size.nq; i++) {

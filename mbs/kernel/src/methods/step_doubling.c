@@ -14,7 +14,6 @@
  * errors were up to four times the estimate for order eight. */
 enum { MAX_ORDER = 6 };
 
-/* A step from time t that is not halved; the caller restores the state after a failure. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading) {
   in->kept.backed_up = false;
   in->bound.iterations_before = in->report.iterations;
@@ -28,7 +27,6 @@ static double unit_length(const ali3_measure *measure, int32_t i) {
   return measure->scale != NULL ? measure->scale[i] : 1.0;
 }
 
-/* Largest of |q_i| and, for coordinates with mass, |qd_i| / rate (1/s), relative to the length of the control. */
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate) {
   const ali3_system *S = in->system;
@@ -41,8 +39,6 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
   return largest / measure->control->length;
 }
 
-/* Reference rate of velocities, 1/s: of the present motion, at least the given one. `all`: includes coordinates without
- * mass, such as driven angles. */
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all) {
   const ali3_system *S = in->system;
   double largest = 0.0;
@@ -51,8 +47,6 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all)
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
-/* Makes a step from in->now, which is saved in in->kept.origin, to in->now; its middle is in in->kept.centre. *error is
- * relative to the length. After a failed step in->now is unchanged. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;

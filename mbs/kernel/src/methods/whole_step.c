@@ -15,7 +15,6 @@
 #include "energy_watch.h"
 #include "newton.h"
 
-/* Starts a step of h, s; inputs change linearly to `end` (nu), NULL: they are constant. */
 ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_reading reading,
                             ali3_whole_step *step) {
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
@@ -46,7 +45,6 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
   return ALI3_OK;
 }
 
-/* Ends a step with the status of the method; after a failure restores the state before it. */
 ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_status status) {
   if (status == ALI3_OK) status = ali3_branch_after(in, &step->asked);
   in->report.last_status = (int32_t)status;

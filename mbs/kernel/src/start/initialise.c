@@ -102,8 +102,6 @@ static ali3_status close_velocity(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* Makes the velocities of in->now consistent and computes forces, accelerations and multipliers; at a start also sets
- * discrete states, such as a gear, to match. */
 ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;

@@ -18,7 +18,7 @@ double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *held
 void ali3_follow_slope(ali3_instance *in, const ali3_held_motion *held);
 /* Moves the scene back to the held motion; kept_velocity: factor on the difference of velocities. */
 void ali3_put_back(ali3_instance *in, const ali3_held_motion *held, double kept_velocity);
-/* `progress`: fraction of the settling time. */
+/* Factor, 0 to 1, that ali3_put_back applies after a step of h, s; `progress`: fraction of the settling time. */
 double ali3_kept_velocity(const ali3_held_motion *held, double h, double progress);
 /* Largest deviation of a velocity from the held motion, or of climb rates of the contacts in it, m/s. */
 double ali3_unsettled_speed(ali3_instance *in, const ali3_held_motion *held);

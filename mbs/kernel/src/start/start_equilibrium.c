@@ -90,7 +90,6 @@ static ali3_status solve_equilibrium(ali3_instance *in, double t) {
   return ALI3_NO_EQUILIBRIUM;
 }
 
-/* Moves a start at time t to the equilibrium of the parameters, unless coordinates were given. */
 ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
   if (S->n_static_start == 0 || in->start.placed == ALI3_PLACED_BY_Q) return ALI3_OK;

@@ -50,8 +50,6 @@ void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vec
   memcpy(to->q, from->q, in->kept.n * sizeof(double));
 }
 
-/* Copies the vectors that a method does not write: all except positions, velocities, accelerations and multipliers, and
- * the past of the last two if steps do not write it. */
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
   const double *end = from->q + in->kept.n, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
   const bool past = in->system->n_flexible > 0 && from->history[ALI3_HISTORY_COUNT] > 0.0;
@@ -59,7 +57,6 @@ void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, cons
   if (!past) memcpy(to->q + (past_end - from->q), past_end, (size_t)(end - past_end) * sizeof(double));
 }
 
-/* Stores in->now once per step, before it changes, for a failed step. */
 void ali3_back_up(ali3_instance *in) {
   if (in->kept.backed_up) return;
   ali3_vectors_copy(in, &in->kept.start, &in->now);
@@ -79,7 +76,6 @@ ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v)
 
 ALI3_BY_PROCESSOR(in->system, bool, vectors_finite, (const ali3_instance *in, const ali3_vectors *v), (in, v))
 
-/* Swaps in->next in as the state if it is finite and the road under it could be read. */
 ali3_status ali3_accept(ali3_instance *in) {
   if (!ali3_vectors_finite(in, &in->next)) return ALI3_NOT_FINITE;
   if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;

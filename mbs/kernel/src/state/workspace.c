@@ -11,7 +11,6 @@
 #include "masses.h"
 #include "vectors.h"
 
-/* Size of S B of the largest element: signals times coordinates. */
 size_t ali3_signal_work(const ali3_system *s) {
   size_t largest = 0;
   for (int32_t e = 0; e < s->size.ne; e++) {

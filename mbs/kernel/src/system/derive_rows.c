@@ -301,7 +301,6 @@ static void derive_stretches(ali3_system *s) {
   }
 }
 
-/* Requires the masses, by which angles have inertia. */
 void ali3_rows_derive(ali3_system *s) {
   derive_rows(s);
   derive_round(s);

@@ -13,7 +13,6 @@
 enum { FRAME = ALI3_AXIS_SIGNALS };
 static const double STEEPEST = 1.4; /* rad: largest elevation of an axis */
 
-/* Checks the two angles of an axis; NULL: valid. */
 const char *ali3_check_axis(const double *real) {
   return fabs(real[0]) <= 7.0 && fabs(real[1]) <= STEEPEST ? NULL : "the axis of a wheel must not stand upright";
 }
@@ -26,7 +25,6 @@ static bool has_all(const ali3_system *s, int32_t to, int32_t from) {
   return true;
 }
 
-/* Requires checked arrays of signals, of tables and of the mass matrix. */
 ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_axis_inertia;
   for (int64_t k = 0; k < n; k++)

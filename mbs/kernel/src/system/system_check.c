@@ -203,7 +203,6 @@ static int32_t find_owner(const int32_t *ptr, int32_t n, int32_t index) {
   return low;
 }
 
-/* Checks the data that target k of a parameter writes. */
 const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]) {
   const int32_t index = s->par_index[k], family = s->par_target[k];
   if (family == ALI3_TARGET_ELEMENT)
