@@ -188,8 +188,6 @@ double ali3_tyre_depth(const ali3_element_args *a, double raised, double *share)
   return deepest;
 }
 
-/* Verdict on a start with the wheel in the road: with the centre below the surface the spring of a tyre would throw the
- * scene up. The rise is the depth along the road's normal; at a wall it is repeated. */
 ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised) {
   double share = 0.0;
   const double deepest = fmax(ali3_tyre_depth(a, raised, &share), 0.0);

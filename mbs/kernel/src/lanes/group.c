@@ -173,7 +173,6 @@ size_t ali3_group_bytes(const ali3_system *s, int32_t width) {
   return pool.used + LINE;
 }
 
-/* `block`: memory of ali3_group_bytes. */
 void ali3_group_place(ali3_lane_group *g, void *block) {
   const size_t past_line = (uintptr_t)block % LINE;
   ali3_pool pool = {.block = (char *)block + (past_line > 0 ? LINE - past_line : 0), .used = 0};
@@ -221,7 +220,6 @@ static void copy_roads(ali3_lane_group *g) {
   }
 }
 
-/* Copies the numbers that depend on parameters but not on steps to the group. */
 void ali3_group_parameters(ali3_lane_group *g) {
   const ali3_sizes *z = &g->system->size;
   PUT(g, g->mass.val, z->nnz_mass, in, in->mass.val);
@@ -237,7 +235,6 @@ void ali3_group_parameters(ali3_lane_group *g) {
   copy_roads(g);
 }
 
-/* Copies the start of a step, in->now, and the guides of in->next to the group. */
 void ali3_group_from(ali3_lane_group *g) {
   const ali3_system *S = g->system;
   const int32_t nq = S->size.nq, nc = S->size.nc, ng = S->size.ng;
@@ -294,8 +291,6 @@ static void copy_report(const ali3_lane_group *g, int32_t l) {
   r->velocity_violation = g->velocity_violation[l];
 }
 
-/* Copies the state and the counters after a step to the instances: in->next and, for rigid Systems, the mean
- * acceleration and multipliers of Newton's iteration, before (25). */
 void ali3_group_to(const ali3_lane_group *g) {
   const ali3_system *S = g->system;
   const int32_t nq = S->size.nq;

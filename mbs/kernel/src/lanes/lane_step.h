@@ -85,6 +85,7 @@ void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real
   }
 }
 
+/* Generalised forces in->step.Q at in->next; tangents of elements if required. */
 static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -107,6 +108,7 @@ static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
   if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->step.Q);
 }
 
+/* Positions, rates, rows and the residual r = M (D - d0) - c Q of the iterate D. */
 static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   const double c = in->rule.c, rate = in->rule.rate;
@@ -227,6 +229,7 @@ static truth correct(ali3_lane_group *in, truth lanes, truth reused, truth accel
   return finite;
 }
 
+/* Newton's iteration; sets in->good. */
 static void newton(ali3_lane_group *in) {
   const double h = in->h;
   truth active = *in->lanes, reused = {0}, accelerated = {0};
@@ -303,6 +306,7 @@ static void speed_squares(const ali3_lane_group *in, double h, const real *v0, c
   }
 }
 
+/* A step of the lanes in in->lanes from in->now to in->next. */
 static void step(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq;
   const double h = in->h;

@@ -1,6 +1,6 @@
-/* Steps of loading a System: checks of its content, the derived block. Functions with a status return ALI3_OK, 
- * ALI3_NO_MEMORY, or ALI3_BAD_FILE after writing what is wrong to the message. A check of one part uses indices that earlier checks of
- * ali3_system_check have found valid. */
+/* Steps of loading a System: checks of its content, the derived block. Functions with a status return ALI3_OK,
+ * ALI3_NO_MEMORY, or ALI3_BAD_FILE after writing what is wrong to the message. A check of one part uses indices that
+ * earlier checks of ali3_system_check have found valid. */
 #ifndef ALI3_LOADING_H
 #define ALI3_LOADING_H
 #include "../system.h"
