@@ -35,7 +35,8 @@ struct ali3_many {
 
 int32_t ali3_widest_lanes(void) { return ali3_processor_lanes(); }
 
-static const ali3_lane_code *code_of(int32_t width) {
+/* Functions for a number of lanes that the processor has; NULL: none. */
+static const ali3_lane_code *lane_code(int32_t width) {
 #if defined(__x86_64__)
   if (width > 2) return width == 4 ? &ali3_code_lanes_4 : &ali3_code_lanes_8;
 #endif
@@ -57,7 +58,7 @@ ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out) 
   many->base = s;
   many->group.system = ali3_widest_system(s);
   many->group.width = width;
-  many->group.code = code_of(width);
+  many->group.code = lane_code(width);
   ali3_group_place(&many->group, block + sizeof *many);
   *out = many;
   return ALI3_OK;

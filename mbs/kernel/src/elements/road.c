@@ -44,28 +44,30 @@ static int grid_of(const ali3_road *road, ali3_grid *g) {
   const double *p = road->real;
   if (road->file != NULL) {
     const double *header = ali3_road_file_reals(road->file);
-    const ali3_grid grid = {.x0 = header[0], .y0 = header[1], .dx = header[2], .dy = header[3], .file = road->file};
-    *g = grid;
+    const ali3_grid find_grid_contacts = {
+        .x0 = header[0], .y0 = header[1], .dx = header[2], .dy = header[3], .file = road->file};
+    *g = find_grid_contacts;
     ali3_road_file_size(road->file, &g->nx, &g->ny);
     return 1;
   }
   int nx, ny;
   if (!grid_size(p, road->nreal, &nx, &ny)) return 0;
   const double *z = p + GRID_DATA;
-  const ali3_grid grid = {.nx = nx,
-                          .ny = ny,
-                          .x0 = p[GRID_X0],
-                          .y0 = p[GRID_Y0],
-                          .dx = p[GRID_DX],
-                          .dy = p[GRID_DY],
-                          .z = z,
-                          .mu = z + (int64_t)nx * ny};
-  *g = grid;
+  const ali3_grid find_grid_contacts = {.nx = nx,
+                                        .ny = ny,
+                                        .x0 = p[GRID_X0],
+                                        .y0 = p[GRID_Y0],
+                                        .dx = p[GRID_DX],
+                                        .dy = p[GRID_DY],
+                                        .z = z,
+                                        .mu = z + (int64_t)nx * ny};
+  *g = find_grid_contacts;
   return 1;
 }
 
-static int grid(const ali3_road *road, const double centre[3], const double axis[3], double radius,
-                ali3_contact out[2]) {
+/* Contacts with a grid in memory or in a file. */
+static int find_grid_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
+                              ali3_contact out[2]) {
   ali3_grid g;
   if (!grid_of(road, &g)) return 0;
   return ali3_disc_on_grid(&g, centre, axis, radius, out);
@@ -77,7 +79,7 @@ int ali3_road_contacts(const ali3_road *road, const double centre[3], const doub
   const double factor = factor_of(road);
   if (type == ALI3_ROAD_PORT) return ali3_port_contact(road, centre, axis, radius, out);
   if (type != ALI3_ROAD_GRID) return ali3_contacts_by_numbers(type, reals_of(road), factor, centre, axis, radius, out);
-  const int count = grid(road, centre, axis, radius, out);
+  const int count = find_grid_contacts(road, centre, axis, radius, out);
   for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor, out[i].friction);
   return count;
 }

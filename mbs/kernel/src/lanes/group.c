@@ -43,6 +43,7 @@ static void allocate_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, boo
   v->past_lam = lane_items(g, pool, with_history ? ALI3_PAST * nc : 0);
 }
 
+/* Vectors of the iteration. */
 static void allocate_step(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_sizes *z = &g->system->size;
   real **of_coordinates[] = {&g->mass.floor,    &g->mass.floor_inverse,
@@ -69,6 +70,7 @@ static void allocate_step(ali3_lane_group *g, ali3_pool *pool) {
   g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
 }
 
+/* Phi_q and the tangent. */
 static void allocate_tangents(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const ali3_sizes *z = &S->size;
@@ -100,6 +102,7 @@ static void allocate_flexible(ali3_lane_group *g, ali3_pool *pool) {
   g->element.ud_at = lane_items(g, pool, is_flexible * (size_t)S->size.nsig);
 }
 
+/* Lookup-table bodies. */
 static void allocate_tabled(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const size_t extended = S->n_tabled > 0 ? (size_t)(S->size.nq + S->n_dependent) : 0;
@@ -119,6 +122,7 @@ static bool has_law(const ali3_element_type *type) {
 #undef ALI3_IS
 }
 
+/* Signals, forces and tangents of elements. */
 static void allocate_elements(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const ali3_sizes *z = &S->size;
@@ -136,6 +140,7 @@ static void allocate_elements(ali3_lane_group *g, ali3_pool *pool) {
   }
 }
 
+/* Numbers of one entry for each lane, and masks. */
 static void allocate_scalars(ali3_lane_group *g, ali3_pool *pool) {
   ali3_mask **masks[] = {&g->lanes,
                          &g->at_work,
@@ -155,6 +160,7 @@ static void allocate_scalars(ali3_lane_group *g, ali3_pool *pool) {
   g->squares = lane_items(g, pool, 3);
 }
 
+/* All arrays of a group. */
 static void allocate(ali3_lane_group *g, ali3_pool *pool) {
   allocate_vectors(g, &g->now, true, pool);
   allocate_vectors(g, &g->next, false, pool);
@@ -208,6 +214,7 @@ static int32_t end_of_run(const ali3_lane_group *g, int32_t e) {
   return end;
 }
 
+/* Copies the numbers of the roads of all lanes. */
 static void copy_roads(ali3_lane_group *g) {
   for (int32_t r = 0; r < g->system->nr; r++) {
     ali3_lane_road *road = &g->road[r];
@@ -276,6 +283,7 @@ void ali3_group_from(ali3_lane_group *g) {
   }
 }
 
+/* Copies counters and residuals of lane l to the report of its instance. */
 static void copy_report(const ali3_lane_group *g, int32_t l) {
   ali3_report *r = &g->lane[l]->report;
   r->last_iterations = (int32_t)g->iterations[l];

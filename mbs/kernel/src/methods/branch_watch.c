@@ -59,7 +59,8 @@ static void update_modes(ali3_instance *in) {
     in->branch.left[loop] = ali3_mode_left(in, loop) >= 0 ? 1.0 : 0.0;
 }
 
-static void report(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind, double t) {
+/* Records the first change of an assembly mode, at t, s. */
+static void record_change(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind, double t) {
   ali3_report *r = &in->report;
   if (r->branch_changes++ > 0) return; /* only the first is reported */
   r->branch_loop = (int32_t)loop;
@@ -173,7 +174,7 @@ static ali3_status check_jump(ali3_instance *in, const ali3_request *step, int64
     status = ali3_advance(in, step);
   }
   in->report = whole;
-  if (status == ALI3_OK && triad >= 0) report(in, loop, triad, ALI3_BRANCH_JUMP, step->t);
+  if (status == ALI3_OK && triad >= 0) record_change(in, loop, triad, ALI3_BRANCH_JUMP, step->t);
   return status;
 }
 
@@ -182,7 +183,7 @@ static void report_left_modes(ali3_instance *in, double t) {
   ali3_mode_angles(in, in->now.q);
   for (int64_t loop = 0; loop < ali3_loop_count(in->system); loop++) {
     const int32_t left_triad = ali3_mode_left(in, loop);
-    if (left_triad >= 0 && in->branch.left[loop] == 0.0) report(in, loop, left_triad, ALI3_BRANCH_LEFT, t);
+    if (left_triad >= 0 && in->branch.left[loop] == 0.0) record_change(in, loop, left_triad, ALI3_BRANCH_LEFT, t);
     in->branch.left[loop] = left_triad >= 0 ? 1.0 : 0.0;
   }
 }

@@ -116,6 +116,7 @@ static ali3_status step_to_time(ali3_instance *in, double t, double h, double ti
   return status;
 }
 
+/* Sensors and coordinates of in->now; NULL: not wanted. */
 static void write_outputs(ali3_instance *in, double *out, double *positions) {
   if (out != NULL) ali3_sensors_evaluate(in, out);
   if (positions != NULL) memcpy(positions, in->now.q, (size_t)in->system->size.nq * sizeof(double));

@@ -70,6 +70,7 @@ static double raised_penalty(const ali3_instance *in, double h) {
   return fmax(weight, fmin(most_refinements, SIGN_CHANGE / turn));
 }
 
+/* Rows and residual r = M (D - h v) + inertia - h^2/2 (Q - A' lam) of the iterate D, with the forces of the middle. */
 static void evaluate(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -144,6 +145,7 @@ static ali3_status factorise(ali3_instance *in, double h, double weight) {
   return ali3_factorise_lu(in, 1, in->tangent.F);
 }
 
+/* One Newton correction of D and of the multipliers. */
 static ali3_status correct(ali3_instance *in, double weight, double alpha, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;

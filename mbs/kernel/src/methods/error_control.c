@@ -133,6 +133,7 @@ static int judge_error(const ali3_control *c, step_trials *trials, double h, dou
   return REJECT;
 }
 
+/* Updates the statistics of the control by an accepted step. */
 static void record_accepted(ali3_control *c, double h, double error, double relative_error, int verdict) {
   if (c->accepted == 0 || h < c->smallest) c->smallest = h;
   if (h > c->largest) c->largest = h;
@@ -233,6 +234,7 @@ static bool inputs_have_jumped(ali3_instance *in) {
   return ali3_inputs_begin(in, in->clock.now, 0.0) != ALI3_OK || ali3_inputs_jump(in);
 }
 
+/* Makes at most most_steps steps up to t_end, s; *done: their number. */
 static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_end, int64_t most_steps,
                        const ali3_record *record, int64_t *done) {
   const int32_t ns = in->system->size.ns, nq = in->system->size.nq;

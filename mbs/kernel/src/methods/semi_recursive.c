@@ -161,6 +161,7 @@ static void combine(const ali3_instance *in, double h, const double *weight, int
   for (int32_t i = 0; i < n; i++) sum[i] = w->state[i] + h * sum[i];
 }
 
+/* Largest absolute value. */
 static double largest_size(const double *v, int32_t n) {
   double most = 0.0;
   for (int32_t i = 0; i < n; i++) most = fabs(v[i]) > most ? fabs(v[i]) : most;

@@ -31,11 +31,14 @@ static double target_of(const ali3_instance *in, int32_t g, const double *input)
   return ali3_guide_held(in, g, ali3_guide_demand(in, g, input));
 }
 
-static ali3_cubic_table table_of(const double *real, int32_t nreal) { return ali3_cubic_table_at(real, nreal / 3, 0); }
+/* Table of a guide over another one: points, values and slopes by columns. */
+static ali3_cubic_table make_table(const double *real, int32_t nreal) {
+  return ali3_cubic_table_at(real, nreal / 3, 0);
+}
 
 double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s) {
   const int32_t *at = in->system->guide_real_ptr + g;
-  const ali3_cubic_table table = table_of(in->parameters.guide_real + at[0], at[1] - at[0]);
+  const ali3_cubic_table table = make_table(in->parameters.guide_real + at[0], at[1] - at[0]);
   double slope;
   ali3_cubic_value(&table, s[in->system->guide_input[g]], &slope, NULL);
   return slope;
@@ -44,7 +47,7 @@ double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s) {
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {
   if (type == ALI3_GUIDE_BY_TABLE) {
     if (nreal < 6 || nreal % 3 != 0) return "a guide by a table needs two points or more, and a slope at each";
-    const ali3_cubic_table table = table_of(real, nreal);
+    const ali3_cubic_table table = make_table(real, nreal);
     return ali3_cubic_rises(&table) ? NULL : "the first column of the table of a guide must rise";
   }
   if (type == ALI3_GUIDE_OF_INPUT) {
@@ -152,7 +155,7 @@ double ali3_guides_break(const ali3_instance *in, double t, double end) { return
 /* s = f(u): s' = f' u' and s'' = f' u'' + f'' u'^2. */
 static void guide_by_table(const ali3_instance *in, ali3_vectors *v, int32_t g) {
   const int32_t *at = in->system->guide_real_ptr + g, u = in->system->guide_input[g];
-  const ali3_cubic_table table = table_of(in->parameters.guide_real + at[0], at[1] - at[0]);
+  const ali3_cubic_table table = make_table(in->parameters.guide_real + at[0], at[1] - at[0]);
   double slope, curvature;
   v->s[g] = ali3_cubic_derivatives(&table, v->s[u], &slope, &curvature);
   v->sd[g] = slope * v->sd[u];

@@ -79,10 +79,12 @@ static bool in_ranges(const unsigned char *p, int32_t n, const double *low, cons
   return true;
 }
 
+/* A count that a report may have; a size, finite and not negative. */
 static bool count_valid(int64_t n) { return n >= 0 && n < MAX_COUNT; }
 
 static bool magnitude_valid(double x) { return x >= 0.0 && x - x == 0.0; }
 
+/* A change of an assembly mode names a triad of the System. */
 static bool branch_valid(const ali3_system *s, const ali3_report *r) {
   if (!count_valid(r->branch_changes) || !(r->branch_time - r->branch_time == 0.0)) return false;
   return r->branch_changes == 0 ||
@@ -91,17 +93,20 @@ static bool branch_valid(const ali3_system *s, const ali3_report *r) {
               s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]);
 }
 
+/* Measures of abrupt forces. */
 static bool forces_valid(const ali3_report *r) {
   return magnitude_valid(r->largest_force) && magnitude_valid(r->largest_load) && count_valid(r->abrupt_steps) &&
          count_valid(r->divisions) && magnitude_valid(r->change_rate);
 }
 
+/* Sums of the linear trend of the energy; see ali3_energy_trend. */
 static bool trend_valid(const ali3_report *r) {
   return count_valid(r->free_states) && magnitude_valid(r->free_steps) && r->free_start - r->free_start == 0.0 &&
          r->free_energy - r->free_energy == 0.0 && magnitude_valid(r->free_steps_squares) &&
          magnitude_valid(r->free_energy_squares) && r->free_product - r->free_product == 0.0;
 }
 
+/* A report that an instance of the System can have. */
 static bool report_valid(const ali3_system *s, const ali3_report *r) {
   return branch_valid(s, r) && forces_valid(r) && trend_valid(r) && magnitude_valid(r->work) &&
          magnitude_valid(r->kinetic_peak) && magnitude_valid(r->speed_peak) && magnitude_valid(r->velocity_path) &&

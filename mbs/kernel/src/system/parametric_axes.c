@@ -49,6 +49,7 @@ typedef struct {
   bool *written; /* whether axes write each signal */
 } lean;
 
+/* Places the arrays of a System without entries that are zero as drawn. */
 static void place_arrays(const ali3_system *s, ali3_pool *p, lean *to) {
   const size_t nsig = (size_t)s->size.nsig, entries = (size_t)s->n_sig_col;
   to->sig_val = ali3_pool_items(p, entries, sizeof(double));
@@ -64,6 +65,7 @@ static bool is_kept(const ali3_system *s, const lean *to, int32_t signal, int32_
   return !to->written[signal] || s->sig_val[k] != 0.0;
 }
 
+/* Fills them. */
 static void drop_zeros(ali3_system *s, lean *to) {
   int32_t n = 0, at = 0;
   for (int64_t i = 0; i < s->n_axis_signal; i++) to->written[s->axis_signal[i]] = true;
