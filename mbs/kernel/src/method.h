@@ -26,7 +26,7 @@ typedef struct {
   bool balance_decides;
   bool (*has_guides_work)(const ali3_instance *in); /* whether its steps measure the work of guides; NULL: never */
   /* ALI3_OK, or a status if it does not accept the System; NULL: it accepts all. */
-  ali3_status (*takes)(const ali3_instance *in);
+  ali3_status (*check_system)(const ali3_instance *in);
   const char *excludes; /* what it does not accept in a System, for messages; NULL: it accepts all */
   /* Completes in->now after steps of which nothing was read. */
   void (*after_unobserved)(ali3_instance *in);

@@ -39,7 +39,7 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
     const real *restrict b = a + n;
     const real first = x[p], second = x[p + 1] - a[p + 1] * first;
     x[p + 1] = second;
-    ali3_take_two(x + p + 2, a + p + 2, first, b + p + 2, second, n - p - 2);
+    ali3_subtract_two_multiples(x + p + 2, a + p + 2, first, b + p + 2, second, n - p - 2);
   }
   if (p < n_pivot) ali3_add_multiple(x + p + 1, block + p * n + p + 1, -x[p], n - p - 1);
 }

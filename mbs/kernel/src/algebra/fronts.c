@@ -22,7 +22,7 @@ enum { GROUP = sizeof(group) / sizeof(real) };
 ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels, int64_t n, int64_t j, int64_t last,
                                   const group *const *end) {
   for (; j < last; j++) {
-    const int64_t from = ali3_by_fours_below(j, n);
+    const int64_t from = ali3_by_fours_unclipped(j, n);
     group *restrict target = (group *)(block + j * n + from);
     real f[PANELS * PANEL];
     for (int32_t k = 0; k < panels * PANEL; k++) f[k] = panel[k * n + j];
@@ -120,7 +120,7 @@ ALI3_INLINED group *factorise_whole_panel(ali3_instance *in, int32_t pivot, real
   real factor[PANEL][PANEL];
   *status = factorise_triangle(in, pivot, panel + start, n, factor);
   if (*status != ALI3_OK) return packed;
-  for (int64_t i = ali3_by_fours_below(start + PANEL, n); i < n; i += GROUP, packed += PANEL) {
+  for (int64_t i = ali3_by_fours_unclipped(start + PANEL, n); i < n; i += GROUP, packed += PANEL) {
     ALI3_UNROLLED
     for (int32_t p = 0; p < PANEL; p++) {
       group *offset = (group *)(panel + p * n + i);
@@ -229,7 +229,7 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
 ALI3_INLINED void substitute_pivots(const real *block, real *restrict x, int64_t n_pivot, int64_t n, bool four) {
   for (int64_t p = n_pivot - 1; p >= 0; p--) {
     const real *after = block + p * n + p + 1, *y = x + p + 1;
-    const real sum = four ? ali3_product_from_far(after, y, n - p - 1) : ali3_product_in_two(after, y, n - p - 1);
+    const real sum = four ? ali3_product_backward(after, y, n - p - 1) : ali3_product_in_two(after, y, n - p - 1);
     x[p] = x[p] * after[-1] - sum;
   }
 }

@@ -29,7 +29,9 @@
 #endif
 
 /* Whether n ascending indices are consecutive, as those of modes mostly are. */
-static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
+static inline bool ali3_consecutive(const int32_t *place, int32_t n) {
+  return n > 0 && place[n - 1] - place[0] == n - 1;
+}
 
 /* First entry of a column of length n to compute for the entries from `from` on, so that their number is a multiple of
  * four: up to three entries above the diagonal are computed and never read. `from` itself if there are fewer. */
@@ -44,7 +46,7 @@ static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 }
 
 /* The same for `from` >= 3, without the comparison. */
-static inline int64_t ali3_by_fours_below(int64_t from, int64_t n) {
+static inline int64_t ali3_by_fours_unclipped(int64_t from, int64_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
   return from;
@@ -103,8 +105,8 @@ static inline void ali3_copy(real *restrict y, const real *restrict x, int64_t n
 }
 
 /* y -= a x + b z */
-static inline void ali3_take_two(real *restrict y, const real *restrict x, real a, const real *restrict z, real b,
-                                 int64_t n) {
+static inline void ali3_subtract_two_multiples(real *restrict y, const real *restrict x, real a, const real *restrict z,
+                                               real b, int64_t n) {
   ALI3_EACH(0, n, ALI3_AT(y) -= ALI3_AT(x) * a + ALI3_AT(z) * b)
 }
 
@@ -122,7 +124,7 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 #ifndef ALI3_WIDTH
 /* Dot product in four sums, from the end to the start: the first entries, which back substitution has found last, enter
  * the last additions. */
-static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
+static inline double ali3_product_backward(const double *restrict x, const double *restrict y, int64_t n) {
   ali3_four sum = {0};
   int64_t i = n;
   ALI3_SHORT
@@ -133,10 +135,10 @@ static inline double ali3_product_from_far(const double *restrict x, const doubl
   return all;
 }
 
-#define ali3_numbers_from_far ali3_product_from_far /* x: the same numbers in all lanes */
+#define ali3_shared_product_backward ali3_product_backward /* x: the same numbers in all lanes */
 
 /* Dot product of x + z with y in the same order. */
-static inline double ali3_sum_product_from_far(const double *restrict x, const double *restrict z,
+static inline double ali3_sum_product_backward(const double *restrict x, const double *restrict z,
                                                const double *restrict y, int64_t n) {
   ali3_four sum = {0};
   int64_t i = n;
@@ -151,7 +153,7 @@ static inline double ali3_sum_product_from_far(const double *restrict x, const d
 
 #else
 /* The same sums for lanes, in the same order as for one instance. */
-#define ALI3_FROM_FAR(name, declared, term)                                                                            \
+#define ALI3_BACKWARD(name, declared, term)                                                                            \
   static inline real name declared {                                                                                   \
     real sum[4] = {0};                                                                                                 \
     int64_t i = n;                                                                                                     \
@@ -163,9 +165,9 @@ static inline double ali3_sum_product_from_far(const double *restrict x, const d
   }
 #define ALI3_PRODUCT(i) x[i] * y[i]
 #define ALI3_SUM_PRODUCT(i) (x[i] + z[i]) * y[i]
-ALI3_FROM_FAR(ali3_product_from_far, (const real *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
-ALI3_FROM_FAR(ali3_numbers_from_far, (const double *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
-ALI3_FROM_FAR(ali3_sum_product_from_far,
+ALI3_BACKWARD(ali3_product_backward, (const real *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
+ALI3_BACKWARD(ali3_shared_product_backward, (const double *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
+ALI3_BACKWARD(ali3_sum_product_backward,
               (const real *restrict x, const double *restrict z, const real *restrict y, int64_t n), ALI3_SUM_PRODUCT)
 #endif
 

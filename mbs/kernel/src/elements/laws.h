@@ -58,7 +58,7 @@ static real lane_atan2(real y, real x);
 int ali3_road_contacts(const ali3_road *road, const real centre[3], const real axis[3], real radius,
                        ali3_contact out[2]) {
   if (road->type == ALI3_ROAD_PLANE || road->type == ALI3_ROAD_KERB)
-    return ali3_contacts_by_numbers(road->type, road->numbers, *road->friction_factor, centre, axis, radius, out);
+    return ali3_plane_or_kerb_contacts(road->type, road->numbers, *road->friction_factor, centre, axis, radius, out);
   ali3_lane_contacts(road, ALI3_WIDTH, centre, axis, &radius, (real *)out);
   return 2;
 }

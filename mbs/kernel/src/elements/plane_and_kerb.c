@@ -77,8 +77,8 @@ static int kerb(const real *p, const real centre[3], const real axis[3], real ra
   return ali3_any(ali3_not(misses)) ? 2 : 1;
 }
 
-int ali3_contacts_by_numbers(int32_t type, const real *p, real friction_factor, const real centre[3],
-                             const real axis[3], real radius, ali3_contact out[2]) {
+int ali3_plane_or_kerb_contacts(int32_t type, const real *p, real friction_factor, const real centre[3],
+                                const real axis[3], real radius, ali3_contact out[2]) {
   const int count =
       type == ALI3_ROAD_PLANE ? find_plane_contact(p, centre, axis, radius, out) : kerb(p, centre, axis, radius, out);
   for (int i = 0; i < count; i++) {

@@ -9,8 +9,8 @@ enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_FACTOR,
 enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_FACTOR, KERB_REALS };
 
 /* ali3_road_contacts for ALI3_ROAD_PLANE and ALI3_ROAD_KERB: writes one or two contacts and returns their number. */
-ALI3_PER_WIDTH int ali3_contacts_by_numbers(int32_t type, const real *p, real friction_factor, const real centre[3],
-                                            const real axis[3], real radius, ali3_contact out[2]);
+ALI3_PER_WIDTH int ali3_plane_or_kerb_contacts(int32_t type, const real *p, real friction_factor, const real centre[3],
+                                               const real axis[3], real radius, ali3_contact out[2]);
 
 /* Product of friction and its factor; 0 if negative or NaN. */
 static inline real ali3_friction_product(real factor, real friction) {

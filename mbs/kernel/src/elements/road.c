@@ -78,7 +78,8 @@ int ali3_road_contacts(const ali3_road *road, const double centre[3], const doub
   const int32_t type = type_of(road);
   const double factor = factor_of(road);
   if (type == ALI3_ROAD_PORT) return ali3_port_contact(road, centre, axis, radius, out);
-  if (type != ALI3_ROAD_GRID) return ali3_contacts_by_numbers(type, reals_of(road), factor, centre, axis, radius, out);
+  if (type != ALI3_ROAD_GRID)
+    return ali3_plane_or_kerb_contacts(type, reals_of(road), factor, centre, axis, radius, out);
   const int count = find_grid_contacts(road, centre, axis, radius, out);
   for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor, out[i].friction);
   return count;

@@ -126,7 +126,7 @@ ALI3_INLINED void ali3_accumulate(int32_t n, const double *restrict M, const rea
 
 /* Dot products of x with three contiguous rows. */
 ALI3_INLINED void ali3_three_products(int32_t n, const real *restrict rows, const real *restrict x, real out[3]) {
-  for (int k = 0; k < 3; k++) out[k] = ali3_product_from_far(rows + k * n, x, n);
+  for (int k = 0; k < 3; k++) out[k] = ali3_product_backward(rows + k * n, x, n);
 }
 
 /* Adds three contiguous rows times their factors to y, one after the other. */

@@ -56,7 +56,7 @@ ALI3_INLINED void multiply_mass(const ali3_instance *in, const real *x, real *ou
     if (stretches && S->mass_stretch[2 * i] < ptr[i + 1]) {
       const int32_t first = S->mass_stretch[2 * i], last = S->mass_stretch[2 * i + 1];
       for (; k < first; k++) sum += val[k] * x[col[k]];
-      sum += ali3_product_from_far(val + first, x + col[first], last - first);
+      sum += ali3_product_backward(val + first, x + col[first], last - first);
       k = last;
     }
     ALI3_SHORT

@@ -27,7 +27,7 @@ static void add_gradient(const ali3_instance *in, const double *v, double weight
       const double *al = x + 3 * (l + 1);
       for (int i = 0; i < 4; i++) { /* r_o, then the axes */
         const double *restrict row = i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n;
-        const double *xi = x + 3 * i, along = ali3_product_from_far(row, rate, n);
+        const double *xi = x + 3 * i, along = ali3_product_backward(row, rate, n);
         const double coupling = xi[0] * al[0] + xi[1] * al[1] + xi[2] * al[2];
         for (int k = 0; k < 3; k++) total[k] += xi[k] * along;
         for (int32_t j = 0; j < n; j++) force[j] += coupling * row[j];

@@ -35,7 +35,7 @@ ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, 
   for (int i = 0; i < 3; i++)
     for (int k = 0; k <= i; k++)
       f->J[3 * i + k] = f->J[3 * k + i] =
-          ali3_product_from_far(f->c + (3 * k + i) * n, eta, n) + ali3_product_from_far(f->D + (3 * i + k) * n, eta, n);
+          ali3_product_backward(f->c + (3 * k + i) * n, eta, n) + ali3_product_backward(f->D + (3 * i + k) * n, eta, n);
 }
 
 ALI3_INLINED void flexible_prepare(const ali3_instance *in, const real *q) {
@@ -120,7 +120,7 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
 /* Lower triangle of wC C + wK K into the body's front. */
 ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, real *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
-  const bool contiguous = ali3_together(mode, n);
+  const bool contiguous = ali3_consecutive(mode, n);
   for (int32_t j = 0; j < n; j++) {
     const double *restrict C = f->C + (int64_t)j * n, *restrict K = f->K + (int64_t)j * n;
     real *restrict column = block + (int64_t)mode[j] * size;
@@ -135,7 +135,7 @@ ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, do
  * not if the body's front has many other coordinates. */
 ALI3_INLINED void add_coupling(const ali3_flexible *f, int32_t size, double wM, double wK, real *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
-  bool contiguous = ali3_together(mode, n);
+  bool contiguous = ali3_consecutive(mode, n);
   for (int i = 0; i < 12; i++) contiguous = contiguous && f->loc[i] < mode[0];
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 3; k++) {
@@ -200,7 +200,7 @@ ALI3_INLINED void flexible_energy(const ali3_instance *in, const double *q, doub
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const double *force = elastic_force(in, &f, q);
-    *elastic += 0.5 * ali3_product_from_far(force, in->flexible.work, f.n);
+    *elastic += 0.5 * ali3_product_backward(force, in->flexible.work, f.n);
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }

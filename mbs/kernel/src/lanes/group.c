@@ -327,7 +327,7 @@ void ali3_group_to(const ali3_lane_group *g) {
     if (n_out > 0) TAKE(g, in, in->next.out + out, g->out + out * g->width, n_out);
     TAKE(g, in, in->next.potential + e, g->potential + e * g->width, end - e);
   }
-  TAKE(g, in, in->next.step_way, g->ways, S->n_work_force);
+  TAKE(g, in, in->next.step_displacement, g->ways, S->n_work_force);
   for (int32_t k = 0, end; k < S->n_work; k = end) {
     const int32_t first = S->el_sig_ptr[S->work_element[k]];
     for (end = k + 1; end < S->n_work && S->work_element[end] == S->work_element[end - 1] + 1;) end++;

@@ -10,7 +10,7 @@ void ali3_abrupt_force(ali3_instance *in);
 bool ali3_divides_ahead(ali3_instance *in, const ali3_request *request);
 /* Whether the limit of iterations leaves `iterations` for each half of a step; then it is counted as a division.
  * Otherwise the step ends at its limit. */
-bool ali3_leaves_parts(ali3_instance *in, const ali3_request *request, int32_t iterations);
+bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_t iterations);
 /* Whether to repeat the step from in->now to in->next, whose outputs are evaluated, in halves. */
 bool ali3_divides(ali3_instance *in, const ali3_request *request);
 #endif

@@ -101,7 +101,7 @@ static double part_end(const ali3_instance *in, double t, double h, double *guid
   return piece_end < t - near ? fmin(piece_end, inputs) : fmin(inputs, t);
 }
 
-bool ali3_parted(const ali3_instance *in, double t, double h) {
+bool ali3_is_divided(const ali3_instance *in, double t, double h) {
   double guide;
   return part_end(in, t, h, &guide) < t || guide < HUGE_VAL;
 }

@@ -74,7 +74,7 @@ ALI3_INLINED bool report_residual(ali3_instance *in) {
   double *x = in->step.x;
   ali3_rows_transposed(in->system, in->tangent.J, in->next.lam, x);
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(x) = ALI3_AT(r) + c * ALI3_AT(x))
-  return ali3_judge(in, x);
+  return ali3_measure_residual(in, x);
 }
 
 /* The tangent (23) of the present iterate, by generated code. */
@@ -180,7 +180,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
   while (in->report.last_iterations < most_iterations) {
     ali3_status status = reused ? ALI3_OK : tangent(in, alpha);
     if (status == ALI3_OK) status = correct(in, h, alpha, in->report.last_iterations, reused, accelerated);
-    if (status != ALI3_OK) return ali3_newton_ended(in, status);
+    if (status != ALI3_OK) return ali3_newton_failure(in, status);
     in->report.iterations++;
     in->report.last_iterations++;
     if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
@@ -191,13 +191,13 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
     if (in->report.residual <= fine * settings->tolerance_r) {
       if (ali3_closed(in->system, in->step.Phi, fine * settings->tolerance_phi)) return ALI3_OK;
       if (in->report.violation > CLOSES * last_violation && /* far from the origin no iteration reduces it further */
-          ali3_closed_here(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
+          ali3_closed_at(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
         return ALI3_OK;
     }
     last_violation = in->report.violation;
     reused = settings->update == ALI3_UPDATE_LINEARISED &&
-             in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * fine) &&
-             in->report.residual <= KEPT_RESIDUAL * last_residual; /* (16) converges too slowly for more */
+             in->report.violation <= REUSE_VIOLATION * fmin(h * h, 1e-4 * fine) &&
+             in->report.residual <= REUSE_RESIDUAL * last_residual; /* (16) converges too slowly for more */
     const bool settles = ali3_settles(in->system, in->report.last_iterations) && in->report.residual <= last_residual;
     accelerated = reused || !settles;
     last_residual = in->report.residual;
@@ -207,7 +207,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
     ali3_elements_forces(in, &call);
   }
   if (most_iterations > 0 && in->report.residual <= fine * settings->tolerance_r &&
-      ali3_closed_here(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
+      ali3_closed_at(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
     return ALI3_OK; /* far from the origin no iteration reduces it further */
   return limited && most_iterations > 0 ? accept_capped(in) : ALI3_NOT_CONVERGED;
 }
@@ -281,7 +281,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   ali3_constraint_rate(in, to->q, to, in->step.Phit);
   double guide_work = 0.0;
   if (in->settings.project) {
-    const double left = ali3_round_left(S, c);
+    const double left = ali3_allowed_round_off(S, c);
     double kinetic, end, open_power, work = ali3_constraint_work(in, h, &guide_work);
     turning_rates(in, in->step.mu, in->step.Phit);
     in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, VELOCITY_TOLERANCE,

@@ -11,5 +11,5 @@ void ali3_branch_before(ali3_instance *in);
 ali3_status ali3_branch_after(ali3_instance *in, const ali3_request *request);
 /* After a controlled step to time t, s, which ali3_branch_fraction has checked for jumps: reports a change of the
  * assembly mode. */
-void ali3_branch_look(ali3_instance *in, double t);
+void ali3_branch_check(ali3_instance *in, double t);
 #endif

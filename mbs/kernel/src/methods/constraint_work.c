@@ -90,9 +90,9 @@ ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, r
             ALI3_AT(change) = 2.0 * (ALI3_AT(qd) - ALI3_AT(w)))
   ali3_mass_times(in, w, x);
   ali3_mass_times(in, v->qdd, unbalanced);
-  const real added = ali3_product_from_far(change, x, nq), twice = ali3_product_from_far(w, x, nq);
+  const real added = ali3_product_backward(change, x, nq), twice = ali3_product_backward(w, x, nq);
   ALI3_EACH(0, nq, ALI3_AT(unbalanced) -= ALI3_AT(Q))
-  real power = ali3_product_from_far(qd, unbalanced, nq), drive = {0};
+  real power = ali3_product_backward(qd, unbalanced, nq), drive = {0};
   for (int32_t i = 0; i < S->n_driven; i++) {
     const int32_t k = S->driven_row[i];
     power -= v->lam[k] * in->step.Phit[k];

@@ -38,7 +38,7 @@ bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
     in->report.abrupt_steps++; /* an event that is not located is reported */
     return false;
   }
-  if (!ali3_leaves_parts(in, request, in->report.last_iterations)) return false;
+  if (!ali3_allows_division(in, request, in->report.last_iterations)) return false;
   in->parting.events_left--;
   in->parting.event = fraction;
   return true;

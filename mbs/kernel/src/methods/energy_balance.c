@@ -44,7 +44,7 @@ double ali3_energy(ali3_instance *in) {
   return kinetic + potential(in, &in->now, NULL);
 }
 
-void ali3_balance_open(ali3_instance *in, bool balanced) {
+void ali3_balance_start(ali3_instance *in, bool balanced) {
   in->report.open_power = in->report.energy_floor = 0.0;
   if (!balanced) return;
   const double kinetic = ali3_kinetic_energy(in);

@@ -9,7 +9,7 @@ double ali3_kinetic_energy(ali3_instance *in);
 /* Kinetic and potential energy of in->now, J; updates report.kinetic_peak. */
 double ali3_energy(ali3_instance *in);
 /* Starts the measures at in->now; `balanced`: whether the method has an energy balance. */
-void ali3_balance_open(ali3_instance *in, bool balanced);
+void ali3_balance_start(ali3_instance *in, bool balanced);
 /* Adds a step to in->next with its kinetic energy and energy error, J, to the balance; the remaining change of energy
  * is work. `weight`: potential energy of gravity, J; NULL: it is computed. */
 void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight);

@@ -11,7 +11,7 @@ double ali3_energy_momentum_penalty(const ali3_instance *in, double h);
 void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight);
 /* Writes v->qd, v->qdd and v->lam from v->q and v->own. Needs Phi_q in in->tangent.J. Returns a status if the equations
  * cannot be solved. */
-ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v);
+ali3_status ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v);
 /* Completes in->now after steps of which nothing was read. */
 void ali3_energy_momentum_report(ali3_instance *in);
 /* Before a step of h, s: in->now.own = in->now.qd in a controlled run or if the length of the step changes. */

@@ -11,7 +11,7 @@ typedef struct {
 } ali3_measure;
 
 /* Makes a step of h from time t, s, once whole and once in halves, from in->now to in->now; its start is stored in
- * in->kept.origin, its middle in in->kept.centre. *error: of positions, relative to the length of the control. After a
+ * in->stored.origin, its middle in in->stored.centre. *error: of positions, relative to the length of the control. After a
  * failed step in->now is unchanged; returns its status. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error);
 /* Makes a step of h from time t, s, that is not halved; after a failure the caller restores the state. */
@@ -27,7 +27,7 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all)
  * it that may be made, 1: all. */
 double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, double t, double h);
 
-/* Writes q, qd and qdd at x, -1 (start) to 1 (end), of the step of h, s, in in->kept.origin, in->kept.centre and
+/* Writes q, qd and qdd at x, -1 (start) to 1 (end), of the step of h, s, in in->stored.origin, in->stored.centre and
  * in->now. */
 void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to);
 /* Sensors (ns) and coordinates (nq) at time `when` of the same step, which starts at t, s; either may be NULL. Returns

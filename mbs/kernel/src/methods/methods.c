@@ -21,7 +21,7 @@ const char *ali3_method_excludes(const ali3_instance *in) {
 
 ali3_status ali3_check_method(const ali3_instance *in) {
   const ali3_method *method = ali3_method_of(in);
-  return method->takes != NULL ? method->takes(in) : ALI3_OK;
+  return method->check_system != NULL ? method->check_system(in) : ALI3_OK;
 }
 
 bool ali3_has_balance(const ali3_instance *in) {

@@ -28,7 +28,7 @@ ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool f
   ali3_history_predict(in, 0.5 * h, extrapolates ? ALI3_PARABOLA : 0, in->step.x, lam);
   const double *last = from->lam, *qd = from->qd, *x = in->step.x, half = 0.5 * h * h;
   double *D = in->step.D;
-  ALI3_EACH(0, S->size.nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_SHARE * (ALI3_AT(lam) - ALI3_AT(last)))
+  ALI3_EACH(0, S->size.nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_MULTIPLIER_FRACTION * (ALI3_AT(lam) - ALI3_AT(last)))
   ALI3_EACH(0, S->size.nq, ALI3_AT(D) = h * ALI3_AT(qd) + half * ALI3_AT(x))
   return extrapolates;
 }

@@ -7,7 +7,7 @@
 enum { ALI3_PARABOLA = 3 };
 /* Fraction of the extrapolated change of multipliers that is used: errors along dependent rows, and of rows whose lever
  * vanishes, are not corrected by the step and would grow by full extrapolation. */
-static const double ALI3_SHARE = 0.5;
+static const double ALI3_MULTIPLIER_FRACTION = 0.5;
 
 /* Writes in->step.D and in->next.lam; returns whether past steps were extrapolated, which `from_past` false forbids. */
 bool ali3_predict(ali3_instance *in, const ali3_request *request, bool from_past);

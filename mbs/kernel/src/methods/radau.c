@@ -246,7 +246,7 @@ static ali3_status newton(ali3_instance *in, double t, double h, double alpha, b
   for (int32_t iteration = 0; iteration < settings->max_iterations; iteration++) {
     ali3_status status = new_tangent ? factorise(in, t, h, alpha) : ALI3_OK;
     if (status == ALI3_OK) status = correct(in, h, alpha, &change);
-    if (status != ALI3_OK) return ali3_newton_ended(in, status);
+    if (status != ALI3_OK) return ali3_newton_failure(in, status);
     if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
     const double r = in->report.residual / residual_limit, v = largest_opening(in) / opening_limit;
     const double size = fmax(r, v), remaining = size < last_error ? change * size / last_error : change;
@@ -391,14 +391,14 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
 }
 
 /* The tangent of the stages does not include rates of rows. */
-static ali3_status takes(const ali3_instance *in) {
+static ali3_status check_system(const ali3_instance *in) {
   return in->system->n_velocity_row + in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_states(in);
 }
 
 const ali3_method ali3_method_radau_5 = {.step = step,
                                          .motion = ali3_balance_long_step,
                                          .has_guides_work = ali3_always,
-                                         .takes = takes,
+                                         .check_system = check_system,
                                          .excludes =
                                              ALI3_STATES_IN_WORDS ", no tabled bodies, and no rolling without slip",
                                          .owner = ALI3_METHOD_RADAU_5,

@@ -5,7 +5,7 @@
 #include "../request.h"
 
 /* Whether a step of h to time t is divided where inputs or guides jump, or ends at a jump of a guide. */
-bool ali3_parted(const ali3_instance *in, double t, double h);
+bool ali3_is_divided(const ali3_instance *in, double t, double h);
 /* Makes a step in parts that end where inputs or guides jump; returns its status, after a failure with in->now
  * unchanged. */
 ali3_status ali3_advance(ali3_instance *in, const ali3_request *request);

@@ -15,5 +15,5 @@ static inline int64_t ali3_triad_count(const ali3_system *S) { return S->n_mode_
 void ali3_mode_angles(ali3_instance *in, const double *q);
 /* The triad of a loop, counted in it, that belongs to none of its modes by in->branch.sine and in->branch.cosine, or
  * -1. */
-int32_t ali3_mode_left(const ali3_instance *in, int64_t loop);
+int32_t ali3_find_mode_misfit(const ali3_instance *in, int64_t loop);
 #endif

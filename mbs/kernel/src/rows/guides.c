@@ -20,7 +20,7 @@ double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input
   return S->guide_type[g] == ALI3_GUIDE_OF_INPUT ? first : first + real[GAIN_2] * input[S->guide_second[g]];
 }
 
-double ali3_guide_held(const ali3_instance *in, int32_t g, double demand) {
+double ali3_guide_clamped(const ali3_instance *in, int32_t g, double demand) {
   const double *real = in->parameters.guide_real + in->system->guide_real_ptr[g];
   if (in->system->guide_type[g] == ALI3_GUIDE_OF_INPUT) return demand;
   return demand < real[LOW] ? real[LOW] : demand > real[HIGH] ? real[HIGH] : demand;
@@ -28,7 +28,7 @@ double ali3_guide_held(const ali3_instance *in, int32_t g, double demand) {
 
 /* Value to which a filtered guide tends at given inputs. */
 static double target_of(const ali3_instance *in, int32_t g, const double *input) {
-  return ali3_guide_held(in, g, ali3_guide_demand(in, g, input));
+  return ali3_guide_clamped(in, g, ali3_guide_demand(in, g, input));
 }
 
 /* Table of a guide over another one: points, values and slopes by columns. */

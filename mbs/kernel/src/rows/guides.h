@@ -16,7 +16,7 @@ bool ali3_guide_filters(int32_t type);
 /* Unlimited demand of the inputs (nu) of filtered guide g: gain times input, or the sum of two. */
 double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input);
 /* A demand clamped to the limits of its guide. */
-double ali3_guide_held(const ali3_instance *in, int32_t g, double demand);
+double ali3_guide_clamped(const ali3_instance *in, int32_t g, double demand);
 /* ds/du of guide g, which is a table over guide u; s (ng): values of guides. */
 double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s);
 /* NULL, or what is wrong with the numbers of a guide. */

@@ -5,7 +5,7 @@
 #include "../system.h"
 #include "violation.h"
 
-double ali3_worst_size(const double *x, const double *factor, int32_t n, int32_t *worst) {
+double ali3_find_worst(const double *x, const double *factor, int32_t n, int32_t *worst) {
   double largest = 0.0;
   for (int32_t i = 0; i < n; i++) {
     const double size = fabs(x[i]) * factor[i];
@@ -18,7 +18,7 @@ double ali3_worst_size(const double *x, const double *factor, int32_t n, int32_t
 }
 
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
-  return ali3_worst_size(Phi, S->row_measure, S->size.nc, worst);
+  return ali3_find_worst(Phi, S->row_measure, S->size.nc, worst);
 }
 
 double ali3_opening(const ali3_system *S, const double *Phi) {
@@ -44,7 +44,7 @@ double ali3_row_sum(const ali3_system *S, int32_t k, const double *q) {
   return sum;
 }
 
-bool ali3_closed_here(const ali3_system *S, const double *Phi, const double *q, double tolerance) {
+bool ali3_closed_at(const ali3_system *S, const double *Phi, const double *q, double tolerance) {
   for (int32_t k = 0; k < S->size.nc; k++) {
     const double open = fabs(Phi[k]) * S->row_measure[k] - tolerance;
     if (open <= S->row_round[k]) continue;

@@ -1,4 +1,4 @@
-/* Rates of the sensors that have one: their change along in->kept.direction, a direction in the space of states, which
+/* Rates of the sensors that have one: their change along in->stored.direction, a direction in the space of states, which
  * is (qd, qdd, ...); a function for each such type. */
 #include <math.h>
 #include <string.h>
@@ -19,7 +19,7 @@ typedef struct {
 static double evaluate_signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const double *column = order == 0 ? x->q : (order == 1 ? x->qd : x->qdd);
-  if (S->n_tabled > 0) column = in->tabled.extended[order + (x == &in->kept.direction)]; /* a direction is a rate */
+  if (S->n_tabled > 0) column = in->tabled.extended[order + (x == &in->stored.direction)]; /* a direction is a rate */
   double sum = 0.0;
   for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * column[S->sig_col[k]];
   return sum;
@@ -30,7 +30,7 @@ static dual_vector evaluate_vector(const ali3_instance *in, const int32_t *v, in
   dual_vector m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (int32_t i = 0; i < n; i++) {
     m.v[i] = evaluate_signal(in, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
-    m.d[i] = evaluate_signal(in, &in->kept.direction, v[i], order);
+    m.d[i] = evaluate_signal(in, &in->stored.direction, v[i], order);
   }
   return m;
 }
@@ -54,12 +54,12 @@ static double angle_change(double y, double x, double dy, double dx) {
 
 /* real: scale. */
 static double change_signal(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * evaluate_signal(in, &in->kept.direction, v[0], 0);
+  return real[0] * evaluate_signal(in, &in->stored.direction, v[0], 0);
 }
 
 /* real: scale. */
 static double change_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * evaluate_signal(in, &in->kept.direction, v[0], 1);
+  return real[0] * evaluate_signal(in, &in->stored.direction, v[0], 1);
 }
 
 /* v: order, 3 signals of the vector, 3 of the axis. */
@@ -122,7 +122,7 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
   const int32_t nq = in->system->size.nq;
   for (int side = -1; side <= 1; side += 2) {
     double twice = 0.0, of_weight = 0.0, of_strain = 0.0;
-    for (int32_t i = 0; i < nq; i++) in->step.w[i] = in->now.q[i] + side * in->kept.direction.q[i];
+    for (int32_t i = 0; i < nq; i++) in->step.w[i] = in->now.q[i] + side * in->stored.direction.q[i];
     ali3_bodies_prepare(in, in->step.w);
     ali3_bodies_energy(in, in->step.w, &of_weight, &of_strain);
     memset(in->step.x, 0, (size_t)nq * sizeof(double));
@@ -143,11 +143,11 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
   ali3_bodies_prepare(in, in->now.q);
   ali3_mass_times(in, in->now.qd, in->step.x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    kinetic += in->step.x[i] * in->kept.direction.qd[i];
-    gravity -= in->mass.gravity[i] * in->kept.direction.q[i];
+    kinetic += in->step.x[i] * in->stored.direction.qd[i];
+    gravity -= in->mass.gravity[i] * in->stored.direction.q[i];
   }
   if (S->n_tabled > 0) ali3_tabled_power(in, in->now.qd, &kinetic, &gravity);
-  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->kept.direction.potential[e];
+  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->stored.direction.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
 }
@@ -191,7 +191,7 @@ static double change_angle_about(const ali3_instance *in, const int32_t *v, cons
 
 /* v: guide, order; real: scale. */
 static double change_guide(const ali3_instance *in, const int32_t *v, const double *real) {
-  const double *of_order[3] = {in->kept.direction.s, in->kept.direction.sd, in->kept.direction.sdd};
+  const double *of_order[3] = {in->stored.direction.s, in->stored.direction.sd, in->stored.direction.sdd};
   return real[0] * of_order[v[1]][v[0]];
 }
 
@@ -225,9 +225,9 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   const ali3_system *S = in->system;
   const ali3_vectors *now = &in->now;
-  ali3_vectors *d = &in->kept.direction;
+  ali3_vectors *d = &in->stored.direction;
   const size_t nq = (size_t)S->size.nq * sizeof(double), ng = (size_t)S->size.ng * sizeof(double);
-  memset(d->q, 0, in->kept.n * sizeof(double));
+  memset(d->q, 0, in->stored.n * sizeof(double));
   if (nq > 0) {
     memcpy(d->q, now->qd, nq);
     memcpy(d->qd, now->qdd, nq);

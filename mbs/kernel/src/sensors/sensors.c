@@ -61,9 +61,9 @@ static double value_component(const ali3_instance *in, const int32_t *v, const d
 static double signal_of_modes(const ali3_instance *in, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const int32_t first = S->sig_ptr[i], n = S->sig_ptr[i + 1] - first, *col = S->sig_col + first;
-  if (!ali3_together(col, n) || S->n_tabled > 0) return evaluate_signal(in, i, order);
+  if (!ali3_consecutive(col, n) || S->n_tabled > 0) return evaluate_signal(in, i, order);
   const double *x = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
-  return (order == 0 ? S->sig_const[i] : 0.0) + ali3_product_from_far(S->sig_val + first, x + col[0], n);
+  return (order == 0 ? S->sig_const[i] : 0.0) + ali3_product_backward(S->sig_val + first, x + col[0], n);
 }
 
 /* Position of a point of a flexible body or its rates, by Leibniz' rule: r + sum of axis_i times signal_i of its modes. */
@@ -297,7 +297,7 @@ static double value_guide(const ali3_instance *in, const int32_t *v, const doubl
 static double value_guide_excess(const ali3_instance *in, const int32_t *v, const double *real) {
   if (!ali3_guide_filters(in->system->guide_type[v[0]])) return 0.0;
   const double demand = ali3_guide_demand(in, v[0], in->now.used);
-  return real[0] * (demand - ali3_guide_held(in, v[0], demand));
+  return real[0] * (demand - ali3_guide_clamped(in, v[0], demand));
 }
 
 static double value_solver(const ali3_instance *in, const int32_t *v, const double *real) {

@@ -135,7 +135,7 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   }
   status = ali3_index_one_solve(in, in->step.Q, in->step.gamma, ROUND_OFF, v->qdd, v->lam);
   if (status != ALI3_OK) return status;
-  return ali3_finite(v->q, (int64_t)in->kept.n) ? ali3_roads_status(in) : ALI3_NOT_FINITE;
+  return ali3_finite(v->q, (int64_t)in->stored.n) ? ali3_roads_status(in) : ALI3_NOT_FINITE;
 }
 
 ali3_status ali3_solve_initial(ali3_instance *in, double t) {

@@ -39,7 +39,7 @@ static ali3_status call_function(ali3_instance *in, double t, bool after, double
   return check_normals(in, to);
 }
 
-ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end) {
+ali3_status ali3_inputs_set_end(ali3_instance *in, double h, const double *end) {
   const ali3_system *S = in->system;
   if (end != NULL && !ali3_finite(end, S->size.nu)) return ALI3_BAD_ARGUMENT;
   in->inputs.whole_time = ali3_time(in);

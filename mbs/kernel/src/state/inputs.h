@@ -6,7 +6,7 @@
 
 /* Sets the inputs of a step of h from the present time: linear from the present values to `end`, limited to their
  * ranges; NULL: constant. */
-ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end);
+ali3_status ali3_inputs_set_end(ali3_instance *in, double h, const double *end);
 /* Computes the inputs at both ends, in->inputs.begin and in->inputs.set, of a step, or of a part of one, of h to time
  * t. */
 ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h);

@@ -74,7 +74,7 @@ ali3_status ali3_parameters_apply(ali3_instance *in) {
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
 }
 
-bool ali3_parameters_take(ali3_instance *in, const void *values) {
+bool ali3_parameters_set_all(ali3_instance *in, const void *values) {
   const size_t size = (size_t)in->system->size.np * sizeof(double);
   memcpy(in->parameters.work, in->parameters.value, size);
   memcpy(in->parameters.value, values, size);

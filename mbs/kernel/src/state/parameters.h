@@ -9,7 +9,7 @@ double ali3_parameter_writes(const ali3_system *S, int64_t k, double value);
 ali3_status ali3_parameters_apply(ali3_instance *in);
 /* Sets all values (np doubles at any address) and returns true if the data they write are valid; otherwise keeps the
  * present ones. In both cases the previous values are in in->parameters.work afterwards. */
-bool ali3_parameters_take(ali3_instance *in, const void *values);
+bool ali3_parameters_set_all(ali3_instance *in, const void *values);
 /* Sets the switches with parameters to their values. */
 void ali3_parameters_switch(ali3_instance *in);
 /* Whether all settings are in their ranges. */

@@ -51,7 +51,7 @@ ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size) {
   append(&p, &in->report, sizeof in->report);
   append(&p, &in->clock.base, sizeof(double));
   append(&p, &in->clock.h, sizeof(double));
-  append(&p, in->now.q, in->kept.n * sizeof(double));
+  append(&p, in->now.q, in->stored.n * sizeof(double));
   append(&p, in->inputs.set, (size_t)z->nu * sizeof(double));
   append(&p, in->parameters.value, (size_t)z->np * sizeof(double));
   header.crc = ali3_crc32((unsigned char *)bytes + CHECKED_FROM, size - CHECKED_FROM);
@@ -123,9 +123,9 @@ static bool report_valid(const ali3_system *s, const ali3_report *r) {
 /* Checks vectors, inputs and parameters, stored in this order. */
 static bool vectors_valid(const ali3_instance *in, const unsigned char *vectors) {
   const ali3_system *S = in->system;
-  const unsigned char *inputs = vectors + in->kept.n * sizeof(double),
+  const unsigned char *inputs = vectors + in->stored.n * sizeof(double),
                       *parameters = inputs + (size_t)S->size.nu * sizeof(double);
-  return numbers_valid(vectors, in->kept.n) && in_ranges(inputs, S->size.nu, S->input_min, S->input_max) &&
+  return numbers_valid(vectors, in->stored.n) && in_ranges(inputs, S->size.nu, S->input_min, S->input_max) &&
          in_ranges(parameters, S->size.np, S->par_min, S->par_max);
 }
 
@@ -138,9 +138,9 @@ ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot) {
   if (!report_valid(in->system, &head.report) || !count_valid(head.count) || !(fabs(head.t_base) <= MAX_MAGNITUDE) ||
       !(head.h_last >= 0.0 && head.h_last <= MAX_MAGNITUDE) || !vectors_valid(in, vectors))
     return ALI3_BAD_STATE;
-  const unsigned char *parameters = vectors + (in->kept.n + (size_t)in->system->size.nu) * sizeof(double);
+  const unsigned char *parameters = vectors + (in->stored.n + (size_t)in->system->size.nu) * sizeof(double);
   if (memcmp(parameters, in->parameters.value, size) == 0) return ALI3_OK;
-  if (!ali3_parameters_take(in, parameters)) return ALI3_BAD_STATE;
+  if (!ali3_parameters_set_all(in, parameters)) return ALI3_BAD_STATE;
   memcpy(in->parameters.value, in->parameters.work, size);
   return ali3_parameters_apply(in);
 }
@@ -170,7 +170,8 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   extract(&report, &p, sizeof report);
   const unsigned char *times = (const unsigned char *)bytes + fixed, *vectors = times + 2 * sizeof(double);
   if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(times, 2) ||
-      !vectors_valid(in, vectors) || !ali3_parameters_take(in, vectors + (in->kept.n + (size_t)z->nu) * sizeof(double)))
+      !vectors_valid(in, vectors) ||
+      !ali3_parameters_set_all(in, vectors + (in->stored.n + (size_t)z->nu) * sizeof(double)))
     return ALI3_BAD_STATE;
   in->settings = settings;
   in->report = report;
@@ -181,7 +182,7 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   in->start.to_lift = false;
   extract(&in->clock.base, &p, sizeof(double));
   extract(&in->clock.h, &p, sizeof(double));
-  extract(in->now.q, &p, in->kept.n * sizeof(double));
+  extract(in->now.q, &p, in->stored.n * sizeof(double));
   extract(in->inputs.set, &p, (size_t)z->nu * sizeof(double));
   return ALI3_OK;
 }

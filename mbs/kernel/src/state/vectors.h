@@ -15,7 +15,7 @@ void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vec
 /* Copies the vectors that a method does not write: all except positions, velocities, accelerations and multipliers, and
  * the past of the last two if steps do not write it. */
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
-/* Stores in->now in in->kept.start, once per step, before it changes; restored after a failed step. */
+/* Stores in->now in in->stored.start, once per step, before it changes; restored after a failed step. */
 void ali3_back_up(ali3_instance *in);
 /* Makes in->next the state and returns ALI3_OK if it is finite and the road under it could be read; otherwise
  * ALI3_NOT_FINITE or ALI3_ROAD_LOST. */

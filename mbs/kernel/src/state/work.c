@@ -69,21 +69,21 @@ void ali3_work_reopen(ali3_instance *in) {
 
 void ali3_work_step(ali3_instance *in, double weight) {
   if (in->system->n_work == 0) return;
-  ali3_signal_displacements(in, in->next.step_way);
+  ali3_signal_displacements(in, in->next.step_displacement);
   ali3_work_along(in, weight);
 }
 
 /* Leaves the powers of the start unchanged: a method that reads them stores its own or calls ali3_work_reopen. */
 ALI3_INLINED void work_along(ali3_instance *in, double weight) {
   const ali3_system *S = in->system;
-  const double *before = in->now.watched + S->n_work, *displacement = in->next.step_way;
+  const double *before = in->now.watched + S->n_work, *displacement = in->next.step_displacement;
   double *mean = in->next.step_force, *after = in->next.watched + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
     const double *force = in->element.force + S->el_sig_ptr[S->work_element[k]];
     const int32_t n = S->work_ptr[k + 1] - S->work_ptr[k];
     ALI3_EACH(0, n, ALI3_AT(after) = ALI3_AT(force);
               ALI3_AT(mean) = weight * ALI3_AT(force) + (1.0 - weight) * ALI3_AT(before))
-    in->next.work[k] = in->now.work[k] + ali3_product_from_far(mean, displacement, n);
+    in->next.work[k] = in->now.work[k] + ali3_product_backward(mean, displacement, n);
     before += n, displacement += n, mean += n, after += n;
   }
 }
@@ -100,7 +100,7 @@ void ali3_work_first(ali3_instance *in, double weight) {
   for (int32_t k = 0; k < in->system->n_work; k++) in->watch.sum[k] = weight * in->watch.now[k];
 }
 
-void ali3_work_beside(ali3_instance *in, double dt) {
+void ali3_work_extrapolated(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
   if (in->system->n_guide_work > 0) ali3_guides_work(in, v, dt * ali3_guides_power(in, v));
   if (in->system->n_work == 0) return;

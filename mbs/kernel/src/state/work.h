@@ -17,7 +17,7 @@ void ali3_work_store(const ali3_instance *in, ali3_vectors *v);
 /* Evaluates the forces at in->now with the inputs of the last step, for a method that did not make that step. */
 void ali3_work_reopen(ali3_instance *in);
 /* Adds the work from the state that in->next was extrapolated from, dt earlier, s. */
-void ali3_work_beside(ali3_instance *in, double dt);
+void ali3_work_extrapolated(ali3_instance *in, double dt);
 /* Adds the change of potentials by a jump of the inputs at in->now, of which in->next is a copy; before, after_jump
  * (ne, J): potentials on both sides. */
 void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *after_jump);
@@ -28,7 +28,7 @@ void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *
 void ali3_work_step(ali3_instance *in, double weight);
 /* Displacements (n_work_force) of the signals of sensed elements along in->step.D. */
 ALI3_PER_WIDTH void ali3_signal_displacements(const ali3_instance *in, real *displacement);
-/* The same as ali3_work_step with the displacements in in->next.step_way. */
+/* The same as ali3_work_step with the displacements in in->next.step_displacement. */
 void ali3_work_along(ali3_instance *in, double weight);
 
 /* For methods with stages: restores the powers at the start of a step that continues the last one. */

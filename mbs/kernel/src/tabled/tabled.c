@@ -128,7 +128,7 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
   }
 }
 
-void ali3_tabled_way(const ali3_instance *in, const real *D) {
+void ali3_tabled_displacements(const ali3_instance *in, const real *D) {
   const ali3_system *S = in->system;
   memcpy(in->tabled.extended[0], D, (size_t)S->size.nq * sizeof(real));
   for (int32_t i = 0; i < S->n_tabled; i++) {

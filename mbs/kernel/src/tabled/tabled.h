@@ -113,7 +113,7 @@ ALI3_PER_WIDTH void ali3_tabled_extend(const ali3_instance *in, const real *q, c
                                        bool all);
 /* Writes D and the change of X by a change D of the coordinates that ends at the prepared position to
  * in->tabled.extended[0]; to second order, for vectors with signals. */
-ALI3_PER_WIDTH void ali3_tabled_way(const ali3_instance *in, const real *D);
+ALI3_PER_WIDTH void ali3_tabled_displacements(const ali3_instance *in, const real *D);
 /* Computes Q from the forces on coordinates and dependents in in->tabled.force, with gravity and inertia forces. */
 ALI3_PER_WIDTH void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q);
 
