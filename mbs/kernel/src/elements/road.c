@@ -44,24 +44,23 @@ static int grid_of(const ali3_road *road, ali3_grid *g) {
   const double *p = road->real;
   if (road->file != NULL) {
     const double *header = ali3_road_file_reals(road->file);
-    const ali3_grid find_grid_contacts = {
-        .x0 = header[0], .y0 = header[1], .dx = header[2], .dy = header[3], .file = road->file};
-    *g = find_grid_contacts;
+    const ali3_grid grid = {.x0 = header[0], .y0 = header[1], .dx = header[2], .dy = header[3], .file = road->file};
+    *g = grid;
     ali3_road_file_size(road->file, &g->nx, &g->ny);
     return 1;
   }
   int nx, ny;
   if (!grid_size(p, road->nreal, &nx, &ny)) return 0;
   const double *z = p + GRID_DATA;
-  const ali3_grid find_grid_contacts = {.nx = nx,
-                                        .ny = ny,
-                                        .x0 = p[GRID_X0],
-                                        .y0 = p[GRID_Y0],
-                                        .dx = p[GRID_DX],
-                                        .dy = p[GRID_DY],
-                                        .z = z,
-                                        .mu = z + (int64_t)nx * ny};
-  *g = find_grid_contacts;
+  const ali3_grid grid = {.nx = nx,
+                          .ny = ny,
+                          .x0 = p[GRID_X0],
+                          .y0 = p[GRID_Y0],
+                          .dx = p[GRID_DX],
+                          .dy = p[GRID_DY],
+                          .z = z,
+                          .mu = z + (int64_t)nx * ny};
+  *g = grid;
   return 1;
 }
 

@@ -224,6 +224,39 @@ ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(d0) = h * ALI3_AT(qd) + rule.c * ALI3_AT(qdd); ALI3_AT(hat) = -ALI3_AT(qd))
 }
 
+/* ALI3_TURNS_TOO_FAR if an angle turns too far in the step for its rows, unless the iterations of a step are limited. */
+ALI3_INLINED ali3_status check_turn(ali3_instance *in, double h) {
+  const double turn_rate = in->settings.project ? fastest_turn(in) : 0.0;
+  if (turn_rate * h > MAX_TURN && in->settings.step_iterations == 0) {
+    in->report.fastest_rate = turn_rate;
+    return ALI3_TURNS_TOO_FAR;
+  }
+  in->bound.capped |= turn_rate * h > MAX_TURN;
+  return ALI3_OK;
+}
+
+/* Projections (24), (25) of velocities and accelerations, and the energy error of the step; *guide_work: J. */
+ALI3_INLINED ali3_status project_rates(ali3_instance *in, const ali3_request *request, double alpha,
+                                       double *guide_work) {
+  const double h = request->h, c = in->rule.c;
+  ali3_vectors *to = &in->next;
+  if (!in->settings.project) {
+    if (in->system->n_guide_work > 0) ali3_constraint_work(in, h, guide_work);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, 0.0, 0.0, 0, false);
+    return ALI3_OK;
+  }
+  const double limit = ali3_allowed_round_off(in->system, c);
+  double kinetic, end, open_power, work = ali3_constraint_work(in, h, guide_work);
+  turning_rates(in, in->step.mu, in->step.Phit);
+  in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, VELOCITY_TOLERANCE,
+                                               limit * in->rule.rate, MAX_SWEEPS, true);
+  ali3_constraint_gamma(in, to->q, to->qd, to, in->step.gamma);
+  ali3_project(in, c * alpha, in->step.gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, limit / c, MAX_SWEEPS, false);
+  /* includes the work in this step of the forces that the last (25) left unbalanced */
+  work += ali3_projection_work(in, &kinetic, &end, &open_power, guide_work) + 0.5 * h * in->report.open_power;
+  return ali3_energy_watch(in, request, work, kinetic, end, open_power);
+}
+
 /* One step of ALi3-P, or of generalised-alpha. */
 ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_request *request) {
   const double h = request->h;
@@ -232,13 +265,8 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
   const bool generalised_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
-  const double turn_rate = in->settings.project ? fastest_turn(in) : 0.0;
-  if (turn_rate * h > MAX_TURN && in->settings.step_iterations == 0) {
-    in->report.fastest_rate = turn_rate;
-    return ALI3_TURNS_TOO_FAR;
-  }
-  in->bound.capped |= turn_rate * h > MAX_TURN;
-  ali3_status status = ali3_input_jump(in, h);
+  ali3_status status = check_turn(in, h);
+  if (status == ALI3_OK) status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
   ali3_guides_step(in, from, to, request->t, h);
   const bool from_past = ali3_predict(in, request, true);
@@ -280,22 +308,8 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   ali3_predict_accept(in, h); /* before the projection: the next step needs the multipliers of the balance (20) */
   ali3_constraint_rate(in, to->q, to, in->step.Phit);
   double guide_work = 0.0;
-  if (in->settings.project) {
-    const double left = ali3_allowed_round_off(S, c);
-    double kinetic, end, open_power, work = ali3_constraint_work(in, h, &guide_work);
-    turning_rates(in, in->step.mu, in->step.Phit);
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, VELOCITY_TOLERANCE,
-                                                 left * in->rule.rate, MAX_SWEEPS, true);
-    ali3_constraint_gamma(in, to->q, to->qd, to, in->step.gamma);
-    ali3_project(in, c * alpha, in->step.gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS, false);
-    /* includes the work in this step of the forces that the last (25) left unbalanced */
-    work += ali3_projection_work(in, &kinetic, &end, &open_power, &guide_work) + 0.5 * h * in->report.open_power;
-    const ali3_status resolved = ali3_energy_watch(in, request, work, kinetic, end, open_power);
-    if (resolved != ALI3_OK) return resolved;
-  } else {
-    if (S->n_guide_work > 0) ali3_constraint_work(in, h, &guide_work);
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, 0.0, 0.0, 0, false);
-  }
+  status = project_rates(in, request, alpha, &guide_work);
+  if (status != ALI3_OK) return status;
   ali3_guides_work(in, to, guide_work);
   ali3_work_step(in, 0.5);
   return ali3_accept(in);

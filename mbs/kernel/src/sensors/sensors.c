@@ -202,10 +202,10 @@ static double value_reaction(const ali3_instance *in, const int32_t *v, const do
 
 /* A multiplier times a constant weight, up to three signals and the value of a guide. */
 static double reaction_product(const ali3_instance *in, const int32_t *term, double weight) {
-  double evaluate_sensor = weight * in->system->row_scale[term[0]] * in->now.lam[term[0]];
+  double value = weight * in->system->row_scale[term[0]] * in->now.lam[term[0]];
   for (int i = 1; i < 4; i++)
-    if (term[i] >= 0) evaluate_sensor *= evaluate_signal(in, term[i], 0);
-  return term[4] >= 0 ? evaluate_sensor * in->now.s[term[4]] : evaluate_sensor;
+    if (term[i] >= 0) value *= evaluate_signal(in, term[i], 0);
+  return term[4] >= 0 ? value * in->now.s[term[4]] : value;
 }
 
 /* v: number of products, then 5 integers each. */
