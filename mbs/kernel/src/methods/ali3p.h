@@ -11,8 +11,8 @@ enum { MAX_SWEEPS = 3 };
  * prediction. */
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
 /* A tangent is reused if the violation is at most REUSE_VIOLATION h^2, with h at most 10 ms, and the last iteration
- * reduced the residual to REUSE_RESIDUAL or less. The remaining violation is an error of the multipliers where the lever
- * of a row vanishes. */
+ * reduced the residual to REUSE_RESIDUAL or less. The remaining violation is an error of the multipliers where the
+ * lever of a row vanishes. */
 static const double CLOSES = 0.5; /* ratio of violations above which rows have converged as far as they can */
 static const double REUSE_VIOLATION = 2e-5, REUSE_RESIDUAL = 0.3;
 

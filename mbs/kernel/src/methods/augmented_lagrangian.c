@@ -224,7 +224,8 @@ ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(d0) = h * ALI3_AT(qd) + rule.c * ALI3_AT(qdd); ALI3_AT(hat) = -ALI3_AT(qd))
 }
 
-/* ALI3_TURNS_TOO_FAR if an angle turns too far in the step for its rows, unless the iterations of a step are limited. */
+/* ALI3_TURNS_TOO_FAR if an angle turns too far in the step for its rows, unless the iterations of a step are
+ * limited. */
 ALI3_INLINED ali3_status check_turn(ali3_instance *in, double h) {
   const double turn_rate = in->settings.project ? fastest_turn(in) : 0.0;
   if (turn_rate * h > MAX_TURN && in->settings.step_iterations == 0) {

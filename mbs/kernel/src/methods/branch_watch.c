@@ -108,8 +108,8 @@ static bool all_crossed(const ali3_instance *in, int32_t first, int32_t end) {
   return true;
 }
 
-/* Repeats the step from in->stored.near_branch in n equal parts, up to the first one after which all triads from first to
- * end - 1 have changed their sign; false: a part failed. */
+/* Repeats the step from in->stored.near_branch in n equal parts, up to the first one after which all triads from first
+ * to end - 1 have changed their sign; false: a part failed. */
 static bool divide_step(ali3_instance *in, const ali3_request *step, int n, int32_t first, int32_t end) {
   ali3_request part = *step;
   part.h = step->h / n;

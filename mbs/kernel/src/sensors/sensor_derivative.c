@@ -1,5 +1,5 @@
-/* Rates of the sensors that have one: their change along in->stored.direction, a direction in the space of states, which
- * is (qd, qdd, ...); a function for each such type. */
+/* Rates of the sensors that have one: their change along in->stored.direction, a direction in the space of states,
+ * which is (qd, qdd, ...); a function for each such type. */
 #include <math.h>
 #include <string.h>
 
