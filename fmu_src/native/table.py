@@ -147,7 +147,7 @@ def c_arrays(groups: Sequence[Array]) -> str:
     sizes = {time: 0} | {number: len(group.items) for number, group in zip(numbers, groups, strict=True)}
     first = [0, *accumulate(sizes[number] for number in sorted(sizes))]
     return (
-        '\n#include "fmi3_face.h"\n\n'
+        '\n#include "fmi3_adapter.h"\n\n'
         f"static const uint32_t items[] = {{{', '.join(map(str, items))}}};\n\n"
         f"static const size_t first[] = {{{', '.join(map(str, first))}}};\n\n"
         f"const fmi3_table fmi3_the_table = {{items, first, {len(sizes)}, {time}}};\n"

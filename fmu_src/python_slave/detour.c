@@ -1,17 +1,17 @@
-/* The way of a call through Python. The library a host loads is the slave in C with its FMI 2.0 face; the calls that
+/* Calls through Python. The library that a host loads is the slave in C with its FMI 2.0 adapter; the calls that
  * PythonFMU knows go to PythonFMU's export library, which lies beside it as <this library>-pythonfmu, to the class in
- * Python (slave.py) and from there back to the slave, by the functions of a python_link. The slave's answer stays in the
- * link, since PythonFMU knows OK, Discard and Fatal only. */
+ * Python (slave.py) and from there back to the slave, by the functions of a python_link. The status of the slave stays
+ * in the link, since PythonFMU knows OK, Discard and Fatal only. */
 #include <stdio.h>
 #include <string.h>
 
-#include "fmi2_face.h"
+#include "fmi2_adapter.h"
 #include "pythonfmu.h"
 
 typedef struct { /* what slave.py reads and writes, in this order */
   slave *s;
   const char *name; /* of the instance */
-  int32_t answer;   /* of the slave to the present call */
+  int32_t answer;   /* status of the slave in the present call */
   slave_status (*setup)(slave *, double, bool, double);
   slave_status (*enter)(slave *);
   slave_status (*exit)(slave *);
@@ -36,7 +36,7 @@ static void log_of_python(fmi2ComponentEnvironment environment, fmi2String name,
                           fmi2String text, ...) {
   const detour *d = environment;
   (void)name, (void)category;
-  slave_say(d->link.s, status >= fmi2Error ? SLAVE_ERROR : (slave_status)status, "%s", text);
+  slave_log(d->link.s, status >= fmi2Error ? SLAVE_ERROR : (slave_status)status, "%s", text);
 }
 
 /* PythonFMU reads this file without a look at what it is. */
@@ -45,7 +45,7 @@ static bool has_module(slave *s) {
   size_t size = 0;
   unsigned char *text = slave_read_resource(s->resources, "slavemodule.txt", &s->memory, &size, &why);
   if (text == NULL) {
-    slave_say(s, SLAVE_ERROR, "The file slavemodule.txt of the FMU cannot be read in %s: %s.", s->resources, why);
+    slave_log(s, SLAVE_ERROR, "The file slavemodule.txt of the FMU cannot be read in %s: %s.", s->resources, why);
     return false;
   }
   s->memory.release(text);
@@ -55,6 +55,7 @@ static bool has_module(slave *s) {
 /* The slave then answers at once: a host may call from exit handlers and destructors that come after the interpreter. */
 static bool python_has_ended(void) { return py != NULL && !py->is_initialized(); }
 
+/* Makes PythonFMU's instance; true without one once the interpreter has ended. False: an error was logged. */
 static bool start_python(detour *d) {
   slave *s = d->link.s;
   char address[32], uri[SLAVE_PATH + 16], problem[SLAVE_TEXT / 2];
@@ -62,24 +63,24 @@ static bool start_python(detour *d) {
   if (!has_module(s)) return false;
   if (py == NULL) py = pythonfmu_load(problem, sizeof problem);
   if (py == NULL) {
-    slave_say(s, SLAVE_ERROR, "%s", problem);
+    slave_log(s, SLAVE_ERROR, "%s", problem);
     return false;
   }
   /* PythonFMU decodes nothing of a URI but %20; the class in Python finds its link by the name of its instance */
   snprintf(uri, sizeof uri, s->resources[0] == '/' ? "file://%s" : "file:///%s", s->resources);
   snprintf(address, sizeof address, "%llu", (unsigned long long)(uintptr_t)&d->link);
   d->inner = py->instantiate(address, fmi2CoSimulation, slave_the_table.token, uri, &d->callbacks, 0, 1);
-  if (d->inner == NULL) slave_say(s, SLAVE_ERROR, "PythonFMU could not make the instance.");
+  if (d->inner == NULL) slave_log(s, SLAVE_ERROR, "PythonFMU could not make the instance.");
   return d->inner != NULL;
 }
 
-slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
+slave *fmi2_new(fmi2_adapter *adapter, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
                 const char *token, const char *resources) {
-  slave *s = slave_new(memory, face, logger, logging, name, token, resources);
+  slave *s = slave_new(memory, adapter, logger, logging, name, token, resources);
   if (s == NULL) return NULL;
   detour *d = memory->allocate(1, sizeof *d);
-  face->s = s;
-  face->detour = d;
+  adapter->s = s;
+  adapter->detour = d;
   if (d != NULL) {
     const detour fresh = {{s, s->name, 0, slave_setup, slave_enter, slave_exit, slave_step, slave_terminate, slave_get,
                            slave_set, slave_get_whole, slave_set_whole},
@@ -88,14 +89,14 @@ slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger
     *d = fresh;
   }
   if (d != NULL && start_python(d)) return s;
-  if (d == NULL) slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
-  fmi2_free(face);
+  if (d == NULL) slave_log(s, SLAVE_ERROR, "There is not enough memory for an instance.");
+  fmi2_free(adapter);
   return NULL;
 }
 
-void fmi2_free(fmi2_face *face) {
-  detour *d = face->detour;
-  slave *s = face->s;
+void fmi2_free(fmi2_adapter *adapter) {
+  detour *d = adapter->detour;
+  slave *s = adapter->s;
   if (d != NULL && d->inner != NULL && !python_has_ended()) {
     /* At its end the interpreter ends threads that wait for it; in PythonFMU's destructor that would abort the host. */
     const int state = py->enter_python();
@@ -106,13 +107,14 @@ void fmi2_free(fmi2_face *face) {
   slave_free(s);
 }
 
-/* PythonFMU's instance behind a slave, or NULL if the interpreter has ended or, said, an exception of Python. */
+/* PythonFMU's instance behind a slave, or NULL if the interpreter has ended or, which is logged, after an exception of
+ * Python. */
 static detour *begin(slave *s) {
-  detour *d = ((fmi2_face *)s->host)->detour;
+  detour *d = ((fmi2_adapter *)s->host)->detour;
   d->link.answer = SLAVE_ERROR; /* unless Python brings another one */
   if (python_has_ended()) return NULL;
   if (d->inner != NULL) return d;
-  slave_say(s, SLAVE_ERROR, "An exception has ended the Python part of this instance; it can only be freed.");
+  slave_log(s, SLAVE_ERROR, "An exception has ended the Python part of this instance; it can only be freed.");
   return NULL;
 }
 

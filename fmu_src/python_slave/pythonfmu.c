@@ -15,6 +15,7 @@
 enum { PATH_SIZE = 4096 };
 
 #if defined(_WIN32)
+/* Path of this library; false if it is not found or too long. */
 static bool own_path(char *path) {
   static const int anchor;
   HMODULE module;
@@ -29,16 +30,19 @@ static void *open_library(const char *path) {
   return (void *)LoadLibraryExA(path, NULL, LOAD_WITH_ALTERED_SEARCH_PATH);
 }
 
-static void *find(void *library, const char *name) { return (void *)GetProcAddress((HMODULE)library, name); }
+/* Address of a function of a library; NULL: there is none. */
+static void *find_function(void *library, const char *name) { return (void *)GetProcAddress((HMODULE)library, name); }
 
 static bool python_is_there(void) { return true; } /* else the library does not load, which is said */
 
-static void *python(void) { return (void *)GetModuleHandleA("python3.dll"); }
+/* The library that has Python's functions. */
+static void *python_library(void) { return (void *)GetModuleHandleA("python3.dll"); }
 
 static void keep_python(const pythonfmu *py) { (void)py; } /* PythonFMU leaves it alone there */
 
 static const char *const SUFFIX = "-pythonfmu.dll";
 #else
+/* Path of this library; false if it is not found or too long. */
 static bool own_path(char *path) {
   static const int anchor;
   Dl_info info;
@@ -49,15 +53,17 @@ static bool own_path(char *path) {
 
 static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
 
-static void *find(void *library, const char *name) { return dlsym(library, name); }
+/* Address of a function of a library; NULL: there is none. */
+static void *find_function(void *library, const char *name) { return dlsym(library, name); }
 
-static void *python(void) { return RTLD_DEFAULT; }
+/* The library that has Python's functions. */
+static void *python_library(void) { return RTLD_DEFAULT; }
 
 /* PythonFMU's library leaves Python's symbols to the host; a host without them gets the newest libpython the loader
  * finds. */
 static bool python_is_there(void) {
   char name[32];
-  if (find(python(), "Py_IsInitialized") != NULL) return true;
+  if (find_function(python_library(), "Py_IsInitialized") != NULL) return true;
   for (int minor = 16; minor >= 10; minor--) {
     snprintf(name, sizeof name, "libpython3.%d.so.1.0", minor);
     if (dlopen(name, RTLD_NOW | RTLD_GLOBAL) != NULL) return true;
@@ -69,8 +75,8 @@ static bool python_is_there(void) {
  * record of that twice: when the process deletes what is static and when it unloads the library. So the interpreter is
  * started here, for good, and the record is released before both. */
 static void keep_python(const pythonfmu *py) {
-  void (*const initialize)(int) = (void (*)(int))find(python(), "Py_InitializeEx");
-  void *(*const unlock)(void) = (void *(*)(void))find(python(), "PyEval_SaveThread");
+  void (*const initialize)(int) = (void (*)(int))find_function(python_library(), "Py_InitializeEx");
+  void *(*const unlock)(void) = (void *(*)(void))find_function(python_library(), "PyEval_SaveThread");
   if (!py->is_initialized()) {
     initialize(0); /* signals are the host's */
     unlock();
@@ -81,7 +87,8 @@ static void keep_python(const pythonfmu *py) {
 static const char *const SUFFIX = "-pythonfmu.so";
 #endif
 
-static bool fill(pythonfmu *py, void *library) {
+/* Fills the table of functions; false if one is missing. */
+static bool find_functions(pythonfmu *py, void *library) {
   const struct {
     void **function;
     const char *name;
@@ -105,7 +112,7 @@ static bool fill(pythonfmu *py, void *library) {
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
     const bool of_python = strncmp(all[i].name, "Py", 2) == 0;
-    if ((*all[i].function = find(of_python ? python() : library, all[i].name)) == NULL) return false;
+    if ((*all[i].function = find_function(of_python ? python_library() : library, all[i].name)) == NULL) return false;
   }
   return true;
 }
@@ -128,7 +135,7 @@ const pythonfmu *pythonfmu_load(char *problem, size_t size) {
     snprintf(problem, size,
              "PythonFMU's library beside the FMU's own could not be loaded; on Windows python3.dll must be on PATH.");
   if (library == NULL) return NULL;
-  if (fill(&py, library)) {
+  if (find_functions(&py, library)) {
     keep_python(&py);
     return &py;
   }

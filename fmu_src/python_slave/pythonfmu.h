@@ -21,6 +21,7 @@ typedef struct { /* its functions that are used here */
   void (*leave_python)(int);
 } pythonfmu;
 
-/* The library beside this one, with libpython for hosts that are no Python programs; NULL, and why, if that fails. */
+/* Loads PythonFMU's library, which lies beside this one, and libpython for hosts that are not Python programs. NULL on
+ * failure, with a sentence in `problem`. */
 const pythonfmu *pythonfmu_load(char *problem, size_t size);
 #endif

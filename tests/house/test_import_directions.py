@@ -42,7 +42,7 @@ STANDARD = ("fmi2FunctionTypes.h", "fmi3FunctionTypes.h")
 """Headers as the FMI standard has them: hosts know no others."""
 C_FOLDERS = {
     "fmu_src/native/src": ("ali3.h",),
-    "fmu_src/python_slave": ("fmi2.h", "fmi2_face.h"),
+    "fmu_src/python_slave": ("fmi2.h", "fmi2_adapter.h"),
     "hosts/c": STANDARD,
     "benchmarks/car/c": ("fmi2.h", "../../../hosts/c/library.h"),
 }

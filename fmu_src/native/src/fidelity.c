@@ -41,7 +41,6 @@ void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
   memset(loaded, 0, sizeof *loaded);
 }
 
-/* Loads the System of a fidelity. False: an error was logged and `loaded` is empty. */
 bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   char file[32], message[256] = "", code[256] = "";
   const char *why;
@@ -49,18 +48,18 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   memset(loaded, 0, sizeof *loaded);
   snprintf(file, sizeof file, "system_%u.ali3", (unsigned)number);
   if (number >= slave_the_table.n_systems) {
-    slave_say(s, SLAVE_ERROR, "There is no fidelity %u in this FMU.", (unsigned)number);
+    slave_log(s, SLAVE_ERROR, "There is no fidelity %u in this FMU.", (unsigned)number);
     return false;
   }
   unsigned char *bytes = slave_read_resource(s->resources, file, &s->memory, &size, &why);
   if (bytes == NULL) {
-    slave_say(s, SLAVE_ERROR, "The file %s of the FMU cannot be read in %s: %s.", file, s->resources, why);
+    slave_log(s, SLAVE_ERROR, "The file %s of the FMU cannot be read in %s: %s.", file, s->resources, why);
     return false;
   }
   ali3_status status = ali3_system_load_with(bytes, size, &s->memory, &loaded->system, message, sizeof message);
   s->memory.release(bytes);
   if (status == ALI3_OK && !table_fits(loaded->system, number)) {
-    slave_say(s, SLAVE_ERROR, "The file %s does not belong to this FMU.", file);
+    slave_log(s, SLAVE_ERROR, "The file %s does not belong to this FMU.", file);
     slave_fidelity_free(s, loaded);
     return false;
   }
@@ -72,7 +71,7 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
     if (loaded->snapshot == NULL || loaded->start == NULL) status = ALI3_NO_MEMORY;
   }
   if (status != ALI3_OK) {
-    slave_say(s, SLAVE_ERROR, "The file %s was refused: %s%s%s. %s", file, ali3_status_text(status),
+    slave_log(s, SLAVE_ERROR, "The file %s was refused: %s%s%s. %s", file, ali3_status_text(status),
               message[0] != 0 ? ": " : "", message, ali3_status_remedy(status));
     slave_fidelity_free(s, loaded);
     return false;
@@ -80,7 +79,7 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   ali3_count_work(loaded->kernel, &s->work_left);
   loaded->number = number;
   const ali3_sizes z = ali3_system_sizes(loaded->system);
-  slave_say(s, SLAVE_OK, "System loaded: %d coordinates, %d rows, %d inputs, %d outputs. %s.", (int)z.nq, (int)z.nc,
+  slave_log(s, SLAVE_OK, "System loaded: %d coordinates, %d rows, %d inputs, %d outputs. %s.", (int)z.nq, (int)z.nc,
             (int)z.nu, (int)z.ns, code);
   return true;
 }
@@ -91,7 +90,6 @@ void slave_fidelity_replace(slave *s, const slave_fidelity *loaded) {
   s->fidelity = *loaded;
 }
 
-/* Loads the System that the parameter fidelity selects, if another one is loaded. */
 bool slave_fidelity_choose(slave *s) {
   slave_fidelity loaded;
   if (s->fidelity_reference == slave_the_table.n_variables) return true;

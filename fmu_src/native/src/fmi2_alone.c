@@ -1,6 +1,6 @@
 /* FMI 2.0 for a host without callback functions, such as a page that loads this as a WebAssembly module: a logger that
  * stores messages in memory for the host. Only with ALI3_ALONE. */
-#include "fmi2_face.h"
+#include "fmi2_adapter.h"
 
 #if defined(ALI3_ALONE)
 #include <stdarg.h>
@@ -26,6 +26,7 @@ static size_t copy_undoubled(const char *text, char *to) {
   return n;
 }
 
+/* Logger: stores the last message for the page. */
 static void store_message(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
                           fmi2String message, ...) {
   (void)environment, (void)name;

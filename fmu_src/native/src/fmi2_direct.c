@@ -1,12 +1,12 @@
-/* The functions of fmi2_face.h in the native FMU: each calls the slave directly. */
-#include "fmi2_face.h"
+/* The functions of fmi2_adapter.h in the native FMU: each calls the slave directly. */
+#include "fmi2_adapter.h"
 
-slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
+slave *fmi2_new(fmi2_adapter *adapter, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
                 const char *token, const char *resources) {
-  return slave_new(memory, face, logger, logging, name, token, resources);
+  return slave_new(memory, adapter, logger, logging, name, token, resources);
 }
 
-void fmi2_free(fmi2_face *face) { slave_free(face->s); }
+void fmi2_free(fmi2_adapter *adapter) { slave_free(adapter->s); }
 
 slave_status fmi2_setup(slave *s, double start_time, bool stop_defined, double stop_time) {
   return slave_setup(s, start_time, stop_defined, stop_time);

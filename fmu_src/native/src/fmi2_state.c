@@ -1,5 +1,5 @@
 /* FMI 2.0: saving, restoring and serializing the state of an instance. */
-#include "fmi2_face.h"
+#include "fmi2_adapter.h"
 
 FMI2_ENTRY(fmi2GetFMUstate, (fmi2Component c, fmi2FMUstate *state), (c, state)) {
   slave *s = fmi2_slave(c, "fmi2GetFMUstate", FMI2_ANY);

@@ -1,5 +1,5 @@
 /* FMI 2.0: communication steps, their status, and derivatives. */
-#include "fmi2_face.h"
+#include "fmi2_adapter.h"
 
 FMI2_ENTRY(fmi2DoStep, (fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_set_state_prior),
            (c, time, step, no_set_state_prior)) {
@@ -11,14 +11,14 @@ FMI2_ENTRY(fmi2DoStep, (fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boole
 FMI2_ENTRY(fmi2CancelStep, (fmi2Component c), (c)) {
   slave *s = fmi2_slave(c, "fmi2CancelStep", FMI2_ANY);
   if (s == NULL) return fmi2Error;
-  return (fmi2Status)slave_say(s, SLAVE_ERROR, "No step is under way: steps of this FMU end before fmi2DoStep does.");
+  return (fmi2Status)slave_log(s, SLAVE_ERROR, "No step is under way: steps of this FMU end before fmi2DoStep does.");
 }
 
 /* Other statuses are those of asynchronous steps, which this FMU does not have. */
 static fmi2Status discard_status(fmi2Component c, const char *function) {
   slave *s = fmi2_slave(c, function, FMI2_DONE);
   if (s == NULL) return fmi2Error;
-  return (fmi2Status)slave_say(s, SLAVE_DISCARD, "%s: this FMU has no such status.", function);
+  return (fmi2Status)slave_log(s, SLAVE_DISCARD, "%s: this FMU has no such status.", function);
 }
 
 FMI2_ENTRY(fmi2GetStatus, (fmi2Component c, const fmi2StatusKind kind, fmi2Status *value), (c, kind, value)) {

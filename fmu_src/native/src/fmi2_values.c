@@ -1,5 +1,5 @@
 /* FMI 2.0: getting and setting variables. Integers can be read and set as Real too, their type before version 0.2. */
-#include "fmi2_face.h"
+#include "fmi2_adapter.h"
 
 FMI2_ENTRY(fmi2GetReal, (fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[]),
            (c, vr, n, value)) {
@@ -29,11 +29,12 @@ FMI2_ENTRY(fmi2SetInteger, (fmi2Component c, const fmi2ValueReference vr[], size
   return (fmi2Status)fmi2_set_whole(s, vr, n, value);
 }
 
+/* Status of a call for a type that no variable has. */
 static fmi2Status refuse_type(fmi2Component c, const char *function, unsigned phases, size_t n) {
   slave *s = fmi2_slave(c, function, phases);
   if (s == NULL) return fmi2Error;
   if (n == 0) return fmi2OK;
-  return (fmi2Status)slave_say(s, SLAVE_ERROR, "%s: all variables of this FMU are of type Real, Integer or String.",
+  return (fmi2Status)slave_log(s, SLAVE_ERROR, "%s: all variables of this FMU are of type Real, Integer or String.",
                                function);
 }
 

@@ -1,11 +1,12 @@
 /* FMI 3.0: functions for features that this FMU does not have: clocks, events, model exchange, structural parameters.
  * Hosts require that the library has them. */
-#include "fmi3_face.h"
+#include "fmi3_adapter.h"
 
+/* Status of a call for a feature that the FMU does not have. */
 static fmi3Status refuse(fmi3Instance instance, const char *function, const char *feature) {
-  fmi3_face *face = instance;
-  if (face == NULL) return fmi3Error;
-  return (fmi3Status)slave_say(face->s, SLAVE_ERROR, "%s: this FMU has no %s.", function, feature);
+  fmi3_adapter *adapter = instance;
+  if (adapter == NULL) return fmi3Error;
+  return (fmi3Status)slave_log(adapter->s, SLAVE_ERROR, "%s: this FMU has no %s.", function, feature);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3EnterEventMode)(fmi3Instance instance) {

@@ -1,6 +1,7 @@
 /* FMI 3.0: getting and setting variables. Int32 can be read and set as Float64 too, their type before version 0.2. */
-#include "fmi3_face.h"
+#include "fmi3_adapter.h"
 
+/* s; before the first step the start time. */
 static double current_time(const slave *s) {
   const bool before = (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) != 0;
   return before ? s->calls.start_time : ali3_time(s->fidelity.kernel);
@@ -10,25 +11,25 @@ static double current_time(const slave *s) {
 FMI3_ENTRY(fmi3GetFloat64,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3Float64 value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetFloat64", FMI3_ANY);
-  if (face == NULL || !fmi3_check_pointers(face, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL)))
+  fmi3_adapter *adapter = fmi3_slave(instance, "fmi3GetFloat64", FMI3_ANY);
+  if (adapter == NULL || !fmi3_check_pointers(adapter, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL)))
     return fmi3Error;
   const fmi3ValueReference time = fmi3_the_table.time;
-  if (!fmi3_check_count(face, vr, n, n_values)) return fmi3Error;
+  if (!fmi3_check_count(adapter, vr, n, n_values)) return fmi3Error;
   size_t n_read = 0;
   for (size_t i = 0; i < n;) {
     if (vr[i] == time) {
-      value[n_read++] = current_time(face->s);
+      value[n_read++] = current_time(adapter->s);
       i++;
       continue;
     }
     size_t end = i, count = 0, size = fmi3_array_size(vr[i]);
-    while (end < n && vr[end] != time && count + (size = fmi3_array_size(vr[end])) <= face->capacity) {
+    while (end < n && vr[end] != time && count + (size = fmi3_array_size(vr[end])) <= adapter->capacity) {
       count += size;
       end++;
     }
-    if (!fmi3_expand(face, 0, vr + i, end - i, count)) return fmi3Error;
-    const slave_status status = slave_get(face->s, face->items[0], count, value + n_read);
+    if (!fmi3_expand(adapter, 0, vr + i, end - i, count)) return fmi3Error;
+    const slave_status status = slave_get(adapter->s, adapter->items[0], count, value + n_read);
     if (status != SLAVE_OK) return (fmi3Status)status;
     n_read += count;
     i = end;
@@ -39,45 +40,47 @@ FMI3_ENTRY(fmi3GetFloat64,
 FMI3_ENTRY(fmi3GetInt32,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3Int32 value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetInt32", FMI3_ANY);
-  if (face == NULL || !fmi3_check_pointers(face, "fmi3GetInt32", n == 0 || (vr != NULL && value != NULL)))
+  fmi3_adapter *adapter = fmi3_slave(instance, "fmi3GetInt32", FMI3_ANY);
+  if (adapter == NULL || !fmi3_check_pointers(adapter, "fmi3GetInt32", n == 0 || (vr != NULL && value != NULL)))
     return fmi3Error;
-  if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
-  return (fmi3Status)slave_get_whole(face->s, face->items[0], n_values, value);
+  if (!fmi3_expand(adapter, 0, vr, n, n_values)) return fmi3Error;
+  return (fmi3Status)slave_get_whole(adapter->s, adapter->items[0], n_values, value);
 }
 
 FMI3_ENTRY(fmi3SetInt32,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3Int32 value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3SetInt32", FMI3_SET);
-  if (face == NULL || !fmi3_check_pointers(face, "fmi3SetInt32", n == 0 || (vr != NULL && value != NULL)))
+  fmi3_adapter *adapter = fmi3_slave(instance, "fmi3SetInt32", FMI3_SET);
+  if (adapter == NULL || !fmi3_check_pointers(adapter, "fmi3SetInt32", n == 0 || (vr != NULL && value != NULL)))
     return fmi3Error;
-  if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
-  return (fmi3Status)slave_set_whole(face->s, face->items[0], n_values, value);
+  if (!fmi3_expand(adapter, 0, vr, n, n_values)) return fmi3Error;
+  return (fmi3Status)slave_set_whole(adapter->s, adapter->items[0], n_values, value);
 }
 
 FMI3_ENTRY(fmi3SetFloat64,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3Float64 value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3SetFloat64", FMI3_SET);
-  if (face == NULL || !fmi3_check_pointers(face, "fmi3SetFloat64", n == 0 || (vr != NULL && value != NULL)))
+  fmi3_adapter *adapter = fmi3_slave(instance, "fmi3SetFloat64", FMI3_SET);
+  if (adapter == NULL || !fmi3_check_pointers(adapter, "fmi3SetFloat64", n == 0 || (vr != NULL && value != NULL)))
     return fmi3Error;
-  if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
-  return (fmi3Status)(face->updating ? slave_set_intermediate(face->s, face->items[0], n_values, value)
-                                     : slave_set(face->s, face->items[0], n_values, value));
+  if (!fmi3_expand(adapter, 0, vr, n, n_values)) return fmi3Error;
+  return (fmi3Status)(adapter->updating ? slave_set_intermediate(adapter->s, adapter->items[0], n_values, value)
+                                        : slave_set(adapter->s, adapter->items[0], n_values, value));
 }
 
-static bool check_text_count(fmi3_face *face, size_t n, size_t n_values) {
+/* Whether the numbers of references and values are equal; if not, an error is logged. */
+static bool check_text_count(fmi3_adapter *adapter, size_t n, size_t n_values) {
   if (n == n_values) return true;
-  slave_say(face->s, SLAVE_ERROR, "The variables have %zu values, the call gives room for %zu.", n, n_values);
+  slave_log(adapter->s, SLAVE_ERROR, "The variables have %zu values, the call gives room for %zu.", n, n_values);
   return false;
 }
 
+/* Status of a call for a type that no variable has. */
 static fmi3Status refuse_type(fmi3Instance instance, const char *function, unsigned phases, size_t n) {
-  fmi3_face *face = fmi3_slave(instance, function, phases);
-  if (face == NULL) return fmi3Error;
+  fmi3_adapter *adapter = fmi3_slave(instance, function, phases);
+  if (adapter == NULL) return fmi3Error;
   if (n == 0) return fmi3OK;
-  return (fmi3Status)slave_say(face->s, SLAVE_ERROR,
+  return (fmi3Status)slave_log(adapter->s, SLAVE_ERROR,
                                "%s: all variables of this FMU are of type Float64, Int32 or String.", function);
 }
 
@@ -107,21 +110,21 @@ REFUSE_TYPE(Boolean)
 FMI3_ENTRY(fmi3GetString,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3String value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetString", FMI3_ANY);
-  if (face == NULL || !fmi3_check_pointers(face, "fmi3GetString", n == 0 || (vr != NULL && value != NULL)))
+  fmi3_adapter *adapter = fmi3_slave(instance, "fmi3GetString", FMI3_ANY);
+  if (adapter == NULL || !fmi3_check_pointers(adapter, "fmi3GetString", n == 0 || (vr != NULL && value != NULL)))
     return fmi3Error;
-  if (!check_text_count(face, n, n_values)) return fmi3Error;
-  return (fmi3Status)slave_get_text(face->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
+  if (!check_text_count(adapter, n, n_values)) return fmi3Error;
+  return (fmi3Status)slave_get_text(adapter->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
 }
 
 FMI3_ENTRY(fmi3SetString,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3String value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3SetString", FMI3_SET);
-  if (face == NULL || !fmi3_check_pointers(face, "fmi3SetString", n == 0 || (vr != NULL && value != NULL)))
+  fmi3_adapter *adapter = fmi3_slave(instance, "fmi3SetString", FMI3_SET);
+  if (adapter == NULL || !fmi3_check_pointers(adapter, "fmi3SetString", n == 0 || (vr != NULL && value != NULL)))
     return fmi3Error;
-  if (!check_text_count(face, n, n_values)) return fmi3Error;
-  return (fmi3Status)slave_set_text(face->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
+  if (!check_text_count(adapter, n, n_values)) return fmi3Error;
+  return (fmi3Status)slave_set_text(adapter->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetBinary)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,

@@ -36,7 +36,7 @@ static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *st
 static double extrapolated_error(double difference, double n) { return difference * n * n / (n * n - 1.0); }
 
 /* Report of the kernel; zeros where there is none. */
-static ali3_report report_of(const slave *s) {
+static ali3_report get_report(const slave *s) {
   ali3_report report;
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
   return report;
@@ -79,6 +79,7 @@ static bool begin_comparison(slave *s) {
   return true;
 }
 
+/* Clears the largest differences seen so far. */
 static void reset_difference(slave_half_steps *t) {
   t->difference = 0.0;
   for (int32_t i = 0; i < t->n; i++) t->compared[i].gap = 0.0;
@@ -86,15 +87,14 @@ static void reset_difference(slave_half_steps *t) {
 
 /* Logged for hosts that ask for all messages, as it is no sign of an error. */
 static void log_unchecked(slave *s, double time, const char *why) {
-  if (s->event_said || s->unchecked_said) return;
-  s->unchecked_said = true;
-  slave_say(s, SLAVE_OK,
+  if (s->error_warned || s->unchecked_logged) return;
+  s->unchecked_logged = true;
+  slave_log(s, SLAVE_OK,
             "From %.4g s on no second motion is computed, so that the error is unknown: %s. This is "
             "reported once.",
             time, why);
 }
 
-/* Ends the second motion, as a state was set or initialised; from a start on it may run again. */
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
   if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, ali3_time(s->fidelity.kernel), "a state was set");
@@ -113,19 +113,19 @@ void slave_half_steps_begin(slave *s) {
   if (t->at_start) memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
   if (t->at_start && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
     ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
-  const ali3_report report = report_of(s);
+  const ali3_report report = get_report(s);
   t->abrupt = abrupt_steps(&report);
   t->halvings = report.halvings;
   t->iterations = report.iterations;
 }
 
-/* Updates the ranges of the compared outputs. */
 void slave_half_steps_observe(slave *s) {
   slave_half_steps *t = &s->half_steps;
   for (int32_t i = 0; i < t->n; i++) t->output[i] = s->sensors[t->sensor[i]];
   ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
 }
 
+/* Number of inputs of the kernel. */
 static size_t input_count(const slave *s) { return (size_t)ali3_system_sizes(s->fidelity.system).nu; }
 
 /* Allocates one block: three snapshots, inputs, and of each late step its inputs, compared outputs and parameters. */
@@ -202,7 +202,7 @@ static bool begin_late_step(slave *s, const slave_late_step *step) {
 
 /* Logs the result when the second motion ends. Without a road and abrupt forces, also predicts when the error is large,
  * from its growth between two windows of a start as a power of time. */
-static void conclude(slave *s, const slave_late_step *step, double difference) {
+static void log_conclusion(slave *s, const slave_late_step *step, double difference) {
   slave_half_steps *t = &s->half_steps;
   const double error = extrapolated_error(t->late_difference, step->ratio);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
@@ -229,7 +229,7 @@ static void compare(slave *s, const slave_late_step *step) {
   int32_t worst;
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output);
   ali3_compare(t->judged, t->n, 1, &step->end, step->values + input_count(s), t->output, t->compared);
-  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, report_of(s).energy_floor, 0, t->size);
+  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
   const double difference = ali3_compared_error(t->n, t->compared, t->size, 1, &worst);
   if (difference > t->difference) {
     t->difference = difference;
@@ -248,7 +248,7 @@ static void compare(slave *s, const slave_late_step *step) {
   if (disagree(difference) && !budget_is_spent(t, step))
     t->remaining = fmax(t->remaining, SPAN); /* it may still grow, as with a spinning wheel */
   t->spent += length;
-  if (!(t->remaining > 0.0)) conclude(s, step, difference);
+  if (!(t->remaining > 0.0)) log_conclusion(s, step, difference);
 }
 
 /* One inner step of the second motion in the first late step; none where it rests. Returns the iterations. */
@@ -257,9 +257,9 @@ static int64_t advance_second(slave *s) {
   const slave_late_step *step = t->late + t->first;
   int64_t cost = 0;
   if (t->n_made > 0 || begin_late_step(s, step)) {
-    const int64_t before = report_of(s).iterations;
+    const int64_t before = get_report(s).iterations;
     const bool good = make_inner_step(s, step) == ALI3_OK;
-    cost = report_of(s).iterations - before;
+    cost = get_report(s).iterations - before;
     if (good && t->n_made < step->parts * step->n) return cost;
     if (good) {
       compare(s, step);
@@ -329,7 +329,7 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
 static slave_status report_difference(slave *s) {
   slave_half_steps *t = &s->half_steps;
   int32_t worst;
-  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, report_of(s).energy_floor, 0, t->size);
+  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
   const double h = t->h / (double)t->parts, difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
                error = extrapolated_error(difference, t->ratio);
   const bool met =
@@ -340,9 +340,9 @@ static slave_status report_difference(slave *s) {
   }
   const slave_variable *v = slave_the_table.variable + t->variable[worst];
   const double off = fabs(v->scale) * error * t->size[worst];
-  s->event_said = true;
+  s->error_warned = true;
   const bool load = (v->judged.kind & ALI3_JUDGED_LOAD) != 0;
-  return slave_say(s, SLAVE_WARNING,
+  return slave_log(s, SLAVE_WARNING,
                    "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
                    "%.*g%s, %.2g %% of "
                    "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is reported "
@@ -355,8 +355,8 @@ static slave_status report_difference(slave *s) {
 /* Logs the predicted error of a start. */
 static slave_status report_prediction(slave *s, double now) {
   const slave_half_steps *t = &s->half_steps;
-  s->event_said = true;
-  return slave_say(s, SLAVE_WARNING,
+  s->error_warned = true;
+  return slave_log(s, SLAVE_WARNING,
                    "At %.4g s %s may be off by %.0f %% of the largest range in its unit: computed again with 1/%.0f of "
                    "the step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a "
                    "run of half the step_size, %g s. This is reported once.",
@@ -369,21 +369,19 @@ static slave_status report_motion(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
   const slave_status judged =
       t->difference > 0.0 && (ended || now > t->time + SPAN * stretch(t->h)) ? report_difference(s) : SLAVE_OK;
-  return s->event_said || now < t->predicted ? judged : report_prediction(s, now);
+  return s->error_warned || now < t->predicted ? judged : report_prediction(s, now);
 }
 
-/* Also called where the host resets or frees the instance without termination. */
 void slave_half_steps_end(slave *s) {
-  if (s->event_said || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
+  if (s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
   if (s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
   report_motion(s, ali3_time(s->fidelity.kernel), true);
 }
 
-/* Called after a completed communication step, before its slopes are cleared. */
 slave_status slave_half_steps_advance(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
-  if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
+  if (s->error_warned || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   /* a mechanism without a road swings; driven tyres slip at once, which long steps miss */
   const bool at_start = t->at_start && (!has_road(s) || 2.0 * s->completed.h > (double)ALI3_MOST_PARTS * SHORT),
              abrupt = abrupt_steps(&report) > t->abrupt || at_start;

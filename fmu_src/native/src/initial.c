@@ -7,7 +7,6 @@
 
 enum { POSE_HEIGHT = 2 }; /* index in a pose: the last length */
 
-/* Writes " Worst constraint: ..." or nothing to `text` and returns it. */
 const char *slave_worst_row_text(slave *s, char *text, size_t size) {
   ali3_report report;
   text[0] = 0;
@@ -95,6 +94,7 @@ static ali3_status apply_limit(slave *s) {
   return status == ALI3_OK ? ali3_set_settings(s->fidelity.kernel, &settings) : status;
 }
 
+/* Passes all values to the kernel and initialises it. */
 static ali3_status apply_values(slave *s) {
   const slave_table *t = &slave_the_table;
   double pose[ALI3_POSE] = {0.0};
@@ -117,7 +117,7 @@ static ali3_status apply_values(slave *s) {
 static bool check_work(slave *s) {
   const double steps = slave_settling_steps(s), available = slave_settling_left(s, 1.0);
   if (steps <= available) return true;
-  slave_say(s, SLAVE_ERROR,
+  slave_log(s, SLAVE_ERROR,
             "The start would settle over %.0f inner steps of %g s, and a call that has begun cannot be cancelled; it "
             "may make %.0f of them. Set '%.64s' to less, or 'step_size' to more.",
             steps, s->value[s->step_reference], fmax(available, 0.0), steps > 0.0 ? slave_settling(s)->name : "");
@@ -143,18 +143,18 @@ bool slave_initialise(slave *s) {
   s->outputs = SLAVE_STALE;
   if (status != ALI3_OK && settling != NULL) {
     if (status == ALI3_BAD_ARGUMENT)
-      slave_say(s, SLAVE_ERROR, "No body of this scene has a direction that can be held; set '%.64s' to 0.",
+      slave_log(s, SLAVE_ERROR, "No body of this scene has a direction that can be held; set '%.64s' to 0.",
                 settling->name);
     else
-      slave_say(s, SLAVE_ERROR,
+      slave_log(s, SLAVE_ERROR,
                 "The start did not settle while its motion was held, as '%.64s' asks for: %s.%s Set it to %s.",
-                settling->name, slave_reason(s, status),
+                settling->name, slave_reason_text(s, status),
                 status == ALI3_ROAD_LOST ? start_details(s, status, text, sizeof text) : "",
                 s->work_left <= 0 ? "less, or 'step_size' to more" : "0, or 'step_size' to less");
     return false;
   }
   if (status != ALI3_OK) {
-    slave_say(s, SLAVE_ERROR, "The initial state could not be found: %s.%s%s%s", ali3_status_text(status),
+    slave_log(s, SLAVE_ERROR, "The initial state could not be found: %s.%s%s%s", ali3_status_text(status),
               start_details(s, status, text, sizeof text), slave_is_of_step(status) ? "" : " ",
               slave_is_of_step(status) ? "" : ali3_status_remedy(status));
     return false;

@@ -8,11 +8,11 @@ static bool all_whole(slave *s, const uint32_t *reference, size_t n) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < n; i++) {
     if (reference[i] >= t->n_variables) {
-      slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference[i]);
+      slave_log(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference[i]);
       return false;
     }
     if (!t->variable[reference[i]].whole) {
-      slave_say(s, SLAVE_ERROR, "'%s' is a real number, not an integer.", t->variable[reference[i]].name);
+      slave_log(s, SLAVE_ERROR, "'%s' is a real number, not an integer.", t->variable[reference[i]].name);
       return false;
     }
   }

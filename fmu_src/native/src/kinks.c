@@ -20,7 +20,6 @@ void slave_kinks_after(slave_kinks *k, ali3_instance *kernel) {
   for (int32_t e = 0; e < k->ne; e++) k->passed[e] |= k->now[e] != k->begin[e];
 }
 
-/* Logs the first element with a kink by its name and the number of others. */
 slave_status slave_kinks_report(slave *s, const slave_kinks *k) {
   const slave_table *t = &slave_the_table;
   const char *const *name = t->element + t->first_element[s->fidelity.number], *first = NULL;
@@ -30,7 +29,7 @@ slave_status slave_kinks_report(slave *s, const slave_kinks *k) {
     if (k->passed[e] && count++ == 0) first = name[e];
   if (count == 0) return SLAVE_OK;
   if (count > 1) snprintf(others, sizeof others, " (as do %zu more elements)", count - 1);
-  return slave_say(s, SLAVE_ERROR,
+  return slave_log(s, SLAVE_ERROR,
                    "There is no directional derivative of this communication step: in it '%.128s' passes a kink of its "
                    "law%s: a stop is met or left, friction sticks or slips, or a limit is reached.",
                    first, others);

@@ -15,7 +15,7 @@ static bool allocate_arrays(slave *s) {
   const size_t list_size = t->n_variables * (sizeof *s->sensor + sizeof *s->output);
   double *pool = s->memory.allocate(1, numbers * sizeof(double) + rhythm_size + text_size + list_size + flag_size + 1);
   if (pool == NULL) {
-    slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
+    slave_log(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
   }
   s->value = pool;
@@ -28,14 +28,14 @@ static bool allocate_arrays(slave *s) {
   s->sensor = (int32_t *)(s->text + t->n_texts);
   s->output = (uint32_t *)(s->sensor + t->n_variables);
   s->pending = (unsigned char *)(s->output + t->n_variables);
-  s->said = s->pending + t->n_known;
-  s->fresh = s->said + t->n_known;
+  s->input_flags = s->pending + t->n_known;
+  s->fresh = s->input_flags + t->n_known;
   s->known = s->fresh + t->n_variables;
   return true;
 }
 
 /* A copy of a text; NULL if there is no memory. */
-static char *copy_of(const ali3_memory *memory, const char *text) {
+static char *copy_text(const ali3_memory *memory, const char *text) {
   char *copy = memory->allocate(1, strlen(text) + 1);
   if (copy != NULL) strcpy(copy, text);
   return copy;
@@ -51,16 +51,16 @@ static bool load(slave *s, const char *resources) {
       s->fidelity_reference = i;
       fidelity = (size_t)t->variable[i].start;
     }
-  s->resources = copy_of(&s->memory, resources);
+  s->resources = copy_text(&s->memory, resources);
   if (s->resources == NULL) {
-    slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
+    slave_log(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
   }
   return slave_fidelity_load(s, fidelity, &s->fidelity) && allocate_arrays(s);
 }
 
 /* Sets all variables to their start values and forgets every earlier step and warning. */
-static void start_values(slave *s) {
+static void set_start_values(slave *s) {
   const slave_table *t = &slave_the_table;
   const slave_call_state calls = {.phase = SLAVE_INSTANTIATED, .stop_time = HUGE_VAL};
   s->calls = calls;
@@ -70,11 +70,11 @@ static void start_values(slave *s) {
   slave_half_steps_free(s);
   slave_forget_refusal(s);
   s->outputs = SLAVE_STALE;
-  s->uncomputed_said = s->overturned_said = s->rim_said = s->event_said = s->unchecked_said = false;
+  s->uncomputed_warned = s->overturned_warned = s->rim_warned = s->error_warned = s->unchecked_logged = false;
   memset(s->pending, 0, t->n_known);
-  memset(s->said, 0, t->n_known);
+  memset(s->input_flags, 0, t->n_known);
   memset(s->rhythm, 0, t->n_known * sizeof *s->rhythm);
-  memset(s->slope, 0, 2 * t->n_known * SLAVE_TERMS * sizeof(double)); /* and made_slope */
+  memset(s->slope, 0, 2 * t->n_known * SLAVE_TERMS * sizeof(double)); /* and completed_slope */
   for (size_t i = 0; i < t->n_variables; i++) {
     s->value[i] = t->variable[i].start;
     if (t->variable[i].source == SLAVE_STEP_SIZE) s->step_reference = i;
@@ -93,24 +93,24 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
   s->logger = logger;
   s->logging = logging;
   s->all_categories = true;
-  s->name = copy_of(memory, name != NULL ? name : "");
+  s->name = copy_text(memory, name != NULL ? name : "");
   bool loaded = false;
   if (s->name == NULL)
-    slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
+    slave_log(s, SLAVE_ERROR, "There is not enough memory for an instance.");
   else if (name == NULL || name[0] == 0)
-    slave_say(s, SLAVE_ERROR, "An instance needs a name.");
+    slave_log(s, SLAVE_ERROR, "An instance needs a name.");
   else if (token == NULL || strcmp(token, slave_the_table.token) != 0)
-    slave_say(s, SLAVE_ERROR, "The GUID %.64s does not belong to this FMU; its GUID is %s.",
+    slave_log(s, SLAVE_ERROR, "The GUID %.64s does not belong to this FMU; its GUID is %s.",
               token != NULL ? token : "(none)", slave_the_table.token);
   else if (resources == NULL)
-    slave_say(s, SLAVE_ERROR, "The location of the resources is missing; this FMU reads its System there.");
+    slave_log(s, SLAVE_ERROR, "The location of the resources is missing; this FMU reads its System there.");
   else
     loaded = load(s, resources);
   if (!loaded) {
     slave_free(s);
     return NULL;
   }
-  start_values(s);
+  set_start_values(s);
   if (slave_texts_reset(s)) return s;
   slave_free(s);
   return NULL;
@@ -132,12 +132,12 @@ void slave_free(slave *s) {
 
 slave_status slave_setup(slave *s, double start_time, bool stop_defined, double stop_time) {
   if (!(fabs(start_time) < HUGE_VAL))
-    return slave_say(s, SLAVE_ERROR, "The start time is %g s; a finite number is needed.", start_time);
+    return slave_log(s, SLAVE_ERROR, "The start time is %g s; a finite number is needed.", start_time);
   if (stop_defined && !(stop_time >= start_time))
-    return slave_say(s, SLAVE_ERROR, "The stop time %g s lies before the start time %g s.", stop_time, start_time);
+    return slave_log(s, SLAVE_ERROR, "The stop time %g s lies before the start time %g s.", stop_time, start_time);
   s->calls.start_time = start_time;
   for (size_t i = 0; i < slave_the_table.n_known; i++)
-    s->rhythm[i].given = s->rhythm[i].changed = s->rhythm[i].seen = start_time;
+    s->rhythm[i].last_set = s->rhythm[i].changed = s->rhythm[i].seen = start_time;
   s->calls.stop_time = stop_defined ? stop_time : HUGE_VAL;
   slave_invalidate(s);
   return SLAVE_OK;
@@ -153,7 +153,7 @@ slave_status slave_exit(slave *s) {
   s->calls.phase = SLAVE_STEPPING;
   slave_texts_warn(s);
   slave_watch_start(s);
-  return slave_say(s, SLAVE_OK, "Initialised at %g s.", s->calls.start_time);
+  return slave_log(s, SLAVE_OK, "Initialised at %g s.", s->calls.start_time);
 }
 
 slave_status slave_terminate(slave *s) {
@@ -165,6 +165,6 @@ slave_status slave_terminate(slave *s) {
 slave_status slave_reset(slave *s) {
   slave_half_steps_end(s);
   ali3_reset(s->fidelity.kernel);
-  start_values(s);
+  set_start_values(s);
   return slave_texts_reset(s) ? SLAVE_OK : SLAVE_ERROR;
 }

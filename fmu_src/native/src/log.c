@@ -10,7 +10,8 @@ static const char *const category_name[] = {"logStatusWarning", "logStatusDiscar
                                             "logStatusFatal",   "logNotComputed",   "logAll"};
 enum { CATEGORIES = sizeof category_name / sizeof *category_name, ALL = CATEGORIES - 1, NOT_COMPUTED = ALL - 1 };
 
-static int category_of(slave_status status) { return status == SLAVE_OK ? ALL : (int)status - 1; }
+/* Index in category_name. */
+static int find_category(slave_status status) { return status == SLAVE_OK ? ALL : (int)status - 1; }
 
 /* Warnings and errors are always logged, other messages on request; a host that named categories gets those. */
 static bool is_logged(const slave *s, slave_status status, int category) {
@@ -18,10 +19,10 @@ static bool is_logged(const slave *s, slave_status status, int category) {
   return (s->categories & (1u << category | 1u << ALL)) != 0;
 }
 
-slave_status slave_say(slave *s, slave_status status, const char *format, ...) {
+slave_status slave_log(slave *s, slave_status status, const char *format, ...) {
   char text[SLAVE_TEXT];
   va_list list;
-  const int category = category_of(status);
+  const int category = find_category(status);
   if (s->logger == NULL || !is_logged(s, status, category)) return status;
   va_start(list, format);
   vsnprintf(text, sizeof text, format, list);
@@ -30,8 +31,7 @@ slave_status slave_say(slave *s, slave_status status, const char *format, ...) {
   return status;
 }
 
-/* Logs that an output is not computed, in a category of its own, which hosts that read all outputs may ignore. */
-void slave_say_uncomputed(slave *s, const slave_variable *v) {
+void slave_log_uncomputed(slave *s, const slave_variable *v) {
   char text[SLAVE_TEXT], remedy[SLAVE_TEXT / 4] = "";
   const slave_table *t = &slave_the_table;
   size_t n = 0;
@@ -52,12 +52,12 @@ void slave_say_uncomputed(slave *s, const slave_variable *v) {
 
 slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *categories) {
   unsigned selected = 0;
-  if (n > 0 && categories == NULL) return slave_say(s, SLAVE_ERROR, "The list of log categories is missing.");
+  if (n > 0 && categories == NULL) return slave_log(s, SLAVE_ERROR, "The list of log categories is missing.");
   for (size_t i = 0; i < n; i++) {
     int k = 0;
     while (k < CATEGORIES && (categories[i] == NULL || strcmp(categories[i], category_name[k]) != 0)) k++;
     if (k == CATEGORIES)
-      return slave_say(s, SLAVE_ERROR, "There is no log category '%.64s'; see modelDescription.xml for their names.",
+      return slave_log(s, SLAVE_ERROR, "There is no log category '%.64s'; see modelDescription.xml for their names.",
                        categories[i] != NULL ? categories[i] : "");
     selected |= 1u << k;
   }
@@ -85,6 +85,6 @@ const char *slave_phase_name(slave_phase phase) {
 bool slave_is_allowed(slave *s, const char *function, unsigned mask) {
   slave_reset_work(s);
   if (s->calls.phase & mask) return true;
-  slave_say(s, SLAVE_ERROR, "%s is not allowed %s.", function, slave_phase_name(s->calls.phase));
+  slave_log(s, SLAVE_ERROR, "%s is not allowed %s.", function, slave_phase_name(s->calls.phase));
   return false;
 }

@@ -2,29 +2,28 @@
  * follower, a System of the same model with ports, which copies the state and has no effect on it. */
 #include "slave.h"
 
-static int32_t follower_of(const slave *s) { return slave_the_table.follower[s->fidelity.number]; }
+/* Number of the System that computes the omitted outputs; -1: none. */
+static int32_t follower_number(const slave *s) { return slave_the_table.follower[s->fidelity.number]; }
 
-/* Whether the loaded System does not compute the output. */
 bool slave_is_omitted(const slave *s, const slave_variable *v) { return v->uncomputed >> s->fidelity.number & 1; }
 
-bool slave_has_follower(const slave *s) { return follower_of(s) >= 0; }
+bool slave_has_follower(const slave *s) { return follower_number(s) >= 0; }
 
+/* Loads it unless it is loaded; false: an error was logged. */
 static bool load_follower(slave *s) {
-  const size_t number = (size_t)follower_of(s);
+  const size_t number = (size_t)follower_number(s);
   if (s->follower.kernel != NULL && s->follower.number == number) return true;
   slave_fidelity_free(s, &s->follower);
   return slave_fidelity_load(s, number, &s->follower);
 }
 
-/* Computes the omitted ones of the n outputs, NULL: of all, at the present state; the others are computed already.
- * False: an error was logged. Without a follower they keep the values of the loaded System. */
 bool slave_omitted_outputs(slave *s, const uint32_t *reference, size_t n) {
   const slave_table *t = &slave_the_table;
   if (!slave_has_follower(s)) return true;
   if (!load_follower(s)) return false;
   ali3_status status = s->follower_current ? ALI3_OK : ali3_ports_follow(s->follower.kernel, s->fidelity.kernel);
   if (status != ALI3_OK) {
-    slave_say(s, SLAVE_ERROR, "The forces at the ports could not be found: %s.", ali3_status_text(status));
+    slave_log(s, SLAVE_ERROR, "The forces at the ports could not be found: %s.", ali3_status_text(status));
     return false;
   }
   s->follower_current = true;

@@ -1,7 +1,6 @@
 /* Outputs that are sensors: only those that are read are evaluated, once for each state. */
 #include "slave.h"
 
-/* Appends a sensor to the list of *n sensors to evaluate, if it is out of date. */
 void slave_request_sensor(slave *s, size_t *n, uint32_t reference) {
   if (s->fresh[reference]) return;
   s->fresh[reference] = 1;
@@ -9,7 +8,6 @@ void slave_request_sensor(slave *s, size_t *n, uint32_t reference) {
   s->output[(*n)++] = reference;
 }
 
-/* Evaluates the sensors of the list; false: it failed, and they stay out of date. */
 bool slave_read_sensors(slave *s, ali3_instance *kernel, size_t n) {
   if (ali3_some_sensors(kernel, (int32_t)n, s->sensor, s->sensors) != ALI3_OK) {
     for (size_t k = 0; k < n; k++) s->fresh[s->output[k]] = 0;

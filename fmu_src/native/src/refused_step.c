@@ -36,22 +36,22 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
     snprintf(jump, sizeof jump, " It began with a jump of the answer '%s' to %.6g m.", jumped->name,
              s->value[jumped - slave_the_table.variable]);
   if (other_remedy != NULL)
-    return slave_say(s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
+    return slave_log(s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
                      "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s%s %s", time,
-                     step, r->count > 1 ? " again" : "", time, slave_reason(s, status), worst, jump, other_remedy);
+                     step, r->count > 1 ? " again" : "", time, slave_reason_text(s, status), worst, jump, other_remedy);
   if (r->count == 1)
-    return slave_say(
+    return slave_log(
         s, SLAVE_DISCARD,
         "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s %s The step_size "
         "is %g s and can be set before initialisation.",
-        time, step, time, slave_reason(s, status), worst, ali3_status_remedy(status), h);
+        time, step, time, slave_reason_text(s, status), worst, ali3_status_remedy(status), h);
   if (r->count == 2)
-    return slave_say(
+    return slave_log(
         s, SLAVE_DISCARD,
         "The step from %.6g s over %.6g s was asked for again with nothing changed and refused again; the "
         "simulation should end here. Run it again with a step_size below %g s, or continue from another state.",
         time, step, h);
-  return slave_say(s, SLAVE_ERROR,
+  return slave_log(s, SLAVE_ERROR,
                    "The step from %.6g s over %.6g s was refused %d times with nothing changed in between; run again "
                    "with a step_size below %g s.",
                    time, step, (int)r->count, h);

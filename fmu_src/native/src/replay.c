@@ -25,6 +25,7 @@ typedef struct { /* work arrays in one block, and settings */
   ali3_settings settings;
 } replay;
 
+/* Allocates the work arrays of a replay in one block; false if there is no memory. */
 static bool allocate(slave *s, replay *r) {
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const size_t nu = (size_t)z.nu, ne = (size_t)z.ne, snapshot = ali3_snapshot_size(s->fidelity.system);
@@ -133,9 +134,10 @@ static slave_status add_outputs(slave *s, replay *r, double factor, double weigh
   ali3_status status = begin(s, r, factor);
   if (status == ALI3_OK) status = run(s, r, beside, &contact);
   if (status != ALI3_OK)
-    return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s.", slave_reason(s, status));
+    return slave_log(s, SLAVE_ERROR, "The directional derivative could not be found: %s.",
+                     slave_reason_text(s, status));
   if (contact)
-    return slave_say(s, SLAVE_ERROR,
+    return slave_log(s, SLAVE_ERROR,
                      "There is no directional derivative of this communication step: a contact with the road was made "
                      "or lost in it.");
   if (slave_kinks_report(s, &r->kinks) != SLAVE_OK) return SLAVE_ERROR;
@@ -144,12 +146,12 @@ static slave_status add_outputs(slave *s, replay *r, double factor, double weigh
   const bool divided_differently = r->divisions >= 0 && report.divisions != r->divisions;
   r->divisions = report.divisions;
   if (divided_differently)
-    return slave_say(
+    return slave_log(
         s, SLAVE_ERROR,
         "There is no directional derivative of this communication step: a force changes abruptly in it, and "
         "its inner steps are divided there otherwise with inputs a little higher than lower.");
   s->outputs = SLAVE_STALE;
-  if (!slave_outputs(s) || (left_out && !slave_omitted_outputs(s, NULL, 0))) return SLAVE_ERROR;
+  if (!slave_compute_outputs(s) || (left_out && !slave_omitted_outputs(s, NULL, 0))) return SLAVE_ERROR;
   for (size_t i = t->n_known; i < t->n_variables; i++)
     if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->value[i];
   return SLAVE_OK;
@@ -163,24 +165,22 @@ static slave_status check_halvings(slave *s, replay *r) {
   ali3_report_get(s->fidelity.kernel, &start);
   r->divided = start.divisions != end.divisions;
   if (start.halvings == end.halvings) return SLAVE_OK;
-  return slave_say(s, SLAVE_ERROR,
+  return slave_log(s, SLAVE_ERROR,
                    "There is no directional derivative of this communication step: an inner step of it was halved; "
                    "a smaller step_size may leave it whole.");
 }
 
-/* out (n_variables): derivative of the outputs that are sensors along the direction (nu); left_out: also of the omitted
- * outputs. The instance stays unchanged. */
 slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out) {
   replay r;
   if (s->completed.n == 0)
-    return slave_say(s, SLAVE_ERROR,
+    return slave_log(s, SLAVE_ERROR,
                      "There is no communication step to differentiate; after initialisation it takes one step.");
   if (2.0 * (double)s->completed.n > slave_steps_left(s))
-    return slave_say(s, SLAVE_ERROR,
+    return slave_log(s, SLAVE_ERROR,
                      "The derivatives make the %.0f inner steps of the communication step twice, and a call that has "
                      "begun cannot be cancelled; it has %.0f. Take shorter communication steps.",
                      (double)s->completed.n, slave_steps_left(s));
-  if (!allocate(s, &r)) return slave_say(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
+  if (!allocate(s, &r)) return slave_log(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
   store_end(s, &r);
   set_direction(&r, direction);
   slave_status status = r.direction_size > 0.0 ? check_halvings(s, &r) : SLAVE_OK;

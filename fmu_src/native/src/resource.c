@@ -12,6 +12,7 @@ ali3_file *ali3_file_open(const char *path, int64_t *size, const char **why);
 int ali3_file_read(ali3_file *file, int64_t from, void *to, size_t size);
 void ali3_file_close(ali3_file *file);
 
+/* Value of a hexadecimal digit, or -1. */
 static int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -27,8 +28,6 @@ static bool is_file_uri(const char *uri) {
   return scheme[n] == 0;
 }
 
-/* Converts file:, file:/, file:// or file://host/ with any %xx to a path; a plain path is copied. False: it is too
- * long. */
 bool slave_path_of_uri(const char *uri, char *path, size_t size) {
   size_t n = 0;
   bool encoded = false;

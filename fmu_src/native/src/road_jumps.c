@@ -20,8 +20,8 @@ static void check_turn(slave *s, size_t i) {
   }
   for (size_t k = 0; k < 3; k++) square += (now[k] - last[k]) * (now[k] - last[k]);
   if (!(square > SLAVE_EDGE * SLAVE_EDGE)) return;
-  s->said[i] |= SLAVE_TURNED;
-  slave_say(
+  s->input_flags[i] |= SLAVE_TURNED;
+  slave_log(
       s, SLAVE_WARNING,
       "At %.6g s the normal of the answer '%s' turned at once from (%.3g, %.3g, %.3g) to (%.3g, %.3g, %.3g), and with "
       "it the load of its wheel. A wheel that touches ground and edge bears on both: answer with the plane whose depth "
@@ -49,7 +49,8 @@ static void check_bend(slave *s, size_t i) {
     square += path[k] * path[k];
     bend += path[k] * (now[3 + k] - slave_reached_input(s, i + 3 + k));
   }
-  if (s->completed.n == 0 || !(fabs(bend) > BEND || fabs(plane_rise(s, i, now)) > BEND) || !slave_outputs(s)) return;
+  if (s->completed.n == 0 || !(fabs(bend) > BEND || fabs(plane_rise(s, i, now)) > BEND) || !slave_compute_outputs(s))
+    return;
   for (size_t k = 0; k < 3; k++) height += now[3 + k] * (centre[k] - now[k]);
   for (size_t k = 0; k < 3; k++) {
     const double along = centre[k] - now[k] - height * now[3 + k];
@@ -61,8 +62,8 @@ static void check_bend(slave *s, size_t i) {
   const bool ramp = slave_is_ramp(s->slope, i);
   const double start = ramp ? 0.25 * miss : miss, limit = ramp ? 4.0 * BEND : BEND;
   if (!(fabs(end) + 0.25 * fabs(start) > limit)) return; /* the end of a step has more effect than its start */
-  s->said[i + 1] |= SLAVE_TURNED;
-  slave_say(s, SLAVE_WARNING,
+  s->input_flags[i + 1] |= SLAVE_TURNED;
+  slave_log(s, SLAVE_WARNING,
             "At %.6g s the answer on the road '%s' tells that the last one was off by %.2g mm at its wheel at the end "
             "of its step, and that it is off by %.2g mm itself%s; where the road goes on so, loads are off by 1 %% or "
             "more. It holds for %.1f steps ahead of its wheel, where 1 is best. Ask at the point ahead, with "
@@ -74,9 +75,6 @@ static void check_bend(slave *s, size_t i) {
             s->value[s->lead_reference]);
 }
 
-/* Called before a step, after normals are held. Warns of an answer that lifts its wheel suddenly or drops the road
- * below it; the plane of an edge, which turns about the centre of the wheel, does neither. Returns the answer with the
- * largest jump, which may cause a refused step, or NULL. */
 const slave_variable *slave_watch_jumps(slave *s) {
   const slave_table *t = &slave_the_table;
   const slave_variable *largest_jump = NULL;
@@ -84,17 +82,17 @@ const slave_variable *slave_watch_jumps(slave *s) {
   for (size_t i = 0; i < t->n_known; i++) {
     const slave_variable *v = &t->variable[i];
     if (!slave_is_answer(i)) continue;
-    if (!(s->said[i] & SLAVE_TURNED)) check_turn(s, i);
-    if (!(s->said[i + 1] & SLAVE_TURNED)) check_bend(s, i);
-    if (!(fabs(plane_rise(s, i, &s->value[i])) > JUMP) || !slave_outputs(s)) continue;
+    if (!(s->input_flags[i] & SLAVE_TURNED)) check_turn(s, i);
+    if (!(s->input_flags[i + 1] & SLAVE_TURNED)) check_bend(s, i);
+    if (!(fabs(plane_rise(s, i, &s->value[i])) > JUMP) || !slave_compute_outputs(s)) continue;
     const double rise = plane_rise(s, i, &s->value[v->other]);
     if (fabs(rise) > largest) {
       largest = fabs(rise);
       largest_jump = v + 2;
     }
-    if (!(fabs(rise) > JUMP) || s->said[i] & SLAVE_JUMPED) continue;
-    s->said[i] |= SLAVE_JUMPED;
-    slave_say(
+    if (!(fabs(rise) > JUMP) || s->input_flags[i] & SLAVE_JUMPED) continue;
+    s->input_flags[i] |= SLAVE_JUMPED;
+    slave_log(
         s, SLAVE_WARNING,
         "At %.6g s the answer '%s' = %.6g m with its normal lies %.3g m %s the plane of the last one, seen from "
         "its wheel, which is lifted or falls at once; its load is not that of a wheel on an edge. At an edge that "

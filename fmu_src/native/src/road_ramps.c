@@ -15,7 +15,6 @@ bool slave_is_answer(size_t i) {
          t->variable[i].other >= 0;
 }
 
-/* Value of the input at the end of the last step, with its derivatives. */
 double slave_reached_input(const slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   double value;
@@ -24,13 +23,13 @@ double slave_reached_input(const slave *s, size_t i) {
   return v->scale * value;
 }
 
-/* Whether the answer at i changes linearly from the one before, by the slopes of its step. */
 bool slave_is_ramp(const double *slope, size_t i) {
   for (size_t k = 0; k < ANSWER; k++)
     if (slope[(i + k) * SLAVE_TERMS] != 0.0) return true;
   return false;
 }
 
+/* Whether the host set a derivative of the answer at i. */
 static bool has_derivative(const slave *s, size_t i) {
   for (size_t k = 0; k < ANSWER * SLAVE_TERMS; k++)
     if (s->slope[i * SLAVE_TERMS + k] != 0.0) return true;
@@ -61,13 +60,13 @@ static bool is_ahead(slave *s, size_t i) {
   if (turn < ROUND_OFF * ROUND_OFF && fabs(rise) < ROUND_OFF * size &&
       fabs(now[6] - slave_reached_input(s, i + 6)) < ROUND_OFF)
     return false;
-  if (!(square > 0.0) || turn > SLAVE_EDGE * SLAVE_EDGE || has_derivative(s, i) || !slave_outputs(s)) return false;
+  if (!(square > 0.0) || turn > SLAVE_EDGE * SLAVE_EDGE || has_derivative(s, i) || !slave_compute_outputs(s))
+    return false;
   for (size_t k = 0; k < 3; k++) height += now[3 + k] * (centre[k] - now[k]);
   for (size_t k = 0; k < 3; k++) ahead += (now[k] + height * now[3 + k] - centre[k]) * path[k];
   return ahead > MIN_LEAD * square;
 }
 
-/* Called before a step, after normals are held. A first answer has none before it. */
 void slave_begin_ramps(slave *s, double step) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < t->n_known && s->completed.n > 0; i++) {
@@ -80,7 +79,6 @@ void slave_begin_ramps(slave *s, double step) {
   }
 }
 
-/* Called after a refused step. */
 void slave_end_ramps(slave *s) {
   for (size_t i = 0; i < slave_the_table.n_known; i++)
     if (s->slope[i * SLAVE_TERMS] != 0.0) s->slope[i * SLAVE_TERMS] = s->slope[i * SLAVE_TERMS + 1] = 0.0;

@@ -39,7 +39,7 @@ typedef struct {
   bool port; /* an input that another program sets at every step */
   int32_t road; /* road whose built-in form the parameter describes, without effect on a road file; -1: none */
   uint64_t uncomputed; /* bits of the fidelities whose System omits it */
-  double least, most; /* range in which vehicles work with the parameter; infinite if it is not known */
+  double least, most; /* range of validity of a parameter; infinite if it is not known */
   int32_t role; /* of an input, SLAVE_NO_ROLE ... */
   int32_t other; /* variable: x of the wheel of an answer, x of the velocity of a hub, rate of SLAVE_AHEAD; -1: none */
   double scale; /* of inputs and sensors: value of the variable divided by the value in the System */
@@ -97,7 +97,7 @@ typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
 
 enum {
-  SLAVE_GIVEN = 1, /* was set, or reported as not set */
+  SLAVE_WAS_SET = 1,
   SLAVE_HELD_AT_END = 2,
   SLAVE_HELD_LAST = 4,
   SLAVE_HELD_FLAT = 8,
@@ -131,7 +131,7 @@ typedef struct { /* inputs that the host set in intermediate updates of the last
   int64_t n, capacity; /* inner steps that have rows, 0: no input was set; allocated rows */
   double *row, *next; /* (n + 1) x nu: inputs at the start and at the ends of inner steps; the row of the next end */
   double *value; /* n_known: the values set last */
-  unsigned char *given; /* n_known: whether they were set */
+  unsigned char *was_set; /* n_known: whether they were set */
 } slave_intermediate;
 
 typedef struct { /* a communication step that the second motion has not computed yet, see half_steps.c */
@@ -175,10 +175,10 @@ typedef struct { /* the second motion, with at most half the step, see half_step
 } slave_half_steps;
 
 typedef struct { /* times at which an input at a port was set */
-  double given, longest; /* s: the last time; longest interval between two of them */
+  double last_set, longest; /* s: the last time; longest interval between two of them */
   double changed, span,
       held; /* s: last change of the value; interval before it; the shorter one of the last two intervals */
-  double seen, way; /* of a hub: time of the last check, s; path of its wheel under constant forces, m */
+  double seen, path; /* of a hub: time of the last check, s; path of its wheel under constant forces, m */
   double times; /* number of times, up to a limit; negative: a warning was logged that it is no longer set */
 } slave_rhythm;
 
@@ -214,13 +214,13 @@ struct slave {
   double *completed_slope; /* the same of the last completed communication step */
   slave_rhythm *rhythm; /* per known variable, of ports */
   unsigned char *pending; /* per known variable: set and not yet passed to the kernel */
-  unsigned char *said; /* per known variable: SLAVE_GIVEN and logged warnings */
+  unsigned char *input_flags; /* per known variable: SLAVE_WAS_SET and logged warnings */
   slave_text_value *text; /* per text variable: file of the road that the kernel has */
   slave_freshness outputs;
   bool follower_current; /* the follower has the present state */
-  bool uncomputed_said; /* warning of a run logged: an output that is not computed was read */
+  bool uncomputed_warned; /* warning of a run logged: an output that is not computed was read */
   /* warnings of a run logged: rollover, a rim on the road, steps too long for a contact or a stop */
-  bool overturned_said, rim_said, event_said, unchecked_said; /* and the end of the second motion */
+  bool overturned_warned, rim_warned, error_warned, unchecked_logged; /* and the end of the second motion */
   double *sensors, *direction; /* work: n_variables, nu */
   int32_t *sensor; /* work: n_variables, sensors to evaluate */
   uint32_t *output; /* work: n_variables, their variables */
@@ -231,7 +231,8 @@ struct slave {
   int64_t work_left; /* of the present call, see work.c */
 };
 
-/* float_control.c: the first member of `instance` is the control of the host */
+/* Sets the floating-point control of the kernel when a call begins and the one of the host, the first
+ * member of `instance`, when it ends; likewise around a callback. */
 ali3_float_control slave_call_begins(void *instance); /* returns that of the host; 0: it is the same */
 void slave_call_ends(void *instance, ali3_float_control host);
 ali3_float_control slave_call_leaves(void *instance); /* before a callback of the host */
@@ -249,49 +250,75 @@ void slave_call_returns(void *instance, ali3_float_control host);
   }                                                                                                                    \
   static type name##_inside parameters
 
-/* log.c */
-slave_status slave_say(slave *s, slave_status status, const char *format, ...);
-void slave_say_uncomputed(slave *s, const slave_variable *v);
+/* Statuses: SLAVE_OK; SLAVE_WARNING, the call has its effect; SLAVE_DISCARD, a step was refused and may be repeated in
+ * another way; SLAVE_ERROR, nothing changed. Each but SLAVE_OK comes with a message in the log. */
+
+/* Logs a formatted message if the host wants its category; returns the status. */
+slave_status slave_log(slave *s, slave_status status, const char *format, ...);
+/* Logs that an output is not computed, in a category of its own, which hosts that read all outputs may ignore. */
+void slave_log_uncomputed(slave *s, const slave_variable *v);
+/* Switches logging, of n categories or, with n = 0, of all. */
 slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *categories);
+/* Words for a phase in messages, such as "after termination". */
 const char *slave_phase_name(slave_phase phase);
+/* Whether the phase is in the mask; if not, an error is logged. Resets the limit of work, as a call begins. */
 bool slave_is_allowed(slave *s, const char *function, unsigned mask);
 
-/* resource.c */
+/* Converts a file URI to a path in UTF-8; a plain path is copied. False: it is too long. */
 bool slave_path_of_uri(const char *uri, char *path, size_t size);
+/* Reads a file of a folder into allocated memory of *size bytes; NULL on failure, with a short reason in *why. */
 unsigned char *slave_read_resource(const char *folder, const char *name, const ali3_memory *memory, size_t *size,
                                    const char **why);
 
-/* fidelity.c */
+/* Loads the System of a fidelity. False: an error was logged and `loaded` is empty. */
 bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded);
+/* Frees the present System and takes another one. */
 void slave_fidelity_replace(slave *s, const slave_fidelity *loaded);
+/* Frees a loaded System. */
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded);
+/* Loads the System that the parameter fidelity selects, if another one is loaded. False: an error was logged. */
 bool slave_fidelity_choose(slave *s);
 
-/* read_sensors.c */
+/* Appends an output that is a sensor to the *n sensors to evaluate, if it is out of date. */
 void slave_request_sensor(slave *s, size_t *n, uint32_t reference);
+/* Evaluates these n sensors; false: it failed, and they stay out of date. */
 bool slave_read_sensors(slave *s, ali3_instance *kernel, size_t n);
 
-/* omitted_outputs.c */
+/* Whether the loaded System does not compute the output. */
 bool slave_is_omitted(const slave *s, const slave_variable *v);
+/* Whether another System can compute the outputs that the loaded one omits. */
 bool slave_has_follower(const slave *s);
+/* Computes the omitted ones of n outputs, NULL: of all, at the present state; the others are computed already. False:
+ * an error was logged. Without a follower they keep the values of the loaded System. */
 bool slave_omitted_outputs(slave *s, const uint32_t *reference, size_t n);
 
-/* texts.c: n value references and texts; `first`: value reference of the first text variable */
+/* Text variables: n value references and texts; `first`: value reference of the first text variable */
 slave_status slave_get_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char **value);
+/* Sets text variables; on an error none changes. */
 slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char *const *value);
+/* Loads the roads of all text variables into a kernel. False: an error was logged. */
 bool slave_texts_apply(slave *s, ali3_instance *kernel, const slave_text_value *value);
+/* Sets all text variables to their start values. False: an error was logged. */
 bool slave_texts_reset(slave *s);
+/* Warnings after the start: on a road from a file, of a start that has not settled, of parameters without effect. */
 void slave_texts_warn(slave *s);
+/* Whether a parameter describes a built-in road that a file replaces. */
 bool slave_has_no_effect(const slave *s, const slave_variable *v);
 
-/* life_cycle.c */
+/* Makes an instance; NULL: an error was logged. host: argument of the logger; resources: folder. */
 slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bool logging, const char *name,
                  const char *token, const char *resources);
+/* NULL is allowed. */
 void slave_free(slave *s);
+/* Sets start and stop time, s. */
 slave_status slave_setup(slave *s, double start_time, bool stop_defined, double stop_time);
+/* Enters the initialisation mode. */
 slave_status slave_enter(slave *s);
+/* Computes the initial state, if values have changed since, and leaves the mode. */
 slave_status slave_exit(slave *s);
+/* Ends the run; outputs can still be read. */
 slave_status slave_terminate(slave *s);
+/* Sets all variables to their start values, as in a new instance. */
 slave_status slave_reset(slave *s);
 
 /* Marks the initial state and the outputs as out of date. */
@@ -300,7 +327,7 @@ static inline void slave_invalidate(slave *s) {
   s->outputs = SLAVE_STALE;
 }
 
-/* work.c: the limit of work in a call, from which the kernel subtracts its own */
+/* The limit of work in a call, from which the kernel subtracts its own. */
 #define SLAVE_MAX_WORK 2000000 /* a million steps of one iteration each: half a minute of a rigid car */
 void slave_reset_work(slave *s);
 double slave_steps_left(const slave *s); /* inner steps of one iteration each */
@@ -308,112 +335,162 @@ const slave_variable *slave_settling(const slave *s); /* settling time of the st
 double slave_settling_steps(const slave *s); /* inner steps that settle a start */
 double slave_settling_left(const slave *s, double starts); /* inner steps for each of `starts` starts; negative: none */
 void slave_count_start(slave *s);
-const char *slave_reason(const slave *s, ali3_status status); /* text of the status or of the limit of work */
+const char *slave_reason_text(const slave *s, ali3_status status); /* text of the status or of the limit of work */
 
-/* initial.c */
+/* Computes the initial state from the values set so far. False: an error was logged. */
 bool slave_initialise(slave *s);
+/* Writes " Worst constraint: ..." or nothing to `text` and returns it. */
 const char *slave_worst_row_text(slave *s, char *text, size_t size);
-/* " 'wheel travel FL' is ..." or nothing. */
+/* Writes " 'wheel travel FL' is ..." or nothing to `text`. */
 void slave_beyond_table_text(slave *s, char *text, size_t size);
 
-/* values.c: n value references and values */
+/* Values of n variables by their value references. */
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value);
+/* Sets variables; a bad value changes nothing, a value outside the range of an input is clamped with a warning. */
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value);
-bool slave_outputs(slave *s);
-void slave_ahead(const slave *s, double *derivative);
+/* Computes all outputs of the present state but the omitted ones. False: there is no valid state. */
+bool slave_compute_outputs(slave *s);
+/* Fills the derivatives (n_variables) of SLAVE_AHEAD variables from those of sensors. */
+void slave_fill_ahead_rates(const slave *s, double *derivative);
+/* Whether a value reference is that of an output. */
 bool slave_is_output(uint32_t reference);
 
 slave_status slave_clamp(slave *s, uint32_t reference, double value, double *clamped); /* of an input, with a warning */
 slave_status slave_check_set(slave *s, uint32_t reference, double value); /* status of setting; nothing is set */
 
-/* integers.c: n value references and integer values */
+/* Values of n integer variables. */
 slave_status slave_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value);
+/* Sets them; a bad value changes nothing. */
 slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value);
 
-/* step.c */
+/* Makes a communication step of `step` from `time`, s. */
 slave_status slave_step(slave *s, double time, double step);
 
-/* slopes.c */
+/* Adds the Taylor terms of a variable, `elapsed` s after the communication point, to its input. */
 void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input);
+/* Adds those of all variables to their inputs (nu). */
 void slave_add_slopes(const double *slope, double elapsed, double *input);
+/* Inputs (nu) at `elapsed` s after the communication point of the last step with intermediate updates and inner steps
+ * of h, s. */
 void slave_intermediate_at(const slave *s, double elapsed, double h, double *input);
+/* Inputs (nu) at `elapsed` s after the communication point; the kernel clamps them to their ranges. */
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 
-/* intermediate_update.c */
+/* Allocates rows of n inner steps; false if there is no memory. */
 bool slave_intermediate_reserve(slave *s, int64_t n);
+/* Frees them. */
 void slave_intermediate_free(slave *s);
+/* Sets inputs in an intermediate update of the host. */
 slave_status slave_set_intermediate(slave *s, const uint32_t *reference, size_t n, const double *value);
-ali3_status slave_intermediate_steps(slave *s, int64_t *n, double h, double *left);
+/* Makes up to *n inner steps of h, s; *n becomes their number if the step returns early. *largest_residual: m, of
+ * steps at the limit of their iterations. */
+ali3_status slave_intermediate_steps(slave *s, int64_t *n, double h, double *largest_residual);
+/* After a completed step: inputs that the host set within it keep their last value, and their slopes are cleared. */
 void slave_intermediate_accept(slave *s);
 
 /* Largest difference of unit normals of two answers on a road without an edge, see docs/decisions/0091. */
 static const double SLAVE_EDGE = 0.3;
 
-/* road_ramps.c: linear change to answers on the road that hold at the end of a step */
+/* Value of a variable that is an input at the end of the last step, with its derivatives. */
 double slave_reached_input(const slave *s, size_t i);
+/* Whether variable i is the first of an answer on the road. */
 bool slave_is_answer(size_t i);
+/* Whether the answer at i changes linearly from the one before, by the slopes of its step. */
 bool slave_is_ramp(const double *slope, size_t i);
+/* Before a step, s, after normals are held: sets slopes of answers that hold at its end. */
 void slave_begin_ramps(slave *s, double step);
+/* After a refused step: clears them. */
 void slave_end_ramps(slave *s);
 
-/* half_steps.c */
+/* After a completed communication step, before its slopes are cleared: advances the second motion; warns of a large
+ * error. */
 slave_status slave_half_steps_advance(slave *s);
+/* Ends the second motion, as a state was set or initialised; from a start on it may run again. */
 void slave_half_steps_begin(slave *s);
+/* Updates the ranges of the compared outputs. */
 void slave_half_steps_observe(slave *s);
+/* At the end of the run, also where the host resets or frees the instance without termination. */
 void slave_half_steps_end(slave *s);
+/* Frees its memory. */
 void slave_half_steps_free(slave *s);
 
-/* repeated_step.c: parameters (np) and inputs (nu) of the kernel */
+/* Parameters (np) and inputs (nu) of the kernel in the last step: reads them, sets them again. */
 void slave_read_step(const slave *s, double *parameter, double *input);
 ali3_status slave_restore_step(const slave *s, const double *parameter, const double *input);
 
-/* replay.c */
+/* out (n_variables): derivative of the outputs that are sensors, after the last communication step, along a direction
+ * of its inputs (nu); left_out: also of the omitted outputs. The instance stays unchanged. */
 slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out);
 
-/* kinks.c: pieces of the elements' laws along replays of a step, ne each */
+/* Pieces of the elements' laws along replays of a step, ne each. */
 typedef struct {
   uint32_t *now, *begin, *other; /* now, at the start of this replay, at the start of the replay before */
   unsigned char *passed; /* whether the piece changes */
   int32_t ne;
 } slave_kinks;
+/* At the start of a replay; `beside`: it is compared with the start of the replay before. */
 void slave_kinks_begin(slave_kinks *k, ali3_instance *kernel, bool beside);
+/* After an inner step: marks the elements whose piece has changed. */
 void slave_kinks_after(slave_kinks *k, ali3_instance *kernel);
+/* Logs the first element with a kink and the number of others as an error; SLAVE_OK without a kink. */
 slave_status slave_kinks_report(slave *s, const slave_kinks *k);
 
-/* refused_step.c: statuses of refused and repeated steps */
+/* Logs a refused step and returns SLAVE_DISCARD or, after two repetitions, SLAVE_ERROR. worst: details or ""; jumped:
+ * the answer that jumped, or NULL. */
 slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst,
                                const slave_variable *jumped);
+/* The host has changed a value since the last refused step. */
 void slave_forget_refusal(slave *s);
+/* Whether the simulation should end, as a refused step was repeated unchanged. */
 bool slave_requests_end(const slave *s);
 bool slave_is_of_step(ali3_status status); /* a smaller step_size may pass */
 
-/* run_warnings.c: warnings of a run, each logged once */
+/* Warnings after a step; returns the worst status. */
 slave_status slave_watch(slave *s);
+/* Warning of a rollover, after outputs are computed. */
 void slave_watch_outputs(slave *s);
+/* Warnings of the System at the start; of a vehicle that is too heavy for its springs or stands on uneven ground. */
 void slave_watch_start(slave *s);
 
-/* ports.c */
+/* Records that a port was set to a finite number, and whether it changed. */
 void slave_record_port_set(slave *s, size_t i, bool changed);
+/* After a step that began at `begin`, s: warns of ports that the host has not set, or has ceased to set. Integer ports
+ * are exempt from the second, as they change at events only. */
 void slave_watch_ports(slave *s, double begin);
 
-/* wheel_answers.c and road_jumps.c: checks of normals, answers on the road and forces on hubs */
+/* Replaces invalid normals before a step or a start by the last ones of the kernel, at a start by those of the
+ * table. */
 void slave_hold_normals(slave *s);
+/* Before a step, after normals are held: warns of an answer that lifts its wheel suddenly or drops the road below it;
+ * the plane of an edge, which turns about the centre of the wheel, does neither. Returns the answer with the largest
+ * jump, which may cause a refused step, or NULL. */
 const slave_variable *slave_watch_jumps(slave *s);
+/* After ALI3_BAD_NORMAL: writes the port whose normal became invalid by its derivatives, from the inputs of the inner
+ * step in s->direction. */
 void slave_bad_normal_text(const slave *s, char *text, size_t size);
+/* After the outputs are computed: warns of answers far from their wheel, and of steps too long for a tyre. */
 void slave_watch_answers(slave *s);
 
-/* derivatives.c */
+/* Sets derivatives of order 1 to SLAVE_MAX_ORDERS of n inputs for the next step. */
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);
+/* First time derivatives of n outputs. */
 slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, const int32_t *order, double *value);
+/* out (n_unknown): derivatives of outputs by n_known variables along the seed; before the first step by start values,
+ * afterwards by inputs of the last step. */
 slave_status slave_directional_derivative(slave *s, const uint32_t *unknown, size_t n_unknown, const uint32_t *known,
                                           size_t n_known, const double *seed, double *out);
 
-/* state.c */
 typedef struct slave_state slave_state;
+/* Stores the state in *state, which is allocated if it is NULL. */
 slave_status slave_state_get(slave *s, slave_state **state);
+/* Continues from a stored state. */
 slave_status slave_state_set(slave *s, const slave_state *state);
+/* Frees a state and sets *state to NULL. */
 slave_status slave_state_free(slave *s, slave_state **state);
+/* Size of a state as bytes. */
 slave_status slave_state_size(slave *s, const slave_state *state, size_t *size);
+/* Writes a state as bytes with a checksum. */
 slave_status slave_state_write(slave *s, const slave_state *state, unsigned char *bytes, size_t size);
+/* Checks bytes and makes a state of them. */
 slave_status slave_state_read(slave *s, const unsigned char *bytes, size_t size, slave_state **state);
 #endif

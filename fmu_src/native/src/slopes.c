@@ -4,7 +4,6 @@
 
 #include "slave.h"
 
-/* Adds the Taylor terms of a variable to its input, at `elapsed` s after the communication point. */
 void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input) {
   double power = 1.0;
   for (int k = 0; k < SLAVE_TERMS; k++) {
@@ -13,15 +12,12 @@ void slave_add_slope(const double *slope, size_t variable, double elapsed, doubl
   }
 }
 
-/* Adds the Taylor terms of all variables to their inputs (nu). */
 void slave_add_slopes(const double *slope, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_INPUT) slave_add_slope(slope, i, elapsed, &input[t->variable[i].index]);
 }
 
-/* Inputs at `elapsed` s after the communication point of the step with intermediate updates, whose inner steps are
- * h. */
 void slave_intermediate_at(const slave *s, double elapsed, double h, double *input) {
   const size_t nu = (size_t)ali3_system_sizes(s->fidelity.system).nu;
   const double position = fmin(fmax(elapsed / h, 0.0), (double)s->intermediate.n);
@@ -31,7 +27,6 @@ void slave_intermediate_at(const slave *s, double elapsed, double h, double *inp
   for (size_t i = 0; i < nu; i++) input[i] = fraction == 1.0 ? to[i] : from[i] + fraction * (to[i] - from[i]);
 }
 
-/* Inputs at `elapsed` s after the communication point; the kernel clamps them to their ranges. */
 void slave_inputs_at(const slave *s, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
   if (s->intermediate.n > 0) {

@@ -14,10 +14,10 @@ typedef struct { /* 104 bytes without padding */
   uint8_t phase, initialised, step_warned, energy_warned, mode_warned, capped_warned, sloped, zero;
   uint32_t fidelity,
       n_known; /* fidelity of the kernel's bytes; its parameter may have another value for the next initialisation */
-  double start_time, stop_time, capped_residual;
+  double start_time, stop_time, capped_residual; /* s, s, m */
   int64_t completed_n,
       intermediate_n; /* inner steps of the last communication step, and those of them with intermediate inputs */
-  double completed_h;
+  double completed_h; /* s: length of its inner steps */
 } header;
 
 struct slave_state {
@@ -31,13 +31,16 @@ enum { STATE_VERSION = 9, CRC_OFFSET = 12, CRC_START = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
+/* Sizes in bytes: of all text variables, */
 static size_t texts_size(void) { return slave_the_table.n_texts * sizeof(slave_text_value); }
 
+/* of the header and the numbers of the slave, */
 static size_t slave_size(void) {
   const size_t n = slave_the_table.n_known;
   return sizeof(header) + n * (1 + 2 * SLAVE_TERMS) * sizeof(double) + n * (sizeof(slave_rhythm) + 2) + texts_size();
 }
 
+/* of the start of the last communication step, */
 static size_t start_size(const slave_fidelity *fidelity) { return ali3_snapshot_size(fidelity->system); }
 
 /* Size of the intermediate inputs of n inner steps, bytes. */
@@ -45,16 +48,19 @@ static size_t intermediate_size(const slave_fidelity *fidelity, int64_t n) {
   return n > 0 ? (size_t)(n + 1) * (size_t)ali3_system_sizes(fidelity->system).nu * sizeof(double) : 0;
 }
 
+/* and of a whole state with intermediate_n inner steps with intermediate inputs. */
 static size_t state_size(const slave *s, int64_t intermediate_n) {
   return slave_size() + start_size(&s->fidelity) + ali3_state_size(s->fidelity.system) +
          intermediate_size(&s->fidelity, intermediate_n);
 }
 
-static void write(unsigned char **to, const void *from, size_t size) {
+/* Copies bytes to *to and advances it. */
+static void append_bytes(unsigned char **to, const void *from, size_t size) {
   memcpy(*to, from, size);
   *to += size;
 }
 
+/* Writes the state as bytes, without a checksum. */
 static void write_state(const slave *s, unsigned char *bytes) {
   const size_t n = slave_the_table.n_known, size = state_size(s, s->intermediate.n);
   const slave_call_state *c = &s->calls;
@@ -78,14 +84,14 @@ static void write_state(const slave *s, unsigned char *bytes) {
   unsigned char *p = bytes;
   memcpy(head.magic, MAGIC, sizeof MAGIC);
   memcpy(head.identity, slave_the_table.identity, sizeof head.identity);
-  write(&p, &head, sizeof head);
-  write(&p, s->value, n * sizeof(double));
-  write(&p, s->slope, n * SLAVE_TERMS * sizeof(double));
-  write(&p, s->completed_slope, n * SLAVE_TERMS * sizeof(double));
-  write(&p, s->rhythm, n * sizeof *s->rhythm);
-  write(&p, s->pending, n);
-  write(&p, s->said, n);
-  write(&p, s->text, texts_size());
+  append_bytes(&p, &head, sizeof head);
+  append_bytes(&p, s->value, n * sizeof(double));
+  append_bytes(&p, s->slope, n * SLAVE_TERMS * sizeof(double));
+  append_bytes(&p, s->completed_slope, n * SLAVE_TERMS * sizeof(double));
+  append_bytes(&p, s->rhythm, n * sizeof *s->rhythm);
+  append_bytes(&p, s->pending, n);
+  append_bytes(&p, s->input_flags, n);
+  append_bytes(&p, s->text, texts_size());
   memset(p, 0, start_size(&s->fidelity));
   if (s->completed.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
   p += start_size(&s->fidelity);
@@ -95,7 +101,7 @@ static void write_state(const slave *s, unsigned char *bytes) {
 }
 
 /* What is wrong with the header or the size, or NULL. */
-static const char *header_error(const slave *s, const unsigned char *bytes, size_t size) {
+static const char *check_header(const slave *s, const unsigned char *bytes, size_t size) {
   header head;
   if (size < sizeof head) return "they are too short";
   memcpy(&head, bytes, sizeof head);
@@ -121,7 +127,7 @@ static const char *header_error(const slave *s, const unsigned char *bytes, size
 }
 
 /* What is wrong with the values after the header, or NULL: they must be ones that can be set. */
-static const char *value_error(const unsigned char *p) {
+static const char *check_values(const unsigned char *p) {
   const slave_table *t = &slave_the_table;
   double v;
   const size_t numbers = t->n_known * (1 + 2 * SLAVE_TERMS);
@@ -148,7 +154,8 @@ static const char *value_error(const unsigned char *p) {
   return NULL;
 }
 
-static void read(void *to, const unsigned char **from, size_t size) {
+/* Copies bytes from *from and advances it. */
+static void take_bytes(void *to, const unsigned char **from, size_t size) {
   memcpy(to, *from, size);
   *from += size;
 }
@@ -172,7 +179,7 @@ static bool restore_kernel(slave *s, const header *head, const unsigned char *te
   if (status == ALI3_OK) memcpy(other.start, bytes, start);
   if (status != ALI3_OK) {
     if (!same) slave_fidelity_free(s, &other);
-    slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s. %s", ali3_status_text(status),
+    slave_log(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s. %s", ali3_status_text(status),
               ali3_status_remedy(status));
     return false;
   }
@@ -182,16 +189,17 @@ static bool restore_kernel(slave *s, const header *head, const unsigned char *te
   return true;
 }
 
+/* Sets the state from bytes; on an error, which is logged, nothing changes. */
 static slave_status read_state(slave *s, const unsigned char *bytes, size_t size) {
   const size_t n = slave_the_table.n_known;
   const unsigned char *p = bytes + sizeof(header);
-  const char *why = header_error(s, bytes, size);
+  const char *why = check_header(s, bytes, size);
   header head;
-  if (why == NULL) why = value_error(p);
-  if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
+  if (why == NULL) why = check_values(p);
+  if (why != NULL) return slave_log(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
   memcpy(&head, bytes, sizeof head);
   if (head.intermediate_n > 0 && !slave_intermediate_reserve(s, head.intermediate_n))
-    return slave_say(s, SLAVE_ERROR, "There is not enough memory for a state.");
+    return slave_log(s, SLAVE_ERROR, "There is not enough memory for a state.");
   const unsigned char *texts = bytes + slave_size() - texts_size();
   if (!restore_kernel(s, &head, texts, bytes + slave_size(), size - slave_size())) return SLAVE_ERROR;
   s->calls.phase = (slave_phase)head.phase;
@@ -208,21 +216,22 @@ static slave_status read_state(slave *s, const unsigned char *bytes, size_t size
   slave_half_steps_begin(s);
   s->calls.start_time = head.start_time;
   s->calls.stop_time = head.stop_time;
-  read(s->value, &p, n * sizeof(double));
-  read(s->slope, &p, n * SLAVE_TERMS * sizeof(double));
-  read(s->completed_slope, &p, n * SLAVE_TERMS * sizeof(double));
-  read(s->rhythm, &p, n * sizeof *s->rhythm);
-  read(s->pending, &p, n);
-  read(s->said, &p, n);
-  read(s->text, &p, texts_size());
+  take_bytes(s->value, &p, n * sizeof(double));
+  take_bytes(s->slope, &p, n * SLAVE_TERMS * sizeof(double));
+  take_bytes(s->completed_slope, &p, n * SLAVE_TERMS * sizeof(double));
+  take_bytes(s->rhythm, &p, n * sizeof *s->rhythm);
+  take_bytes(s->pending, &p, n);
+  take_bytes(s->input_flags, &p, n);
+  take_bytes(s->text, &p, texts_size());
   s->outputs = SLAVE_STALE;
   return SLAVE_OK;
 }
 
+/* Makes *state a state of this size; an error is logged if there is no memory. */
 static slave_status allocate(slave *s, size_t size, slave_state **state) {
   if (*state != NULL && (*state)->size == size) return SLAVE_OK; /* an allocated state is overwritten */
   slave_state *allocated = s->memory.allocate(1, sizeof **state + size);
-  if (allocated == NULL) return slave_say(s, SLAVE_ERROR, "There is not enough memory for a state.");
+  if (allocated == NULL) return slave_log(s, SLAVE_ERROR, "There is not enough memory for a state.");
   if (*state != NULL) s->memory.release(*state);
   allocated->size = size;
   *state = allocated;
@@ -251,7 +260,7 @@ slave_status slave_state_size(slave *s, const slave_state *state, size_t *size) 
 
 slave_status slave_state_write(slave *s, const slave_state *state, unsigned char *bytes, size_t size) {
   if (size < state->size)
-    return slave_say(s, SLAVE_ERROR, "The state needs %zu bytes, there is room for %zu.", state->size, size);
+    return slave_log(s, SLAVE_ERROR, "The state needs %zu bytes, there is room for %zu.", state->size, size);
   memcpy(bytes, state->bytes, state->size);
   const uint32_t crc = ali3_crc32(bytes + CRC_START, state->size - CRC_START);
   memcpy(bytes + CRC_OFFSET, &crc, sizeof crc);
@@ -259,11 +268,11 @@ slave_status slave_state_write(slave *s, const slave_state *state, unsigned char
 }
 
 slave_status slave_state_read(slave *s, const unsigned char *bytes, size_t size, slave_state **state) {
-  const char *why = header_error(s, bytes, size);
+  const char *why = check_header(s, bytes, size);
   uint32_t crc = 0;
   if (size >= CRC_START) memcpy(&crc, bytes + CRC_OFFSET, sizeof crc);
   if (why == NULL && crc != ali3_crc32(bytes + CRC_START, size - CRC_START)) why = "they were altered";
-  if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
+  if (why != NULL) return slave_log(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
   if (allocate(s, size, state) != SLAVE_OK) return SLAVE_ERROR;
   memcpy((*state)->bytes, bytes, size);
   return SLAVE_OK;

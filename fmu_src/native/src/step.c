@@ -20,12 +20,12 @@ static void warn_step_size(slave *s, double n_inner, double h, double step) {
   if (warning <= s->calls.step_warned) return;
   s->calls.step_warned = warning;
   if (warning == SLAVE_SHORTER_STEPS)
-    slave_say(s, SLAVE_WARNING,
+    slave_log(s, SLAVE_WARNING,
               "The communication step %.6g s gives inner steps of %.6g s, while step_size is %.6g s; results will "
               "differ a little. This is reported once.",
               n_inner, h, step);
   else
-    slave_say(s, SLAVE_WARNING,
+    slave_log(s, SLAVE_WARNING,
               "The communication step %.6g s gives inner steps of %.6g s, while step_size is %.6g s; their errors are "
               "%.2g times as large. A step_size of %.6g s or less has shorter ones. This is reported once.",
               n_inner, h, step, (h / step) * (h / step), n_inner / ceil(n_inner / step));
@@ -43,12 +43,14 @@ static int64_t divide_step(slave *s, double time, double end, double *h) {
   return (int64_t)n;
 }
 
-static bool any_slope(const slave *s) {
+/* Whether an input has a derivative other than zero. */
+static bool has_slopes(const slave *s) {
   for (size_t i = 0; i < slave_the_table.n_known * SLAVE_TERMS; i++)
     if (s->slope[i] != 0.0) return true;
   return false;
 }
 
+/* Passes the values set since the last step to the kernel. */
 static ali3_status apply_pending(slave *s) {
   const slave_table *t = &slave_the_table;
   ali3_status status = ALI3_OK;
@@ -75,7 +77,7 @@ static ali3_status advance(slave *s, int64_t *n_inner, double h, double *largest
   *largest_residual = 0.0;
   if (status != ALI3_OK) return status;
   if (s->request_inputs != NULL || s->early_return) return slave_intermediate_steps(s, n_inner, h, largest_residual);
-  if (!any_slope(s)) {
+  if (!has_slopes(s)) {
     status = n == 1 ? ali3_step(kernel, h) : ali3_run(kernel, h, n, NULL, 1, NULL, NULL, NULL);
     *largest_residual = ali3_capped_residual(kernel);
     return status;
@@ -96,7 +98,7 @@ static void store_completed(slave *s, int64_t n, double h) {
   f->snapshot = swapped;
   s->completed.n = n;
   s->completed.h = h;
-  s->completed.sloped = any_slope(s) || s->intermediate.n > 0;
+  s->completed.sloped = has_slopes(s) || s->intermediate.n > 0;
   if (s->completed.sloped) memcpy(s->completed_slope, s->slope, slave_the_table.n_known * SLAVE_TERMS * sizeof(double));
 }
 
@@ -113,20 +115,20 @@ static void forget_slopes(slave *s) {
 /* Whether the times of a step are valid; if not, an error is logged. */
 static bool check_step(slave *s, double time, double step, double now) {
   if (!(fabs(time) < HUGE_VAL && step > 0.0 && step < HUGE_VAL))
-    slave_say(s, SLAVE_ERROR, "A step from %g s over %g s: a finite time and a positive step are needed.", time, step);
+    slave_log(s, SLAVE_ERROR, "A step from %g s over %g s: a finite time and a positive step are needed.", time, step);
   else if (fabs(time - now) > TIME_TOLERANCE)
-    slave_say(s, SLAVE_ERROR, "The step starts at %.10g s, but this instance stands at %.10g s.", time, now);
+    slave_log(s, SLAVE_ERROR, "The step starts at %.10g s, but this instance stands at %.10g s.", time, now);
   else if (time + step > s->calls.stop_time + TIME_TOLERANCE)
-    slave_say(s, SLAVE_ERROR, "The step from %g s over %g s goes beyond the stop time %g s.", time, step,
+    slave_log(s, SLAVE_ERROR, "The step from %g s over %g s goes beyond the stop time %g s.", time, step,
               s->calls.stop_time);
   else if (step / s->value[s->step_reference] > slave_steps_left(s))
-    slave_say(
+    slave_log(
         s, SLAVE_ERROR,
         "The step of %g s has more than %g inner steps of %g s, and a step that has begun cannot be cancelled; take "
         "shorter communication steps.",
         step, slave_steps_left(s), s->value[s->step_reference]);
   else if (!(time + step > time) || fabs(time) * DBL_EPSILON > CLOCK_TOLERANCE * s->value[s->step_reference])
-    slave_say(
+    slave_log(
         s, SLAVE_ERROR,
         "At %g s neighbouring floating-point times are %.2g s apart, too far for a step of %g s with inner steps of %g "
         "s; begin nearer to zero.",
@@ -136,6 +138,7 @@ static bool check_step(slave *s, double time, double step, double now) {
   return false;
 }
 
+/* Makes a communication step from `time`, s; if it fails the state before it is restored. */
 static slave_status try_step(slave *s, double time, double step) {
   char details[SLAVE_TEXT / 2];
   const double now = ali3_time(s->fidelity.kernel);
@@ -177,7 +180,7 @@ static slave_status try_step(slave *s, double time, double step) {
   s->calls.capped_residual = largest_residual;
   slave_forget_refusal(s);
   const slave_status warnings = slave_watch(s);
-  if (floor(OBSERVATIONS * ali3_time(s->fidelity.kernel)) != floor(OBSERVATIONS * now) && slave_outputs(s))
+  if (floor(OBSERVATIONS * ali3_time(s->fidelity.kernel)) != floor(OBSERVATIONS * now) && slave_compute_outputs(s))
     slave_half_steps_observe(s);
   return second_motion > warnings ? second_motion : warnings;
 }

@@ -7,24 +7,24 @@
 
 /* Writes the path of a road file; a name without a folder is one in the resources. False: the path is too long, and an
  * error was logged. */
-static bool path_of(slave *s, const char *name, const char *value, char *path) {
+static bool write_path(slave *s, const char *name, const char *value, char *path) {
   if (strchr(value, '/') == NULL && strchr(value, '\\') == NULL) {
     const int n = snprintf(path, SLAVE_PATH, "%s/roads/%s", s->resources, value);
     if (n >= 0 && n < SLAVE_PATH) return true;
   } else if (slave_path_of_uri(value, path, SLAVE_PATH)) {
     return true;
   }
-  slave_say(s, SLAVE_ERROR, "'%s': the path '%.128s...' is too long.", name, value);
+  slave_log(s, SLAVE_ERROR, "'%s': the path '%.128s...' is too long.", name, value);
   return false;
 }
 
 /* Loads the road of a text into a kernel. False: an error was logged and the kernel keeps its road. */
 static bool set_road(slave *s, ali3_instance *kernel, const slave_text *t, const char *value) {
   char path[SLAVE_PATH] = "", why[256];
-  if (value[0] != 0 && !path_of(s, t->name, value, path)) return false;
+  if (value[0] != 0 && !write_path(s, t->name, value, path)) return false;
   const ali3_status status = ali3_set_road(kernel, t->road, path, why, sizeof why);
   if (status == ALI3_OK) return true;
-  slave_say(s, SLAVE_ERROR, "'%s' cannot be '%.256s' (%.256s): %s.", t->name, value, path,
+  slave_log(s, SLAVE_ERROR, "'%s' cannot be '%.256s' (%.256s): %s.", t->name, value, path,
             why[0] != 0 ? why : ali3_status_text(status));
   return false;
 }
@@ -47,10 +47,11 @@ bool slave_texts_reset(slave *s) {
   return true;
 }
 
+/* Whether all references are text variables; if not, an error is logged. */
 static bool are_texts(slave *s, uint32_t first, const uint32_t *reference, size_t n) {
   for (size_t i = 0; i < n; i++)
     if (reference[i] < first || reference[i] - first >= slave_the_table.n_texts) {
-      slave_say(s, SLAVE_ERROR, "There is no text variable with value reference %u.", (unsigned)reference[i]);
+      slave_log(s, SLAVE_ERROR, "There is no text variable with value reference %u.", (unsigned)reference[i]);
       return false;
     }
   return true;
@@ -67,11 +68,11 @@ slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference,
   for (size_t i = 0; i < n; i++) {
     const char *name = slave_the_table.text[reference[i] - first].name;
     if (!(s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)))
-      return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s; it is a fixed parameter.", name,
+      return slave_log(s, SLAVE_ERROR, "'%s' cannot be set %s; it is a fixed parameter.", name,
                        slave_phase_name(s->calls.phase));
-    if (value[i] == NULL) return slave_say(s, SLAVE_ERROR, "'%s' was set to no text at all.", name);
+    if (value[i] == NULL) return slave_log(s, SLAVE_ERROR, "'%s' was set to no text at all.", name);
     if (strlen(value[i]) >= SLAVE_MAX_TEXT)
-      return slave_say(s, SLAVE_ERROR, "'%s' was set to a text of %zu bytes; at most %d are taken.", name,
+      return slave_log(s, SLAVE_ERROR, "'%s' was set to a text of %zu bytes; at most %d are taken.", name,
                        strlen(value[i]), SLAVE_MAX_TEXT - 1);
   }
   for (size_t i = 0; i < n; i++)
@@ -94,20 +95,19 @@ slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference,
 
 static const double REST_SPEED = 0.01; /* m/s */
 
-/* Warnings after the start: on a road from a file, of a start that has not settled, of parameters without effect. */
 void slave_texts_warn(slave *s) {
   char text[SLAVE_TEXT / 2];
   if (ali3_start_text(s->fidelity.kernel, text, sizeof text) == ALI3_OK && text[0] != 0)
-    slave_say(s, SLAVE_WARNING,
+    slave_log(s, SLAVE_WARNING,
               "%s With 'initial.settling' of 3 it begins at rest in the road, or in its motion along it.", text);
   if (ali3_unsettled(s->fidelity.kernel) > REST_SPEED)
-    slave_say(s, SLAVE_WARNING,
+    slave_log(s, SLAVE_WARNING,
               "The start has not settled: parts still move at %.1g m/s; 'initial.settling' should be longer.",
               ali3_unsettled(s->fidelity.kernel));
   for (size_t i = 0; i < slave_the_table.n_known; i++) {
     const slave_variable *v = &slave_the_table.variable[i];
     if (s->value[i] != v->start && slave_has_no_effect(s, v))
-      slave_say(s, SLAVE_WARNING, "'%s' is %.10g%s, without effect: it is of the built-in road.", v->name, s->value[i],
+      slave_log(s, SLAVE_WARNING, "'%s' is %.10g%s, without effect: it is of the built-in road.", v->name, s->value[i],
                 v->unit);
   }
 }

@@ -10,8 +10,6 @@ static const double STABLE =
     0.85; /* of the step at which a wheel becomes unstable; measured, see docs/decisions/0225 */
 enum { HUB_SIZE = 6 }; /* force and moment */
 
-/* Replaces invalid normals before a step or a start by the last ones of the kernel, at a start by those of the
- * table. */
 void slave_hold_normals(slave *s) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i + 2 < t->n_known; i++) {
@@ -21,12 +19,12 @@ void slave_hold_normals(slave *s) {
       held[k] = t->variable[i + k].start;
       if (s->calls.initialised) ali3_get_input(s->fidelity.kernel, t->variable[i + k].index, &held[k]);
     }
-    if (!(s->said[i] & SLAVE_HELD_NORMAL))
-      slave_say(s, SLAVE_WARNING,
+    if (!(s->input_flags[i] & SLAVE_HELD_NORMAL))
+      slave_log(s, SLAVE_WARNING,
                 "The normal of the road '%s' and its neighbours was set to (%g, %g, %g); it must be a unit vector that "
                 "points up, and the last one, (%g, %g, %g), is held. This is reported once.",
                 t->variable[i].name, n[0], n[1], n[2], held[0], held[1], held[2]);
-    s->said[i] |= SLAVE_HELD_NORMAL;
+    s->input_flags[i] |= SLAVE_HELD_NORMAL;
     for (size_t k = 0; k < 3; k++) {
       n[k] = held[k];
       for (size_t order = 0; order < SLAVE_TERMS; order++) s->slope[(i + k) * SLAVE_TERMS + order] = 0.0;
@@ -34,8 +32,6 @@ void slave_hold_normals(slave *s) {
   }
 }
 
-/* After ALI3_BAD_NORMAL: writes the port whose normal became invalid by its derivatives, from the inputs of the inner
- * step in s->direction. */
 void slave_bad_normal_text(const slave *s, char *text, size_t size) {
   const slave_table *t = &slave_the_table;
   text[0] = 0;
@@ -53,6 +49,7 @@ void slave_bad_normal_text(const slave *s, char *text, size_t size) {
   }
 }
 
+/* Warns of an answer for a point far from its wheel. */
 static void check_answer(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   double square = 0.0;
@@ -61,8 +58,8 @@ static void check_answer(slave *s, size_t i) {
     square += gap * gap;
   }
   if (!(square > FAR_AWAY * FAR_AWAY)) return;
-  s->said[i] |= SLAVE_FAR;
-  slave_say(s, SLAVE_WARNING,
+  s->input_flags[i] |= SLAVE_FAR;
+  slave_log(s, SLAVE_WARNING,
             "At %.6g s the last answer on the road at '%s' holds for the point (%.6g, %.6g, %.6g), %.3g m from its "
             "wheel; the road is taken to go on as a plane from there. This is reported once.",
             ali3_time(s->fidelity.kernel), v->name, s->value[i], s->value[i + 1], s->value[i + 2], sqrt(square));
@@ -105,9 +102,9 @@ static double path_under(slave *s, size_t hub, double speed, double changed, dou
   slave_rhythm *r = &s->rhythm[hub];
   bool loaded = false;
   for (size_t k = 0; k < HUB_SIZE; k++) loaded = loaded || s->value[hub + k] != 0.0;
-  r->way = loaded ? (changed >= r->seen ? 0.0 : r->way) + speed * (time - fmax(r->seen, changed)) : 0.0;
+  r->path = loaded ? (changed >= r->seen ? 0.0 : r->path) + speed * (time - fmax(r->seen, changed)) : 0.0;
   r->seen = time;
-  return r->way;
+  return r->path;
 }
 
 /* Warns of forces on a hub that are constant for too long, which make its wheel unstable. The first step has no
@@ -120,16 +117,16 @@ static void check_hub(slave *s, size_t i) {
   const double delayed = stable_step(v, speed, has_slopes, true), time = ali3_time(s->fidelity.kernel);
   double held;
   const double changed = last_change(s, i, step, &held), path = path_under(s, i, speed, changed, time);
-  if (!has_slopes && path > FAR_AWAY && !(s->said[i] & SLAVE_JUMPED)) {
-    s->said[i] |= SLAVE_JUMPED;
-    slave_say(s, SLAVE_WARNING,
+  if (!has_slopes && path > FAR_AWAY && !(s->input_flags[i] & SLAVE_JUMPED)) {
+    s->input_flags[i] |= SLAVE_JUMPED;
+    slave_log(s, SLAVE_WARNING,
               "At %.6g s force and moment on the hub at '%s' are those of %.6g s, and its wheel went %.3g m since, on "
               "which those of a tyre change; another program must set them at every step. This is reported once.",
               time, v->name, changed, path);
   }
-  if (s->said[i] & SLAVE_FAR || !(held > 1.001 * delayed) || time - s->calls.start_time < 1.5 * step) return;
-  s->said[i] |= SLAVE_FAR;
-  slave_say(s, SLAVE_WARNING,
+  if (s->input_flags[i] & SLAVE_FAR || !(held > 1.001 * delayed) || time - s->calls.start_time < 1.5 * step) return;
+  s->input_flags[i] |= SLAVE_FAR;
+  slave_log(s, SLAVE_WARNING,
             "At %.6g s the wheel at '%s' moves at %.3g m/s and its forces come every %g s: those of a tyre like the "
             "one left out that %s for longer than %.2g ms may shake it, where all programs step at once for longer "
             "than %.2g ms. Take shorter communication steps%s. This is reported once.",
@@ -138,13 +135,12 @@ static void check_hub(slave *s, size_t i) {
             held > 1.5 * step ? ", also in the program of the tyre" : "");
 }
 
-/* Called after the outputs are computed. */
 void slave_watch_answers(slave *s) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i + 2 < t->n_known && s->completed.n > 0; i++) {
     const slave_variable *v = &t->variable[i];
     if (v->other < 0) continue;
-    if (v->role == SLAVE_ANSWER && !(s->said[i] & SLAVE_FAR)) check_answer(s, i);
+    if (v->role == SLAVE_ANSWER && !(s->input_flags[i] & SLAVE_FAR)) check_answer(s, i);
     if (v->role == SLAVE_HUB) check_hub(s, i);
   }
 }

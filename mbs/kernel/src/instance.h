@@ -26,7 +26,7 @@ struct ali3_instance {
 
   ali3_clock clock; /* state */
   ali3_vectors now, next;
-  ali3_kept_states kept;
+  ali3_stored_states stored;
   ali3_report report;
 
   ali3_rule rule; /* the step */

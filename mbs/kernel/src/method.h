@@ -26,10 +26,11 @@ typedef struct {
   bool balance_decides;
   bool (*has_guides_work)(const ali3_instance *in); /* whether its steps measure the work of guides; NULL: never */
   /* ALI3_OK, or a status if it does not accept the System; NULL: it accepts all. */
-  ali3_status (*takes)(const ali3_instance *in);
+  ali3_status (*check_system)(const ali3_instance *in);
   const char *excludes; /* what it does not accept in a System, for messages; NULL: it accepts all */
-  /* Complete in->now after steps of which nothing was read, and after those of which sensors were read. */
+  /* Completes in->now after steps of which nothing was read. */
   void (*after_unobserved)(ali3_instance *in);
+  /* The same after steps of which sensors were read. */
   void (*after_sampled)(ali3_instance *in);
   int32_t owner; /* ALI3_METHOD_* in the history of the state after its steps: its own, or a shared one */
   bool relative; /* its steps are in relative coordinates: in->next is not a copy and is filled when it is read */
@@ -44,10 +45,12 @@ typedef struct {
 ALI3_METHODS(ALI3_METHOD_DECLARED)
 #undef ALI3_METHOD_DECLARED
 
-/* The method of the settings; whether it accepts the System; whether its steps end with ali3_energy_watch; order of its
- * steps. */
+/* The method of the settings. */
 const ali3_method *ali3_method_of(const ali3_instance *in);
+/* ALI3_OK, or a status if the method does not accept the System. */
 ali3_status ali3_check_method(const ali3_instance *in);
+/* Whether its steps end with ali3_energy_watch. */
 bool ali3_has_balance(const ali3_instance *in);
+/* Order of convergence of its steps. */
 int32_t ali3_method_order(const ali3_instance *in);
 #endif

@@ -64,7 +64,6 @@ double ali3_cos(double x) { return sine_of(x, 1); }
 /* Nearest integer, even at halves, by adding a number whose last bit is one. */
 static double nearest(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
-/* After k quarter turns are removed, with k = 2 h + d and d -1, 0 or 1, (-1)^h is the sign. */
 void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine) {
 #if defined(__clang__)
 #pragma clang loop vectorize(assume_safety) interleave(disable)

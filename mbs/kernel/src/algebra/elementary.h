@@ -3,11 +3,12 @@
 #ifndef ALI3_ELEMENTARY_H
 #define ALI3_ELEMENTARY_H
 
-double ali3_sin(double x);
+double ali3_sin(double x); /* x in rad, as in all of them */
 double ali3_cos(double x);
 double ali3_exp(double x);
 double ali3_tanh(double x);
 double ali3_atan2(double y, double x);
 double ali3_asin(double x);
-void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine); /* for n angles, rad, without branches */
+/* Sines and cosines of n angles without branches. */
+void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine);
 #endif

@@ -47,7 +47,6 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
   return ALI3_OK;
 }
 
-/* Fills the upper triangles from the lower ones. */
 void ali3_mirror(const ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {

@@ -1,5 +1,5 @@
-/* Loops over contiguous numbers in vectors of two or four, and dot products. Element-wise loops give the bits of a
- * scalar loop; sums have the order stated at each function, the same for one instance and for lanes. */
+/* Loops over contiguous numbers in vectors of two or four. Element-wise loops give the bits of a scalar loop; sums have
+ * the order that each function states, the same for one instance and for lanes. */
 #ifndef ALI3_NUMBER_PAIRS_H
 #define ALI3_NUMBER_PAIRS_H
 #include <stdbool.h>
@@ -28,14 +28,13 @@
 #define ALI3_BY_FOURS
 #endif
 
-/* Whether n ascending indices are consecutive, as indices of modes mostly are. */
-static inline bool ali3_are_consecutive(const int32_t *place, int32_t n) {
+/* Whether n ascending indices are consecutive, as those of modes mostly are. */
+static inline bool ali3_consecutive(const int32_t *place, int32_t n) {
   return n > 0 && place[n - 1] - place[0] == n - 1;
 }
 
-/* Index at which to begin the computation of a column of a front, of length n, whose entries from `from` on are needed:
- * the last one <= from with a multiple of four entries to the end, or `from` if that is negative. The up to three
- * entries above the diagonal are computed and never read. */
+/* First entry of a column of length n to compute for the entries from `from` on, so that their number is a multiple of
+ * four: up to three entries above the diagonal are computed and never read. `from` itself if there are fewer. */
 static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
@@ -46,7 +45,7 @@ static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 #endif
 }
 
-/* ali3_by_fours for from >= 3, where the result is never negative. */
+/* The same for `from` >= 3, without the comparison. */
 static inline int64_t ali3_by_fours_unclipped(int64_t from, int64_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
@@ -105,14 +104,14 @@ static inline void ali3_copy(real *restrict y, const real *restrict x, int64_t n
   for (int64_t i = 0; i < n; i++) y[i] = x[i];
 }
 
-/* y -= a x + b z, of vectors x, y, z */
+/* y -= a x + b z */
 static inline void ali3_subtract_two_multiples(real *restrict y, const real *restrict x, real a, const real *restrict z,
                                                real b, int64_t n) {
   ALI3_EACH(0, n, ALI3_AT(y) -= ALI3_AT(x) * a + ALI3_AT(z) * b)
 }
 
-/* Dot product of x and y in two alternating sums, so that additions are pipelined. In separate loops: a vector load of y[0], which back
- * substitution has just written alone, would wait for the cache. */
+/* Dot product in two alternating sums, so that additions are pipelined. In separate loops: a vector load of y[0], which
+ * back substitution has just written alone, would wait for the cache. */
 static inline real ali3_product_in_two(const real *restrict x, const real *restrict y, int64_t n) {
   real even = {0}, odd = {0};
   ALI3_SHORT
@@ -123,8 +122,8 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 }
 
 #ifndef ALI3_WIDTH
-/* Dot product of x and y in four sums, from the end to the start: the first entries, which back substitution has found
- * last, enter the last additions. */
+/* Dot product in four sums, from the end to the start: the first entries, which back substitution has found last, enter
+ * the last additions. */
 static inline double ali3_product_backward(const double *restrict x, const double *restrict y, int64_t n) {
   ali3_four sum = {0};
   int64_t i = n;
@@ -136,9 +135,9 @@ static inline double ali3_product_backward(const double *restrict x, const doubl
   return all;
 }
 
-#define ali3_numbers_product_backward ali3_product_backward /* with lanes: of x that is the same for all of them */
+#define ali3_shared_product_backward ali3_product_backward /* x: the same numbers in all lanes */
 
-/* Dot product of x + z and y in the same order. */
+/* Dot product of x + z with y in the same order. */
 static inline double ali3_sum_product_backward(const double *restrict x, const double *restrict z,
                                                const double *restrict y, int64_t n) {
   ali3_four sum = {0};
@@ -164,11 +163,10 @@ static inline double ali3_sum_product_backward(const double *restrict x, const d
     while (i-- > 0) all += term(i);                                                                                    \
     return all;                                                                                                        \
   }
-#define ALI3_PRODUCT(i) (x[i] * y[i])
-#define ALI3_SUM_PRODUCT(i) ((x[i] + z[i]) * y[i])
+#define ALI3_PRODUCT(i) x[i] * y[i]
+#define ALI3_SUM_PRODUCT(i) (x[i] + z[i]) * y[i]
 ALI3_BACKWARD(ali3_product_backward, (const real *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
-ALI3_BACKWARD(ali3_numbers_product_backward, (const double *restrict x, const real *restrict y, int64_t n),
-              ALI3_PRODUCT)
+ALI3_BACKWARD(ali3_shared_product_backward, (const double *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
 ALI3_BACKWARD(ali3_sum_product_backward,
               (const real *restrict x, const double *restrict z, const real *restrict y, int64_t n), ALI3_SUM_PRODUCT)
 #endif
@@ -190,13 +188,13 @@ static inline real ali3_largest(const real *x, int64_t n) {
   return most;
 }
 
-/* sum + dot product of x and y, three components of a point or a direction each. */
+/* sum plus the dot product of three components of a point or a direction. */
 static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
   return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/* Three numbers in registers: of one instance as a vector of four, whose last number is the next one in memory. It may
- * be read, as all arrays passed here have one number more (`ali3_pool_padded`), and is not used. */
+/* Three numbers in registers: of one instance a vector of four, whose last number is the next one in memory. It is read
+ * and not used, so that arrays passed here have one number more (`ali3_pool_padded`). */
 #ifdef ALI3_WIDTH
 typedef struct {
   real x, y, z;
@@ -213,7 +211,7 @@ static inline void ali3_three_add(ali3_three *to, const real *x, real a) {
   to->z += a * x[2];
 }
 
-/* to[i] += a[i] x[i] */
+/* to += a[i] x[i] */
 static inline void ali3_three_add_each(ali3_three *to, const double *a, const real *x) {
   to->x += a[0] * x[0];
   to->y += a[1] * x[1];
@@ -224,7 +222,7 @@ static inline void ali3_three_put(real *to, const ali3_three *a) { to[0] = a->x,
 
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { to->x += a->x, to->y += a->y, to->z += a->z; }
 
-/* sum + dot product of a and x */
+/* sum + a . x */
 static inline real ali3_three_sum(real sum, const ali3_three *a, const real *x) {
   return sum + a->x * x[0] + a->y * x[1] + a->z * x[2];
 }
@@ -250,7 +248,7 @@ static inline double ali3_three_sum(double sum, const ali3_three *a, const doubl
 }
 #endif
 
-/* sum + dot product of three entries of a row of Phi_q, for a point, and its coordinates. */
+/* sum plus the dot product of the components of a point in Phi_q and in coordinates. */
 static inline real ali3_points_sum(real sum, const real *x, const real *y) {
 #ifdef ALI3_WIDTH
   return ali3_triple_sum(sum, x, y);

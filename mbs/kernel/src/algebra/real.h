@@ -27,18 +27,23 @@
 typedef double real __attribute__((vector_size(8 * ALI3_WIDTH)));
 typedef int64_t truth __attribute__((vector_size(8 * ALI3_WIDTH)));
 
+/* The same number in all lanes. */
 static inline real ali3_same(double x) { return (real){0} + x; }
+/* a where c holds, otherwise b. */
 static inline real ali3_where(truth c, real a, real b) { return (real)((c & (truth)a) | (~c & (truth)b)); }
+/* x where c holds, otherwise x + y. */
 static inline real ali3_add_unless(truth c, real x, real y) { return ali3_where(c, x, x + y); }
 static inline truth ali3_not(truth c) { return ~c; }
 static inline real ali3_abs(real x) { return (real)((truth)x & INT64_MAX); }
 
+/* Whether c holds in a lane. */
 static inline bool ali3_any(truth c) {
   int64_t any = 0;
   for (int l = 0; l < ALI3_WIDTH; l++) any |= c[l];
   return any != 0;
 }
 
+/* Whether the sign bit is set, also of -0 and NaN. */
 static inline truth ali3_negative(real x) { return (truth)x < 0; }
 
 static inline real ali3_sqrt(real x) {
@@ -71,12 +76,16 @@ static inline real ali3_floor(real x) {
 typedef double real;
 typedef bool truth;
 
+/* The same number in all lanes. */
 static inline real ali3_same(double x) { return x; }
 #define ali3_where(c, a, b) ((c) ? (a) : (b)) /* the other value is not evaluated: it may divide by zero */
+/* x where c holds, otherwise x + y. */
 static inline real ali3_add_unless(truth c, real x, real y) { return c ? x : x + y; }
 static inline truth ali3_not(truth c) { return !c; }
 static inline real ali3_abs(real x) { return fabs(x); }
+/* Whether c holds in a lane. */
 static inline bool ali3_any(truth c) { return c; }
+/* Whether the sign bit is set, also of -0 and NaN. */
 static inline truth ali3_negative(real x) { return signbit(x); }
 static inline real ali3_sqrt(real x) { return sqrt(x); }
 static inline real ali3_floor(real x) { return floor(x); }

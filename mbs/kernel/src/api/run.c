@@ -28,7 +28,7 @@ static ali3_status finish_start(ali3_instance *in, ali3_status status, double t0
   if (ali3_roads_status(in) != ALI3_OK) status = ALI3_ROAD_LOST;
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    ali3_vectors_copy(in, &in->now, &in->kept.start);
+    ali3_vectors_copy(in, &in->now, &in->stored.start);
     in->report.failures++;
     return status;
   }
@@ -39,7 +39,7 @@ static ali3_status finish_start(ali3_instance *in, ali3_status status, double t0
   in->branch.known = false;
   in->start.to_lift = false;
   in->start.initialised = 1;
-  ali3_balance_open(in, ali3_has_balance(in));
+  ali3_balance_start(in, ali3_has_balance(in));
   ali3_energy_trend(in, ali3_has_balance(in));
   return ALI3_OK;
 }
@@ -52,7 +52,7 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   in->report = empty;
   in->start.unsettled = 0.0;
   ali3_roads_clear_read_errors(in);
-  ali3_vectors_copy(in, &in->kept.start, &in->now);
+  ali3_vectors_copy(in, &in->stored.start, &in->now);
   ali3_status status = ali3_roads_normals(in);
   if (status == ALI3_OK) status = ali3_start_in_equilibrium(in, t0);
   if (status == ALI3_OK) ali3_start_on_road(in);
@@ -70,7 +70,7 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
   if (in == NULL || !(t0 - t0 == 0.0) || !(tolerance > 0.0) || max_iterations < 1) return ALI3_BAD_ARGUMENT;
   in->report = empty;
   ali3_roads_clear_read_errors(in);
-  ali3_vectors_copy(in, &in->kept.start, &in->now);
+  ali3_vectors_copy(in, &in->stored.start, &in->now);
   ali3_start_on_road(in);
   return finish_start(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
 }
@@ -98,7 +98,7 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   ali3_held_motion held_motion;
   ali3_status status = ali3_check_method(in);
   if (status != ALI3_OK || !(steps > 0.0)) return status;
-  if (!(steps <= MAX_SETTLING_STEPS) || !ali3_hold(in, &held_motion)) return ALI3_BAD_ARGUMENT;
+  if (!(steps <= MAX_SETTLING_STEPS) || !ali3_measure_held_motion(in, &held_motion)) return ALI3_BAD_ARGUMENT;
   if (ali3_lower_to_road(in)) status = ali3_refresh(in);
   ali3_follow_slope(in, &held_motion);
   h = duration / steps;
@@ -109,7 +109,7 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
     status = ali3_step(in, h);
     if (status != ALI3_OK) break;
     if (in->bound.work_left != NULL) *in->bound.work_left -= ALI3_SETTLING_WORK;
-    ali3_put_back(in, &held_motion, ali3_kept_velocity(&held_motion, h, (double)k / steps));
+    ali3_restore_motion(in, &held_motion, ali3_velocity_factor(&held_motion, h, (double)k / steps));
     status = ali3_refresh(in);
   }
   if (status != ALI3_OK) {
@@ -120,7 +120,7 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   in->report = empty;
   in->start.unsettled = ali3_unsettled_speed(in, &held_motion);
   in->start.uneven = 0.0; /* elements above the road have come to rest */
-  ali3_vectors_copy(in, &in->kept.start, &in->now);
+  ali3_vectors_copy(in, &in->stored.start, &in->now);
   status = finish_start(in, ali3_solve_rates(in, true), t0);
   in->start.initialised = status == ALI3_OK;
   return status;
@@ -131,12 +131,12 @@ double ali3_unsettled(const ali3_instance *in) { return in != NULL ? in->start.u
 /* After a failed step in a run: restores the last state and completes it, as only `reading` of it was computed. */
 static ali3_status restore_last(ali3_instance *in, ali3_status status, ali3_reading reading) {
   const ali3_method *method = ali3_method_of(in);
-  ali3_vectors_copy(in, &in->kept.start, &in->now);
-  in->inputs.forces = in->kept.start.used; /* inputs of the last state, which may differ from the present ones */
+  ali3_vectors_copy(in, &in->stored.start, &in->now);
+  in->inputs.forces = in->stored.start.used; /* inputs of the last state, which may differ from the present ones */
   if (reading == ALI3_READ_NOTHING && method->after_unobserved != NULL) method->after_unobserved(in);
   if (reading != ALI3_READ_ALL && method->after_sampled != NULL) method->after_sampled(in);
   in->inputs.forces = in->inputs.set;
-  if (!ali3_finite(in->now.q, (int64_t)in->kept.n)) ali3_vectors_copy(in, &in->now, &in->kept.start);
+  if (!ali3_finite(in->now.q, (int64_t)in->stored.n)) ali3_vectors_copy(in, &in->now, &in->stored.start);
   return status;
 }
 

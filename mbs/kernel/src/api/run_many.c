@@ -35,7 +35,8 @@ struct ali3_many {
 
 int32_t ali3_widest_lanes(void) { return ali3_processor_lanes(); }
 
-static const ali3_lane_code *code_of(int32_t width) {
+/* Functions for a number of lanes that the processor has; NULL: none. */
+static const ali3_lane_code *lane_code(int32_t width) {
 #if defined(__x86_64__)
   if (width > 2) return width == 4 ? &ali3_code_lanes_4 : &ali3_code_lanes_8;
 #endif
@@ -57,7 +58,7 @@ ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out) 
   many->base = s;
   many->group.system = ali3_widest_system(s);
   many->group.width = width;
-  many->group.code = code_of(width);
+  many->group.code = lane_code(width);
   ali3_group_place(&many->group, block + sizeof *many);
   *out = many;
   return ALI3_OK;
@@ -85,7 +86,7 @@ static bool begin_lane(ali3_lane_group *g, int32_t l, const ali3_whole_step *ste
   const ali3_sizes *z = &g->system->size;
   ali3_vectors *from = &in->now, *to = &in->next;
   const double h = step->asked.h;
-  if (ali3_parted(in, step->asked.t, h)) return false;
+  if (ali3_is_divided(in, step->asked.t, h)) return false;
   in->parting.changed = -1.0;
   ali3_events_begin(in, step->asked.depth);
   if (ali3_divides_ahead(in, &step->asked) || fastest_turn(in) * h > MAX_TURN || !continues_method(in, h)) return false;
@@ -126,9 +127,9 @@ static ali3_status end_lane(ali3_lane_group *g, int32_t l, const ali3_whole_step
 
 /* Restores the start of the step and makes it with the instance alone. */
 static ali3_status step_alone(ali3_instance *in, const ali3_whole_step *step) {
-  if (in->kept.backed_up) ali3_vectors_copy(in, &in->now, &in->kept.start);
+  if (in->stored.backed_up) ali3_vectors_copy(in, &in->now, &in->stored.start);
   memcpy(in->inputs.set, in->inputs.from, (size_t)in->system->size.nu * sizeof(double));
-  in->kept.backed_up = false;
+  in->stored.backed_up = false;
   in->bound.capped = false;
   in->report = step->before;
   return ali3_advance(in, &step->asked);

@@ -13,7 +13,7 @@ ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) 
   if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
   const bool changed = settings->method != in->settings.method;
   in->settings = *settings;
-  if (in->start.initialised) ali3_balance_open(in, ali3_has_balance(in)); /* the last method may have had none */
+  if (in->start.initialised) ali3_balance_start(in, ali3_has_balance(in)); /* the last method may have had none */
   if (in->start.initialised && changed) ali3_work_reopen(in);
   return ALI3_OK;
 }

@@ -35,20 +35,20 @@ ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
     set_switch(in, number, on == 1);
     return ALI3_OK;
   }
-  ali3_vectors_copy(in, &in->kept.start, &in->now);
+  ali3_vectors_copy(in, &in->stored.start, &in->now);
   const double before = ali3_kinetic_energy(in);
   set_switch(in, number, on == 1);
   const ali3_status status = ali3_solve_rates(in, false);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    ali3_vectors_copy(in, &in->now, &in->kept.start);
+    ali3_vectors_copy(in, &in->now, &in->stored.start);
     in->report.failures++;
     return status;
   }
   in->report.energy_jump = ali3_kinetic_energy(in) - before;
   in->report.free_states = 0;
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
-  ali3_balance_open(in, ali3_has_balance(in));
+  ali3_balance_start(in, ali3_has_balance(in));
   return ALI3_OK;
 }
 

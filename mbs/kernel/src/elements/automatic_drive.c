@@ -87,6 +87,7 @@ static double torque(const double *p, double ratio, double throttle, double W, d
 /* Reals of the selector, which follow the ratios. */
 static const double *selector_reals(const ali3_element_args *a) { return a->real + a->integer[GEARS]; }
 
+/* -1, 0 or 1: reverse, neutral, drive. */
 static double selector_input(const ali3_element_args *a) { return a->input[a->integer[SELECTOR]]; }
 
 /* Fraction of the torque of a gear that its clutch transmits, 1 if it does not slip. */

@@ -25,6 +25,7 @@ real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *
 }
 
 #ifndef ALI3_WIDTH
+/* Conservative force at penetration x. */
 static double force_at(const ali3_contact_law *law, double x) {
   double slope = 0.0, energy = 0.0;
   return ali3_contact_force(law, x, &slope, &energy);

@@ -166,6 +166,7 @@ static void friction_force(ali3_element_args *a, const double local[3], const no
   ali3_add_outer(a->S, SIGNALS, a->wC * D * scale, across);
 }
 
+/* by_gradients: discrete gradients over a step. */
 static void evaluate_points(ali3_element_args *a, int by_gradients) {
   memset(a->y_new, 0, (size_t)a->nstate * sizeof(double));
   memset(a->out, 0, OUTPUTS * sizeof(double));

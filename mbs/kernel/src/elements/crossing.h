@@ -2,10 +2,10 @@
 #ifndef ALI3_CROSSING_H
 #define ALI3_CROSSING_H
 
-/* Share of a step: no division nearer to one of its ends. */
+/* Fraction of a step: it is not divided nearer to one of its ends. */
 #define ALI3_AT_END 0.01
 
-/* First fraction of a step of length h, from ALI3_AT_END to 1 - ALI3_AT_END, at which the cubic through the gaps and
- * their rates at both ends is zero; 1: none. */
+/* First fraction of a step of length h, s, from ALI3_AT_END to 1 - ALI3_AT_END, at which the cubic through the gaps, m,
+ * and their rates at both ends is zero; 1: none. */
 double ali3_crossing(double h, const double gap[2], const double rate[2]);
 #endif

@@ -12,16 +12,17 @@ typedef struct {
 /* Table with columns of n numbers one after the other at `real`. */
 ali3_cubic_table ali3_cubic_table_at(const double *real, int32_t n, int integral);
 
-/* y; adds to *integral, if that is not NULL, the integral from 0 to x. */
+/* y at x and its slope; adds the integral of y from 0 to x to *integral, unless that is NULL. */
 double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, double *integral);
 
-/* y with its first and second derivative. */
+/* y at x with its first and second derivative. */
 double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope, double *curvature);
 
 /* Mean of y from x0 to x1: the difference quotient of the integral, free of cancellation. */
 double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1);
 
-/* Whether x rises; whether the integrals belong to y. */
+/* Whether x rises. */
 int ali3_cubic_rises(const ali3_cubic_table *t);
+/* Whether the integrals belong to y. */
 int ali3_cubic_integrals_fit(const ali3_cubic_table *t);
 #endif

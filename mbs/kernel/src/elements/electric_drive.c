@@ -66,13 +66,14 @@ static double frame_rate(const ali3_element_args *a) {
 /* Mean angular velocity of both wheels relative to the frame, rad/s. */
 static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
 
-static double selector_of(const ali3_element_args *a) { return a->input[a->integer[1]]; }
+/* -1, 0 or 1: reverse, neutral, drive. */
+static double selector_input(const ali3_element_args *a) { return a->input[a->integer[1]]; }
 
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real;
   double engaged = 1.0;
   const int direction =
-      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_of(a), a->h / p[ENGAGE_TIME], &engaged) : 1;
+      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_input(a), a->h / p[ENGAGE_TIME], &engaged) : 1;
   const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
   torque m = {0.0, 0.0, 0u};
   if (direction != 0) {
@@ -98,7 +99,8 @@ static void evaluate(ali3_element_args *a) {
 }
 
 static void accept(ali3_element_args *a) {
-  if (a->nint > 1) ali3_selector_accept(a->y_new, selector_of(a), wheel_rate(a), a->real[ENGAGE_SPEED], !(a->h > 0.0));
+  if (a->nint > 1)
+    ali3_selector_accept(a->y_new, selector_input(a), wheel_rate(a), a->real[ENGAGE_SPEED], !(a->h > 0.0));
 }
 
 const ali3_element_type ali3_electric_drive = {

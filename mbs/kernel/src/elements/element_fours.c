@@ -18,7 +18,8 @@ typedef struct { /* numbers of four elements, as in ali3_element_args */
   real numbers[ALI3_FOUR_REALS], y_old[ALI3_FOUR_STATES], y_new[ALI3_FOUR_STATES], out[ALI3_FOUR_OUTPUTS];
 } four_numbers;
 
-static ali3_lane_road road_of(const ali3_instance *in, int32_t number, real *numbers, real *factor) {
+/* Road `number` as the same road of four discs; its numbers go to `numbers`, its factor on friction to *factor. */
+static ali3_lane_road load_road(const ali3_instance *in, int32_t number, real *numbers, real *factor) {
   double element_reals[ALI3_ROAD_NUMBERS], friction;
   ali3_lane_road road = {.numbers = numbers, .friction_factor = factor};
   const struct ali3_road *shared_road = ali3_fours_road(in, number, &road.type, element_reals, &friction);
@@ -28,6 +29,7 @@ static ali3_lane_road road_of(const ali3_instance *in, int32_t number, real *num
   return road;
 }
 
+/* Evaluates four elements e of one type with one law; to: work memory. */
 static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32_t e[ALI3_FOUR], four_numbers *to) {
   const ali3_system *S = in->system;
   const ali3_element_size *size = S->el_size + e[0];
@@ -56,7 +58,7 @@ static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32
   if (tangent) memset(to->S, 0, (size_t)(n * n) * sizeof *to->S);
   memcpy(integer, S->el_int + size->integer, (size_t)size->nint * sizeof *integer);
   ali3_lane_road road;
-  if (S->el_kind[e[0]]->depth != NULL) road = road_of(in, integer[0], numbers, &factor), integer[0] = 0;
+  if (S->el_kind[e[0]]->depth != NULL) road = load_road(in, integer[0], numbers, &factor), integer[0] = 0;
   ali3_element_args a = {.nsig = n,
                          .nreal = size->nreal,
                          .nint = size->nint,

@@ -10,7 +10,7 @@ enum { ALI3_FOUR = 4, ALI3_FOUR_REALS = 64, ALI3_FOUR_STATES = 8, ALI3_FOUR_OUTP
 void ali3_fours_derive(ali3_system *s);
 /* Evaluates the elements in fours, as ali3_elements_forces does one by one. */
 void ali3_fours_forces(ali3_instance *in, const ali3_force_call *call);
-/* A road of the instance, with its numbers by ali3_road_numbers. */
+/* A road of the instance, with its type and its numbers as by ali3_road_numbers. */
 const struct ali3_road *ali3_fours_road(const ali3_instance *in, int32_t number, int32_t *type, double *numbers,
                                         double *friction_factor);
 #endif

@@ -24,6 +24,7 @@ static inline real ali3_slider_slope(truth sticks, real D, real trial, real boun
 
 /* Pieces of the law of a slider: it sticks, or slips in one direction; none without friction. */
 enum { ALI3_STICKS = 1, ALI3_SLIPS_UP = 2, ALI3_SLIPS_DOWN = 4 };
+/* Adds the active piece to *piece. */
 static inline void ali3_slider_piece(uint32_t *piece, truth sticks, real trial, real bound) {
   const truth holds = bound > 0.0, slips = holds & ali3_not(sticks);
   ALI3_PIECE(piece, holds & sticks, ALI3_STICKS);

@@ -46,6 +46,7 @@ bool ali3_element_fits(const ali3_element_type *type, int32_t nsig, int32_t nrea
   return reals_fit && nstate == states && nout == type->nout;
 }
 
+/* NULL, or the sentence of the first integer outside its range. */
 static const char *check_integers(const ali3_element_type *type, const int32_t *integer, int32_t nint, int32_t n_inputs,
                                   int32_t n_roads) {
   for (int32_t i = 0; i < nint && i < type->nintegers; i++) {

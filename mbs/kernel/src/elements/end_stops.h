@@ -6,7 +6,7 @@
 
 #include "../algebra/real.h"
 
-/* Reals of stops; without the last eight they are linear. */
+/* Reals of stops (m, N/m, s/m); without the last eight they are linear. */
 enum {
   ALI3_BUMP_LENGTH,
   ALI3_BUMP_STIFFNESS,
@@ -20,7 +20,7 @@ enum {
   ALI3_STOP_LOSS
 };
 
-/* A tension: its elastic and dissipative parts, its slopes by length and rate, and its energy. */
+/* A tension, N: its elastic and dissipative parts, its slopes by length, N/m, and rate, N s/m, and its energy, J. */
 typedef struct {
   real elastic, lost;
   real stiffness, damping;
@@ -28,13 +28,13 @@ typedef struct {
   uint32_t piece; /* bits: bump stop, rebound stop in contact */
 } ali3_tension;
 
-/* Adds the tension of the stops at a length and its rate. */
+/* Adds the tension of the stops at a length, m, and its rate, m/s. */
 ALI3_PER_WIDTH void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t);
 
 /* Adds their mean over a step from length l0 to l1, with slopes by the length and rate in its middle. */
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t);
 
-/* Share of a step of size h at which a stop is met or left, from length and rate at both ends; 1: none is. */
+/* Fraction of a step of size h, s, at which a stop is met or left, from length and rate at both ends; 1: none is. */
 double ali3_end_stops_event(const double *p, const double length[2], const double rate[2], double h);
 
 /* Whether a length lies beyond a stop. */

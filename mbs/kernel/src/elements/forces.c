@@ -97,7 +97,6 @@ static void evaluate_signals(ali3_instance *in, const double *q, const double *q
   if (in->system->n_active > 0) ali3_active_signals(in, q, qd);
 }
 
-/* Evaluates the elements at the signals of the last `ali3_forces`. */
 void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals are not contiguous */
@@ -139,7 +138,6 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   if (!call->iterate) store_work_forces(in);
 }
 
-/* Adds the tangents of elements, and of flexible and tabled bodies with their changing mass, to the fronts. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->element.wC, in->element.wK, F);
   if (in->system->size.ne > 0) ali3_elements_tangent(in, F);
@@ -192,7 +190,6 @@ void ali3_elements_defect(ali3_instance *in, double h, bool lanes, const double 
   }
 }
 
-/* Makes discrete changes of element e after an accepted step, at its own signals. */
 void ali3_element_accept(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud) {
   double f[ALI3_MAX_SIGNALS] = {0.0};
   ali3_element_args a = common_arguments(in, call);

@@ -15,6 +15,7 @@
 #include "../instance.h"
 #include "lane_road.h"
 
+/* ali3_tanh in each lane. */
 static inline real lane_tanh(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_tanh(x[l]);
   return x;

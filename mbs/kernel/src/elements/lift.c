@@ -9,7 +9,7 @@ static void evaluate(ali3_element_args *a) {
   const int32_t n = a->nsig / 3;
   double relative[3];
   const double *velocity = a->nint > 0 ? relative : a->ud, *forward = a->u + n, *up = a->u + 2 * n;
-  if (a->nint > 0) ali3_over_air(a->input, a->integer, a->ud, relative);
+  if (a->nint > 0) ali3_relative_to_air(a->input, a->integer, a->ud, relative);
   const double factor = 0.5 * a->real[AIR_DENSITY] * a->real[LIFT_AREA];
   double v = 0.0;
   for (int32_t i = 0; i < n; i++) v += velocity[i] * forward[i];

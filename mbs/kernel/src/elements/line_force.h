@@ -7,9 +7,9 @@
 #define ALI3_MIN_LENGTH 1e-12 /* m; below it there is no direction and no force */
 
 typedef struct {
-  real length, rate;
-  real start, end; /* lengths over a step with a discrete gradient */
-  real dir[3];
+  real length, rate; /* m, m/s */
+  real start, end; /* m: lengths at both ends of a step with a discrete gradient */
+  real dir[3]; /* unit, from p1 to p2; zero below ALI3_MIN_LENGTH */
 } ali3_line;
 
 /* The line at u, ud. */
@@ -47,7 +47,7 @@ static inline ali3_line ali3_line_between(const ali3_element_args *a) {
 }
 #endif
 
-/* Adds forces and tangent of a tension with its slopes by length and rate. */
+/* Adds forces and tangent of a tension, N, with its slopes by length, N/m, and rate, N s/m. */
 static inline void ali3_line_force(ali3_element_args *a, const ali3_line *line, real tension, real stiffness,
                                    real damping) {
   const int32_t n = a->nsig;

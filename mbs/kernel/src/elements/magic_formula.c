@@ -21,6 +21,7 @@ typedef struct {
   double v, k, t;
 } dual;
 
+/* Functions of dual numbers; chain: a function with value v and slope at x. */
 static dual constant(double v) { return (dual){v, 0.0, 0.0}; }
 static dual chain(dual x, double v, double slope) { return (dual){v, slope * x.k, slope * x.t}; }
 static dual add(dual a, dual b) { return (dual){a.v + b.v, a.k + b.k, a.t + b.t}; }
@@ -31,6 +32,7 @@ static dual arctan(dual x) { return chain(x, ali3_atan2(x.v, 1.0), 1.0 / (1.0 + 
 static dual sine(dual x) { return chain(x, ali3_sin(x.v), ali3_cos(x.v)); }
 static dual cosine(dual x) { return chain(x, ali3_cos(x.v), -ali3_sin(x.v)); }
 
+/* 1 for x = 0. */
 static double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
 static double at_most_one(double e) { return e < 1.0 ? e : 1.0; }
 static double at_least_min_factor(double x) { return x > MIN_FACTOR ? x : MIN_FACTOR; }
@@ -42,6 +44,7 @@ static dual magic_argument(dual B, double C, double E, dual x) {
   return scale(arctan(add(scale(z, 1.0 - E), scale(arctan(z), E))), C);
 }
 
+/* cos(atan(x)) */
 static dual cos_atan(dual x) {
   const double size2 = 1.0 + x.v * x.v, value = 1.0 / sqrt(size2);
   return chain(x, value, -x.v * value / size2);
@@ -67,6 +70,7 @@ typedef struct {
   double sliding_factor; /* on friction by the sliding speed, 4.E7 */
 } operating_point;
 
+/* Quantities that both directions use. */
 static operating_point make_operating_point(const ali3_magic_state *s) {
   const double *c = s->c, nominal = s->nominal_load * c[ALI3_MF_LFZO];
   const bool is_mf6 = s->version >= ALI3_MAGIC_61;

@@ -122,13 +122,13 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
   }
   if (grips) { a->piece |= limit(f.peak, f.F, r.F, J, safe); }
   if (bore) {
-    const ali3_tyre_held friction = {.slope = f.cornering * (1.0 - ali3_tyre_moving(fabs(m->travel[0]))),
-                                     .most = grips ? f.peak[1] : 0.0,
-                                     .transport = ali3_hypot(m->travel[0], ALI3_TYRE_SLOW),
-                                     .slip = ali3_hypot(m->v[0], m->v[1]),
-                                     .force = ali3_hypot(r.F[0], r.F[1]),
-                                     .steady = ali3_hypot(f.F[0], f.F[1]),
-                                     .use = fmin(ali3_hypot(r.F[0] / f.peak[0], r.F[1] / f.peak[1]), 1.0)};
+    const ali3_tyre_horizontal_force friction = {.slope = f.cornering * (1.0 - ali3_tyre_moving(fabs(m->travel[0]))),
+                                                 .most = grips ? f.peak[1] : 0.0,
+                                                 .transport = ali3_hypot(m->travel[0], ALI3_TYRE_SLOW),
+                                                 .slip = ali3_hypot(m->v[0], m->v[1]),
+                                                 .force = ali3_hypot(r.F[0], r.F[1]),
+                                                 .steady = ali3_hypot(f.F[0], f.F[1]),
+                                                 .use = fmin(ali3_hypot(r.F[0] / f.peak[0], r.F[1] / f.peak[1]), 1.0)};
     const double remaining = ali3_tyre_bore_step(a, bore, &friction);
     for (int i = 0; i < 2; i++) {
       r.F[i] *= remaining;

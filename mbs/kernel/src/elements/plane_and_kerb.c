@@ -8,7 +8,8 @@
 
 #define FLATTEST 0.05 /* least cosine at an edge, as it is a divisor */
 
-static int plane(const real *p, const real centre[3], const real axis[3], real radius, ali3_contact *out) {
+/* Contact with a plane. */
+static int find_plane_contact(const real *p, const real centre[3], const real axis[3], real radius, ali3_contact *out) {
   const real size = ali3_sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
   const real none = {0}, n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
              q[3] = {none, none, p[PLANE_HEIGHT]};
@@ -78,7 +79,8 @@ static int kerb(const real *p, const real centre[3], const real axis[3], real ra
 
 int ali3_plane_or_kerb_contacts(int32_t type, const real *p, real friction_factor, const real centre[3],
                                 const real axis[3], real radius, ali3_contact out[2]) {
-  const int count = type == ALI3_ROAD_PLANE ? plane(p, centre, axis, radius, out) : kerb(p, centre, axis, radius, out);
+  const int count =
+      type == ALI3_ROAD_PLANE ? find_plane_contact(p, centre, axis, radius, out) : kerb(p, centre, axis, radius, out);
   for (int i = 0; i < count; i++) {
     out[i].friction = ali3_friction_product(friction_factor, out[i].friction);
     out[i].yielded = out[i].switching = ali3_same(0.0);

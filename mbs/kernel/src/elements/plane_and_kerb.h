@@ -3,11 +3,12 @@
 #define ALI3_PLANE_AND_KERB_H
 #include "road.h"
 
-/* Indices into the numbers of a plane and a kerb, see road.h. */
+/* Indices into the numbers of a plane and a kerb: lengths in m, grades dz/dx and dz/dy, side 1 or -1, friction and its
+ * factor. */
 enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_FACTOR, PLANE_REALS };
 enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_FACTOR, KERB_REALS };
 
-/* ali3_road_contacts for types ALI3_ROAD_PLANE and ALI3_ROAD_KERB; p: numbers of the road, with lengths in m. */
+/* ali3_road_contacts for ALI3_ROAD_PLANE and ALI3_ROAD_KERB: writes one or two contacts and returns their number. */
 ALI3_PER_WIDTH int ali3_plane_or_kerb_contacts(int32_t type, const real *p, real friction_factor, const real centre[3],
                                                const real axis[3], real radius, ali3_contact out[2]);
 

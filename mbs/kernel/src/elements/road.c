@@ -64,8 +64,9 @@ static int grid_of(const ali3_road *road, ali3_grid *g) {
   return 1;
 }
 
-static int grid(const ali3_road *road, const double centre[3], const double axis[3], double radius,
-                ali3_contact out[2]) {
+/* Contacts with a grid in memory or in a file. */
+static int find_grid_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
+                              ali3_contact out[2]) {
   ali3_grid g;
   if (!grid_of(road, &g)) return 0;
   return ali3_disc_on_grid(&g, centre, axis, radius, out);
@@ -78,7 +79,7 @@ int ali3_road_contacts(const ali3_road *road, const double centre[3], const doub
   if (type == ALI3_ROAD_PORT) return ali3_port_contact(road, centre, axis, radius, out);
   if (type != ALI3_ROAD_GRID)
     return ali3_plane_or_kerb_contacts(type, reals_of(road), factor, centre, axis, radius, out);
-  const int count = grid(road, centre, axis, radius, out);
+  const int count = find_grid_contacts(road, centre, axis, radius, out);
   for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor, out[i].friction);
   return count;
 }

@@ -108,7 +108,6 @@ int ali3_port_contact(const ali3_road *road, const double centre[3], const doubl
   return 1;
 }
 
-/* An upper limit of the height within reach: a mean of planes is nowhere above the highest of them. */
 double ali3_port_top(const ali3_road *road, const double place[3], double reach) {
   double all[2], top = -INFINITY;
   slope_of_all(road, all);

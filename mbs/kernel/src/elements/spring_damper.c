@@ -5,6 +5,7 @@
 #include "line_force.h"
 #include "spring_damper_fields.h"
 
+/* Their data follow the others. */
 static int has_progressive_stops(int32_t nreal) { return nreal > SPRING_DAMPER_REALS; }
 
 static void evaluate(ali3_element_args *a) {

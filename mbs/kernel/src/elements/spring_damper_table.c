@@ -9,10 +9,12 @@
 #include "line_force.h"
 #include "spring_damper_table_fields.h"
 
+/* Tension, N, over the stretch, m, with energies. */
 static ali3_cubic_table spring_table(const double *real, const int32_t *integer) {
   return ali3_cubic_table_at(real + SPRING_DAMPER_TABLE_REALS, integer[SPRING_POINTS], 1);
 }
 
+/* Tension, N, over the rate, m/s. */
 static ali3_cubic_table damper_table(const double *real, const int32_t *integer) {
   const double *spring = real + SPRING_DAMPER_TABLE_REALS;
   const int32_t columns = spring_damper_table_integers[SPRING_POINTS].reals;
@@ -31,6 +33,7 @@ static double damper(const ali3_element_args *a, double rate, ali3_tension *t) {
   return factor * force;
 }
 
+/* Tension, stiffness and energy of the spring. */
 static void add_spring(const ali3_element_args *a, double stretch, ali3_tension *t) {
   const double *p = a->real, factor = p[STIFFNESS_FACTOR];
   double slope = p[STIFFNESS], force = slope * stretch, energy = 0.0;

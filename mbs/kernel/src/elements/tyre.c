@@ -89,13 +89,13 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
   limit(a, loaded, max_force, F, J, safe);
   if (bore) {
     const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(max_force[0] * F[0], max_force[1] * F[1]);
-    const ali3_tyre_held by = {.slope = q * ali3_tmeasy_at(p + TYRE_LATERAL, q, grip).slope,
-                               .most = ali3_where(loaded & grips, max_force[1], none),
-                               .transport = w,
-                               .slip = ali3_hypot(v[0], v[1]),
-                               .force = ali3_sqrt(size2),
-                               .steady = ali3_hypot(g[0] * v[0], g[1] * v[1]),
-                               .use = ali3_where(loaded & (bound > 0.0), size2 / bound, none)};
+    const ali3_tyre_horizontal_force by = {.slope = q * ali3_tmeasy_at(p + TYRE_LATERAL, q, grip).slope,
+                                           .most = ali3_where(loaded & grips, max_force[1], none),
+                                           .transport = w,
+                                           .slip = ali3_hypot(v[0], v[1]),
+                                           .force = ali3_sqrt(size2),
+                                           .steady = ali3_hypot(g[0] * v[0], g[1] * v[1]),
+                                           .use = ali3_where(loaded & (bound > 0.0), size2 / bound, none)};
     const real remaining = ali3_tyre_bore_step(a, bore, &by);
     for (int i = 0; i < 2; i++) {
       F[i] *= remaining;

@@ -13,7 +13,7 @@ ali3_tyre_bore ali3_tyre_bore_at(const ali3_element_args *a, const real *numbers
   return b;
 }
 
-real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_held *by) {
+real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_horizontal_force *by) {
   const real c = b->numbers[ALI3_BORE_STIFFNESS], d = b->numbers[ALI3_BORE_DAMPING], none = {0}, one = ali3_same(1.0);
   const truth grips = by->most > 0.0, sticks = by->force < by->steady;
   const real share = ali3_where(sticks, by->force / by->steady, one), share2 = share * share;

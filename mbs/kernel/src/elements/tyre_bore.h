@@ -36,8 +36,8 @@ typedef struct { /* horizontal force that acts with the moment */
   real transport, slip; /* m/s */
   real force, steady; /* magnitudes of the force and of the steady force at this slip, N */
   real use; /* utilisation of friction by the force, 0 to 1 */
-} ali3_tyre_held;
+} ali3_tyre_horizontal_force;
 
 /* One step: moment and new states. Returns the factor on the horizontal force by the shared friction. */
-ALI3_PER_WIDTH real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_held *by);
+ALI3_PER_WIDTH real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_horizontal_force *by);
 #endif

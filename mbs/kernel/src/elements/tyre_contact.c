@@ -20,6 +20,63 @@ static real weighted_mean(truth first, real mean, real old, real new, real total
   return ali3_where(first, ali3_same(0.0), old / total * mean) + load / total * new;
 }
 
+/* Radial law of a tyre at one contact. */
+typedef struct {
+  real depth, effective_depth; /* m; that of a degressive spring ends where its force is largest */
+  real bottoming_depth, bottoming; /* m beyond the bottoming radius; N/m, 0 above it */
+  real ramp, share; /* 0 to 1: of the damping; of the load, borne by this contact */
+  real spring, force; /* N: of the spring alone; against the gradient of the depth */
+  truth softened; /* the spring is beyond its largest force */
+} radial_law;
+
+/* The law of a contact whose depth changes at `rate`, m/s. */
+static radial_law evaluate_radial_law(const ali3_tyre_spring *s, const ali3_contact *c, real rate) {
+  radial_law r = {.depth = c->penetration};
+  r.bottoming_depth = r.depth - (s->radius - s->bottoming_radius);
+  r.bottoming = ali3_where(r.bottoming_depth > 0.0, s->bottoming_stiffness, ali3_same(0.0));
+  r.ramp = ali3_where(r.depth < TOUCH_DEPTH, r.depth / TOUCH_DEPTH, ali3_same(1.0));
+  r.share = 1.0 - c->yielded;
+  r.softened = s->stiffness + 2.0 * s->progression * r.depth < 0.0;
+  r.effective_depth = ali3_where(r.softened, -0.5 * s->stiffness / s->progression, r.depth);
+  r.spring = (s->stiffness + s->progression * r.effective_depth) * r.effective_depth;
+  r.force = r.share * (r.spring + r.bottoming * r.bottoming_depth + s->damping * rate * r.ramp);
+  return r;
+}
+
+/* Adds the energy of the spring and of the rim where the tyre touches. */
+static void add_radial_energy(ali3_element_args *a, const ali3_tyre_spring *s, const radial_law *r, truth touches) {
+  a->potential = ali3_add_unless(ali3_not(touches), a->potential,
+                                 r->share * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * r->effective_depth) *
+                                                        r->effective_depth * r->effective_depth +
+                                                    r->bottoming * r->bottoming_depth * r->bottoming_depth)));
+  a->potential = ali3_add_unless(ali3_not(touches & r->softened), a->potential,
+                                 r->share * r->spring * (r->depth - r->effective_depth));
+}
+
+/* Derivative of the force by the depth, not below 0. */
+static real radial_stiffness(const ali3_tyre_spring *s, const radial_law *r, real rate) {
+  const real none = {0};
+  const real slope = ali3_where(r->softened, none, s->stiffness + 2.0 * s->progression * r->depth) + r->bottoming +
+                     ali3_where(r->ramp < 1.0, s->damping * rate / TOUCH_DEPTH, none);
+  return ali3_where(slope < 0.0, none, slope);
+}
+
+/* Includes a contact with a load in the mean patch where it presses: load-weighted, so that the mean is continuous when
+ * a contact opens or closes. */
+static void add_to_patch(ali3_tyre_patch *mean, const ali3_contact *c, const real rho[3], real load, truth presses) {
+  const truth first = ali3_not(mean->load > 0.0);
+  const real total = mean->load + load;
+  for (int i = 0; i < 3; i++) {
+    const real weighted = load * c->normal[i], sum = ali3_where(first, weighted, mean->normal[i] + weighted);
+    mean->normal[i] = ali3_where(presses, sum, mean->normal[i]);
+    mean->rho[i] =
+        ali3_where(presses, weighted_mean(first, mean->rho[i], mean->load, rho[i], total, load), mean->rho[i]);
+  }
+  mean->friction =
+      ali3_where(presses, weighted_mean(first, mean->friction, mean->load, c->friction, total, load), mean->friction);
+  mean->load = ali3_where(presses, total, mean->load);
+}
+
 ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *s) {
   ali3_contact contact[2];
   const real none = {0};
@@ -53,48 +110,26 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
     }
     if (!ali3_any(touches)) continue;
     for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
-    const real bottoming_depth = depth - (s->radius - s->bottoming_radius),
-               bottoming = ali3_where(bottoming_depth > 0.0, s->bottoming_stiffness, none);
-    const real ramp = ali3_where(depth < TOUCH_DEPTH, depth / TOUCH_DEPTH, ali3_same(1.0));
-    const real share = 1.0 - c->yielded;
-    /* the force of a degressive spring stays at its maximum */
-    const truth softened = s->stiffness + 2.0 * s->progression * depth < 0.0;
-    const real effective_depth = ali3_where(softened, -0.5 * s->stiffness / s->progression, depth);
-    const real spring = (s->stiffness + s->progression * effective_depth) * effective_depth;
-    const real force = share * (spring + bottoming * bottoming_depth + s->damping * rate * ramp);
-    a->potential = ali3_add_unless(ali3_not(touches), a->potential,
-                                   share * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * effective_depth) *
-                                                       effective_depth * effective_depth +
-                                                   bottoming * bottoming_depth * bottoming_depth)));
-    a->potential =
-        ali3_add_unless(ali3_not(touches & softened), a->potential, share * spring * (depth - effective_depth));
-    const truth presses = touches & (force > 0.0), first = ali3_not(mean.load > 0.0);
+    const radial_law law = evaluate_radial_law(s, c, rate);
+    add_radial_energy(a, s, &law, touches);
+    const truth presses = touches & (law.force > 0.0);
     const int32_t shift = ALI3_TYRE_CONTACT_BITS * k;
     ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << shift);
-    ALI3_PIECE(&a->piece, touches & (bottoming_depth > 0.0), ALI3_TYRE_BOTTOMS << shift);
-    ALI3_PIECE(&a->piece, touches & ali3_not(ramp < 1.0), ALI3_TYRE_FULLY << shift);
+    ALI3_PIECE(&a->piece, touches & (law.bottoming_depth > 0.0), ALI3_TYRE_BOTTOMS << shift);
+    ALI3_PIECE(&a->piece, touches & ali3_not(law.ramp < 1.0), ALI3_TYRE_FULLY << shift);
     ALI3_PIECE(&a->piece, presses, ALI3_TYRE_PRESSES << shift);
     if (!ali3_any(presses)) continue;
-    const real load = force / c->cosine, total = mean.load + load;
-    for (int i = 0; i < 6; i++) a->f[i] = ali3_add_unless(ali3_not(presses), a->f[i], force * b[i]);
-    for (int i = 0; i < 3; i++) { /* load-weighted, so that the mean is continuous when a contact opens or closes */
-      const real weighted = load * c->normal[i], sum = ali3_where(first, weighted, mean.normal[i] + weighted);
-      mean.normal[i] = ali3_where(presses, sum, mean.normal[i]);
-      mean.rho[i] = ali3_where(presses, weighted_mean(first, mean.rho[i], mean.load, rho[i], total, load), mean.rho[i]);
-    }
-    mean.friction =
-        ali3_where(presses, weighted_mean(first, mean.friction, mean.load, c->friction, total, load), mean.friction);
-    mean.load = ali3_where(presses, total, mean.load);
+    for (int i = 0; i < 6; i++) a->f[i] = ali3_add_unless(ali3_not(presses), a->f[i], law.force * b[i]);
+    add_to_patch(&mean, c, rho, law.force / c->cosine, presses);
     if (!a->S) continue;
-    const real slope = ali3_where(softened, none, s->stiffness + 2.0 * s->progression * depth) + bottoming +
-                       ali3_where(ramp < 1.0, s->damping * rate / TOUCH_DEPTH, none);
-    const real stiffness = ali3_where(slope < 0.0, none, slope);
     for (int i = 0; i < 7; i++) { /* 0 in lanes without contact force */
       b[i] = ali3_where(presses, b[i], none);
       difference[i] += k ? -b[i] : b[i];
     }
-    ali3_add_outer(a->S, 7, ali3_where(presses, share * (a->wK * stiffness + a->wC * s->damping * ramp), none), b);
-    switching = ali3_where(presses, a->wK * c->switching * (spring + bottoming * bottoming_depth), switching);
+    const real tangent = a->wK * radial_stiffness(s, &law, rate) + a->wC * s->damping * law.ramp;
+    ali3_add_outer(a->S, 7, ali3_where(presses, law.share * tangent, none), b);
+    switching =
+        ali3_where(presses, a->wK * c->switching * (law.spring + law.bottoming * law.bottoming_depth), switching);
   }
   const truth switches = switching > 0.0;
   if (a->S && ali3_any(switches)) ali3_add_outer(a->S, 7, ali3_where(switches, switching, none), difference);
@@ -188,8 +223,6 @@ double ali3_tyre_depth(const ali3_element_args *a, double raised, double *share)
   return deepest;
 }
 
-/* Verdict on a start with the wheel in the road: with the centre below the surface the spring of a tyre would throw the
- * scene up. The rise is the depth along the road's normal; at a wall it is repeated. */
 ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised) {
   double share = 0.0;
   const double deepest = fmax(ali3_tyre_depth(a, raised, &share), 0.0);

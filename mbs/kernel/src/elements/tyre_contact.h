@@ -65,9 +65,10 @@ ALI3_PER_WIDTH real ali3_tyre_moving(real speed);
 ALI3_PER_WIDTH void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
                                          real ratio, ali3_tyre_motion *m);
 
-/* The first ALI3_TYRE_OUTPUTS outputs, common to all tyres; resisting: moment of rolling resistance about the axis, N
- * m. */
 enum { ALI3_TYRE_DEFLECTION = 6, ALI3_TYRE_OUTPUTS = 16 };
+/* Writes the first ALI3_TYRE_OUTPUTS outputs, common to all tyres: radius: free, m; ratio: slip radius over loaded
+ * radius; force: along forward and left, N; moment: about the normal, resisting: of rolling resistance about the axis,
+ * N m. */
 ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
                                       const ali3_tyre_motion *m, real radius, real ratio, const real force[2],
                                       real moment, real resisting);
@@ -78,6 +79,8 @@ ALI3_PER_WIDTH void ali3_tyre_semidefinite(real C[3]);
 /* Depth of a tyre in its road, m, if it were higher by `raised`; *part: cosine at the deepest contact. Its first number
  * is the radius, its first integer the road. */
 double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part);
+/* Verdict on a start with the scene raised by `raised`, m: refused with the centre below the road, where the spring of
+ * the tyre would throw the scene up. The rise is the depth along the road's normal; at a wall it is repeated. */
 ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised);
 #define ALI3_TYRE_START_WORDS "lies deeper in the road than its radius"
 #endif

@@ -7,7 +7,7 @@
 static void evaluate(ali3_element_args *a) {
   const double factor = 0.5 * a->real[AIR_DENSITY] * a->real[DRAG_AREA];
   double w[3];
-  ali3_over_air(a->input, a->integer, a->ud, w);
+  ali3_relative_to_air(a->input, a->integer, a->ud, w);
   const double speed = ali3_norm(w);
   for (int i = 0; i < 3; i++) a->f[i] = -factor * speed * w[i];
   a->out[0] = factor * speed * speed;

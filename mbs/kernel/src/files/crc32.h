@@ -4,5 +4,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Checksum of `size` bytes. */
 uint32_t ali3_crc32(const void *bytes, size_t size);
 #endif

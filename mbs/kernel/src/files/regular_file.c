@@ -52,6 +52,7 @@ static FILE *open_path(const char *path) {
   return NULL;
 }
 
+/* Both return 0 on success. */
 static int read_kind(FILE *file, file_kind *kind) { return _fstat64(_fileno(file), kind); }
 
 static int seek(FILE *file, int64_t from) { return _fseeki64(file, from, SEEK_SET); }

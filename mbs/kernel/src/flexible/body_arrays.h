@@ -1,4 +1,4 @@
-/* View of one flexible body in the arrays of a System and of an instance, and the loops shared by the files here. */
+/* View of one flexible body in the arrays of a System and of an instance, and loops over its modes. */
 #ifndef ALI3_BODY_ARRAYS_H
 #define ALI3_BODY_ARRAYS_H
 #include <string.h>
@@ -136,6 +136,7 @@ ALI3_INLINED void ali3_add_three_rows(int32_t n, const real *restrict rows, cons
   ALI3_EACH(0, n, ALI3_AT(y) = ((ALI3_AT(y) + ALI3_AT(rows) * a) + ALI3_AT(second) * b) + ALI3_AT(third) * c)
 }
 
+/* to[i] = from[index[i]] */
 static inline void ali3_gather(int32_t n, const int32_t *index, const real *from, real *to) {
   for (int32_t i = 0; i < n; i++) to[i] = from[index[i]];
 }

@@ -55,15 +55,12 @@ static void add_gradient(const ali3_instance *in, const double *v, double weight
   }
 }
 
-/* p = M v without the constant part of M, at q. */
 void ali3_flexible_momentum(const ali3_instance *in, const double *q, const double *v, double *p) {
   memset(p, 0, (size_t)in->system->size.nq * sizeof *p);
   ali3_bodies_prepare(in, q);
   ali3_flexible_mass_times(in, v, p);
 }
 
-/* r += h/2 (p1 - p0) - h^2/2 g with momenta p without the constant part of M; mean: D / h, half: (v1 - v0) / 2;
- * requires bodies prepared at the middle of the step. */
 void ali3_discrete_inertia(const ali3_instance *in, double h, const double *p0, const double *p1, const double *mean,
                            const double *half, double *r) {
   for (int32_t i = 0; i < in->system->size.nq; i++) r[i] += 0.5 * h * (p1[i] - p0[i]);

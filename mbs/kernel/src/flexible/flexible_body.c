@@ -120,7 +120,7 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
 /* Lower triangle of wC C + wK K into the body's front. */
 ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, real *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
-  const bool contiguous = ali3_are_consecutive(mode, n);
+  const bool contiguous = ali3_consecutive(mode, n);
   for (int32_t j = 0; j < n; j++) {
     const double *restrict C = f->C + (int64_t)j * n, *restrict K = f->K + (int64_t)j * n;
     real *restrict column = block + (int64_t)mode[j] * size;
@@ -135,7 +135,7 @@ ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, do
  * not if the body's front has many other coordinates. */
 ALI3_INLINED void add_coupling(const ali3_flexible *f, int32_t size, double wM, double wK, real *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
-  bool contiguous = ali3_are_consecutive(mode, n);
+  bool contiguous = ali3_consecutive(mode, n);
   for (int i = 0; i < 12; i++) contiguous = contiguous && f->loc[i] < mode[0];
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 3; k++) {
@@ -210,7 +210,6 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_energy,
                   (const ali3_instance *in, const double *q, double *gravity, double *elastic),
                   (in, q, gravity, elastic))
 
-/* F += weight K without the geometric stiffness of gravity. */
 void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
@@ -220,7 +219,6 @@ void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
   }
 }
 
-/* out += weight K x. */
 void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);

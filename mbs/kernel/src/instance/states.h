@@ -23,7 +23,8 @@ typedef struct {
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
   double *work, *stored; /* J: work since the start, stored energy at the start; see ../state/work.c */
   double *watched; /* power, then forces, at the end of the last step */
-  double *step_force, *step_way; /* n_work_force: mean forces of the last step, displacements of their signals */
+  double *step_force,
+      *step_displacement; /* n_work_force: mean forces of the last step, displacements of their signals */
   double *by_inputs; /* n_input_work, J: stored energy that jumps of inputs have added since the start */
 } ali3_vectors;
 
@@ -36,7 +37,7 @@ typedef struct {
   ali3_vectors direction; /* a direction in the space of states */
   size_t n; /* number of doubles of a state */
   bool backed_up; /* `start` holds the state before the step */
-} ali3_kept_states;
+} ali3_stored_states;
 
 /* time = base + count h */
 typedef struct {

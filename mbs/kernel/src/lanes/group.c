@@ -43,6 +43,7 @@ static void allocate_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, boo
   v->past_lam = lane_items(g, pool, with_history ? ALI3_PAST * nc : 0);
 }
 
+/* Vectors of the iteration. */
 static void allocate_step(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_sizes *z = &g->system->size;
   real **of_coordinates[] = {&g->mass.floor,    &g->mass.floor_inverse,
@@ -69,6 +70,7 @@ static void allocate_step(ali3_lane_group *g, ali3_pool *pool) {
   g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
 }
 
+/* Phi_q and the tangent. */
 static void allocate_tangents(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const ali3_sizes *z = &S->size;
@@ -100,6 +102,7 @@ static void allocate_flexible(ali3_lane_group *g, ali3_pool *pool) {
   g->element.ud_at = lane_items(g, pool, is_flexible * (size_t)S->size.nsig);
 }
 
+/* Lookup-table bodies. */
 static void allocate_tabled(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const size_t extended = S->n_tabled > 0 ? (size_t)(S->size.nq + S->n_dependent) : 0;
@@ -119,6 +122,7 @@ static bool has_law(const ali3_element_type *type) {
 #undef ALI3_IS
 }
 
+/* Signals, forces and tangents of elements. */
 static void allocate_elements(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const ali3_sizes *z = &S->size;
@@ -136,6 +140,7 @@ static void allocate_elements(ali3_lane_group *g, ali3_pool *pool) {
   }
 }
 
+/* Numbers of one entry for each lane, and masks. */
 static void allocate_scalars(ali3_lane_group *g, ali3_pool *pool) {
   ali3_mask **masks[] = {&g->lanes,
                          &g->at_work,
@@ -155,6 +160,7 @@ static void allocate_scalars(ali3_lane_group *g, ali3_pool *pool) {
   g->squares = lane_items(g, pool, 3);
 }
 
+/* All arrays of a group. */
 static void allocate(ali3_lane_group *g, ali3_pool *pool) {
   allocate_vectors(g, &g->now, true, pool);
   allocate_vectors(g, &g->next, false, pool);
@@ -173,7 +179,6 @@ size_t ali3_group_bytes(const ali3_system *s, int32_t width) {
   return pool.used + LINE;
 }
 
-/* `block`: memory of ali3_group_bytes. */
 void ali3_group_place(ali3_lane_group *g, void *block) {
   const size_t past_line = (uintptr_t)block % LINE;
   ali3_pool pool = {.block = (char *)block + (past_line > 0 ? LINE - past_line : 0), .used = 0};
@@ -209,6 +214,7 @@ static int32_t end_of_run(const ali3_lane_group *g, int32_t e) {
   return end;
 }
 
+/* Copies the numbers of the roads of all lanes. */
 static void copy_roads(ali3_lane_group *g) {
   for (int32_t r = 0; r < g->system->nr; r++) {
     ali3_lane_road *road = &g->road[r];
@@ -221,7 +227,6 @@ static void copy_roads(ali3_lane_group *g) {
   }
 }
 
-/* Copies the numbers that depend on parameters but not on steps to the group. */
 void ali3_group_parameters(ali3_lane_group *g) {
   const ali3_sizes *z = &g->system->size;
   PUT(g, g->mass.val, z->nnz_mass, in, in->mass.val);
@@ -237,7 +242,6 @@ void ali3_group_parameters(ali3_lane_group *g) {
   copy_roads(g);
 }
 
-/* Copies the start of a step, in->now, and the guides of in->next to the group. */
 void ali3_group_from(ali3_lane_group *g) {
   const ali3_system *S = g->system;
   const int32_t nq = S->size.nq, nc = S->size.nc, ng = S->size.ng;
@@ -279,6 +283,7 @@ void ali3_group_from(ali3_lane_group *g) {
   }
 }
 
+/* Copies counters and residuals of lane l to the report of its instance. */
 static void copy_report(const ali3_lane_group *g, int32_t l) {
   ali3_report *r = &g->lane[l]->report;
   r->last_iterations = (int32_t)g->iterations[l];
@@ -294,8 +299,6 @@ static void copy_report(const ali3_lane_group *g, int32_t l) {
   r->velocity_violation = g->velocity_violation[l];
 }
 
-/* Copies the state and the counters after a step to the instances: in->next and, for rigid Systems, the mean
- * acceleration and multipliers of Newton's iteration, before (25). */
 void ali3_group_to(const ali3_lane_group *g) {
   const ali3_system *S = g->system;
   const int32_t nq = S->size.nq;
@@ -324,7 +327,7 @@ void ali3_group_to(const ali3_lane_group *g) {
     if (n_out > 0) TAKE(g, in, in->next.out + out, g->out + out * g->width, n_out);
     TAKE(g, in, in->next.potential + e, g->potential + e * g->width, end - e);
   }
-  TAKE(g, in, in->next.step_way, g->ways, S->n_work_force);
+  TAKE(g, in, in->next.step_displacement, g->ways, S->n_work_force);
   for (int32_t k = 0, end; k < S->n_work; k = end) {
     const int32_t first = S->el_sig_ptr[S->work_element[k]];
     for (end = k + 1; end < S->n_work && S->work_element[end] == S->work_element[end - 1] + 1;) end++;

@@ -40,7 +40,7 @@ struct ali3_lane_group {
   ali3_instance *lane[ALI3_MAX_LANES];
   ali3_settings settings; /* the same for all lanes */
   ali3_rule rule;
-  double h, alpha;
+  double h, alpha; /* s; 1/s^2, penalty of the rows */
   ali3_lane_vectors now, next;
   struct {
     real *val, *floor, *floor_inverse, *gravity, *gravity_const;
@@ -94,5 +94,6 @@ extern const ali3_lane_code ali3_code_lanes_2, ali3_code_lanes_4, ali3_code_lane
 
 /* Evaluates element e of the lanes in group->evaluated, one lane after the other; f: its forces. */
 void ali3_lane_element(ali3_lane_group *group, int32_t e, real *f, bool tangent);
+/* Makes discrete changes of the elements of a lane after an accepted step. */
 void ali3_lane_elements_accept(ali3_lane_group *group, int32_t lane);
 #endif

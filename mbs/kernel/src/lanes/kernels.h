@@ -14,11 +14,13 @@
 #include "../elements/laws.h"
 #include "group.h"
 
+/* ali3_sin in each lane. */
 static inline real lane_sine(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_sin(x[l]);
   return x;
 }
 
+/* ali3_cos in each lane. */
 static inline real lane_cosine(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_cos(x[l]);
   return x;

@@ -85,6 +85,7 @@ void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real
   }
 }
 
+/* Generalised forces in->step.Q at in->next; tangents of elements if required. */
 static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -107,6 +108,7 @@ static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
   if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->step.Q);
 }
 
+/* Positions, rates, rows and the residual r = M (D - d0) - c Q of the iterate D. */
 static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   const double c = in->rule.c, rate = in->rule.rate;
@@ -227,6 +229,7 @@ static truth correct(ali3_lane_group *in, truth lanes, truth reused, truth accel
   return finite;
 }
 
+/* Newton's iteration; sets in->good. */
 static void newton(ali3_lane_group *in) {
   const double h = in->h;
   truth active = *in->lanes, reused = {0}, accelerated = {0};
@@ -246,8 +249,8 @@ static void newton(ali3_lane_group *in) {
         active & (*in->residual <= in->system->fine * in->settings.tolerance_r) & rows_are_closed(in);
     *in->good |= converged;
     active &= ~converged;
-    reused = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) &
-             (*in->residual <= KEPT_RESIDUAL * last_residual);
+    reused = (*in->violation <= REUSE_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) &
+             (*in->residual <= REUSE_RESIDUAL * last_residual);
     const truth decreasing = ali3_settles(in->system, iteration + 1) ? *in->residual <= last_residual : (truth){0};
     accelerated = reused | ~decreasing;
     *in->reach = ali3_where(decreasing, REACH * in->rule.rate * *in->residual, (real){0});
@@ -271,7 +274,7 @@ static void predict(ali3_lane_group *in) {
   if (ali3_any(extrapolates)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->step.x, in->next.lam);
   for (int32_t k = 0; k < nc; k++) {
     const real lam = in->now.lam[k];
-    in->next.lam[k] = lam + ALI3_SHARE * (ali3_where(extrapolates, in->next.lam[k], lam) - lam);
+    in->next.lam[k] = lam + ALI3_MULTIPLIER_FRACTION * (ali3_where(extrapolates, in->next.lam[k], lam) - lam);
   }
   for (int32_t i = 0; i < nq; i++)
     in->step.D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(extrapolates, in->step.x[i], in->now.qdd[i]);
@@ -303,6 +306,7 @@ static void speed_squares(const ali3_lane_group *in, double h, const real *v0, c
   }
 }
 
+/* A step of the lanes in in->lanes from in->now to in->next. */
 static void step(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq;
   const double h = in->h;
@@ -322,7 +326,7 @@ static void step(ali3_lane_group *in) {
   }
   memcpy(in->newton_lam, in->next.lam, (size_t)in->system->size.nc * sizeof *in->newton_lam);
   ali3_constraint_rate(in, in->next.q, &in->next, in->step.Phit);
-  const double left = ali3_round_left(in->system, c);
+  const double left = ali3_allowed_round_off(in->system, c);
   real kinetic, work = ali3_constraint_work(in, h, in->guides);
   turning_rates(in, in->step.mu, in->step.Phit);
   *in->at_work = *in->good;

@@ -38,7 +38,7 @@ static bool may_divide(const ali3_instance *in, int32_t depth) {
   return depth > 0 && depth > in->settings.max_halvings - MAX_DEPTH && in->system->nr > 0;
 }
 
-bool ali3_leaves_parts(ali3_instance *in, const ali3_request *request, int32_t iterations) {
+bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_t iterations) {
   const int64_t remaining = request->iterations_end - in->report.iterations;
   if (in->settings.step_iterations > 0 && remaining < 2 * (int64_t)iterations) {
     in->bound.capped = true;
@@ -57,7 +57,7 @@ static double change_limit(const ali3_instance *in, double rate) {
  * changes. */
 static bool divides(ali3_instance *in, const ali3_request *part, int32_t iterations) {
   if (!(may_divide(in, part->depth) && in->report.change_rate * part->h > 1.0)) return false;
-  if (!ali3_leaves_parts(in, part, iterations)) return false;
+  if (!ali3_allows_division(in, part, iterations)) return false;
   in->report.abrupt_steps++;
   return true;
 }
@@ -106,7 +106,6 @@ static double step_change(const ali3_instance *in) {
   return change;
 }
 
-/* Counts an abrupt step after a step from in->next to in->now. */
 void ali3_abrupt_force(ali3_instance *in) {
   ali3_report *r = &in->report;
   for (int32_t c = 0; c < in->system->n_contact; c++) {

@@ -16,7 +16,8 @@
 #include "energy_balance.h"
 #include "steps.h"
 
-static ali3_status method_step(ali3_instance *in, const ali3_request *request) {
+/* A part of a step, between breaks, by the method of the settings. */
+static ali3_status make_part(ali3_instance *in, const ali3_request *request) {
   const ali3_method *method = ali3_method_of(in);
   const double h = request->h;
   const ali3_status inputs = ali3_inputs_begin(in, request->t, h);
@@ -48,7 +49,7 @@ static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   in->parting.changed = -1.0;
   in->parting.event = 1.0;
   const int64_t divisions = in->report.divisions;
-  const ali3_status status = ali3_divides_ahead(in, part) ? ALI3_UNRESOLVED : method_step(in, part);
+  const ali3_status status = ali3_divides_ahead(in, part) ? ALI3_UNRESOLVED : make_part(in, part);
   if (in->bound.work_left != NULL) *in->bound.work_left -= 1 + in->report.iterations - made_before;
   if (status == ALI3_OK) in->clock.now = part->t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, part->h);
@@ -100,13 +101,11 @@ static double part_end(const ali3_instance *in, double t, double h, double *guid
   return piece_end < t - near ? fmin(piece_end, inputs) : fmin(inputs, t);
 }
 
-/* Whether a step of h to time t is divided at a jump, or ends at one of a guide. */
-bool ali3_parted(const ali3_instance *in, double t, double h) {
+bool ali3_is_divided(const ali3_instance *in, double t, double h) {
   double guide;
   return part_end(in, t, h, &guide) < t || guide < HUGE_VAL;
 }
 
-/* A step by the method of the settings, in parts that end where inputs or guides jump. */
 ali3_status ali3_advance(ali3_instance *in, const ali3_request *request) {
   const double t = request->t, h = request->h;
   double guide;

@@ -74,7 +74,7 @@ ALI3_INLINED bool report_residual(ali3_instance *in) {
   double *x = in->step.x;
   ali3_rows_transposed(in->system, in->tangent.J, in->next.lam, x);
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(x) = ALI3_AT(r) + c * ALI3_AT(x))
-  return ali3_judge(in, x);
+  return ali3_measure_residual(in, x);
 }
 
 /* The tangent (23) of the present iterate, by generated code. */
@@ -180,7 +180,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
   while (in->report.last_iterations < most_iterations) {
     ali3_status status = reused ? ALI3_OK : tangent(in, alpha);
     if (status == ALI3_OK) status = correct(in, h, alpha, in->report.last_iterations, reused, accelerated);
-    if (status != ALI3_OK) return ali3_newton_ended(in, status);
+    if (status != ALI3_OK) return ali3_newton_failure(in, status);
     in->report.iterations++;
     in->report.last_iterations++;
     if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
@@ -191,13 +191,13 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
     if (in->report.residual <= fine * settings->tolerance_r) {
       if (ali3_closed(in->system, in->step.Phi, fine * settings->tolerance_phi)) return ALI3_OK;
       if (in->report.violation > CLOSES * last_violation && /* far from the origin no iteration reduces it further */
-          ali3_closed_here(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
+          ali3_closed_at(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
         return ALI3_OK;
     }
     last_violation = in->report.violation;
     reused = settings->update == ALI3_UPDATE_LINEARISED &&
-             in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * fine) &&
-             in->report.residual <= KEPT_RESIDUAL * last_residual; /* (16) converges too slowly for more */
+             in->report.violation <= REUSE_VIOLATION * fmin(h * h, 1e-4 * fine) &&
+             in->report.residual <= REUSE_RESIDUAL * last_residual; /* (16) converges too slowly for more */
     const bool settles = ali3_settles(in->system, in->report.last_iterations) && in->report.residual <= last_residual;
     accelerated = reused || !settles;
     last_residual = in->report.residual;
@@ -207,7 +207,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
     ali3_elements_forces(in, &call);
   }
   if (most_iterations > 0 && in->report.residual <= fine * settings->tolerance_r &&
-      ali3_closed_here(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
+      ali3_closed_at(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
     return ALI3_OK; /* far from the origin no iteration reduces it further */
   return limited && most_iterations > 0 ? accept_capped(in) : ALI3_NOT_CONVERGED;
 }
@@ -224,6 +224,40 @@ ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(d0) = h * ALI3_AT(qd) + rule.c * ALI3_AT(qdd); ALI3_AT(hat) = -ALI3_AT(qd))
 }
 
+/* ALI3_TURNS_TOO_FAR if an angle turns too far in the step for its rows, unless the iterations of a step are
+ * limited. */
+ALI3_INLINED ali3_status check_turn(ali3_instance *in, double h) {
+  const double turn_rate = in->settings.project ? fastest_turn(in) : 0.0;
+  if (turn_rate * h > MAX_TURN && in->settings.step_iterations == 0) {
+    in->report.fastest_rate = turn_rate;
+    return ALI3_TURNS_TOO_FAR;
+  }
+  in->bound.capped |= turn_rate * h > MAX_TURN;
+  return ALI3_OK;
+}
+
+/* Projections (24), (25) of velocities and accelerations, and the energy error of the step; *guide_work: J. */
+ALI3_INLINED ali3_status project_rates(ali3_instance *in, const ali3_request *request, double alpha,
+                                       double *guide_work) {
+  const double h = request->h, c = in->rule.c;
+  ali3_vectors *to = &in->next;
+  if (!in->settings.project) {
+    if (in->system->n_guide_work > 0) ali3_constraint_work(in, h, guide_work);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, 0.0, 0.0, 0, false);
+    return ALI3_OK;
+  }
+  const double limit = ali3_allowed_round_off(in->system, c);
+  double kinetic, end, open_power, work = ali3_constraint_work(in, h, guide_work);
+  turning_rates(in, in->step.mu, in->step.Phit);
+  in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, VELOCITY_TOLERANCE,
+                                               limit * in->rule.rate, MAX_SWEEPS, true);
+  ali3_constraint_gamma(in, to->q, to->qd, to, in->step.gamma);
+  ali3_project(in, c * alpha, in->step.gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, limit / c, MAX_SWEEPS, false);
+  /* includes the work in this step of the forces that the last (25) left unbalanced */
+  work += ali3_projection_work(in, &kinetic, &end, &open_power, guide_work) + 0.5 * h * in->report.open_power;
+  return ali3_energy_watch(in, request, work, kinetic, end, open_power);
+}
+
 /* One step of ALi3-P, or of generalised-alpha. */
 ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_request *request) {
   const double h = request->h;
@@ -232,13 +266,8 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
   const bool generalised_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
-  const double turn_rate = in->settings.project ? fastest_turn(in) : 0.0;
-  if (turn_rate * h > MAX_TURN && in->settings.step_iterations == 0) {
-    in->report.fastest_rate = turn_rate;
-    return ALI3_TURNS_TOO_FAR;
-  }
-  in->bound.capped |= turn_rate * h > MAX_TURN;
-  ali3_status status = ali3_input_jump(in, h);
+  ali3_status status = check_turn(in, h);
+  if (status == ALI3_OK) status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
   ali3_guides_step(in, from, to, request->t, h);
   const bool from_past = ali3_predict(in, request, true);
@@ -280,22 +309,8 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   ali3_predict_accept(in, h); /* before the projection: the next step needs the multipliers of the balance (20) */
   ali3_constraint_rate(in, to->q, to, in->step.Phit);
   double guide_work = 0.0;
-  if (in->settings.project) {
-    const double left = ali3_round_left(S, c);
-    double kinetic, end, open_power, work = ali3_constraint_work(in, h, &guide_work);
-    turning_rates(in, in->step.mu, in->step.Phit);
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, VELOCITY_TOLERANCE,
-                                                 left * in->rule.rate, MAX_SWEEPS, true);
-    ali3_constraint_gamma(in, to->q, to->qd, to, in->step.gamma);
-    ali3_project(in, c * alpha, in->step.gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS, false);
-    /* includes the work in this step of the forces that the last (25) left unbalanced */
-    work += ali3_projection_work(in, &kinetic, &end, &open_power, &guide_work) + 0.5 * h * in->report.open_power;
-    const ali3_status resolved = ali3_energy_watch(in, request, work, kinetic, end, open_power);
-    if (resolved != ALI3_OK) return resolved;
-  } else {
-    if (S->n_guide_work > 0) ali3_constraint_work(in, h, &guide_work);
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, 0.0, 0.0, 0, false);
-  }
+  status = project_rates(in, request, alpha, &guide_work);
+  if (status != ALI3_OK) return status;
   ali3_guides_work(in, to, guide_work);
   ali3_work_step(in, 0.5);
   return ali3_accept(in);

@@ -56,10 +56,11 @@ static bool is_aligned(const ali3_instance *in, const double *sine, int32_t k, i
 static void update_modes(ali3_instance *in) {
   ali3_mode_angles(in, in->now.q);
   for (int64_t loop = 0; loop < ali3_loop_count(in->system); loop++)
-    in->branch.left[loop] = ali3_mode_left(in, loop) >= 0 ? 1.0 : 0.0;
+    in->branch.left[loop] = ali3_find_mode_misfit(in, loop) >= 0 ? 1.0 : 0.0;
 }
 
-static void report(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind, double t) {
+/* Records the first change of an assembly mode, at t, s. */
+static void record_change(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind, double t) {
   ali3_report *r = &in->report;
   if (r->branch_changes++ > 0) return; /* only the first is reported */
   r->branch_loop = (int32_t)loop;
@@ -68,7 +69,6 @@ static void report(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind,
   r->branch_time = t;
 }
 
-/* Before a step: stores its initial angles and, where branches may be close, its initial state. */
 void ali3_branch_before(ali3_instance *in) {
   const ali3_system *S = in->system;
   in->branch.near = false;
@@ -83,13 +83,13 @@ void ali3_branch_before(ali3_instance *in) {
       in->branch.near = is_aligned(in, in->branch.sine, k, first, end);
   }
   if (!in->branch.near) return;
-  ali3_vectors_copy(in, &in->kept.near_branch, &in->now);
+  ali3_vectors_copy(in, &in->stored.near_branch, &in->now);
   in->branch.report_before = in->report;
 }
 
 /* Restores the state before the step and the energy balance, by which steps are refused. */
 static void restore_start(ali3_instance *in) {
-  ali3_vectors_copy(in, &in->now, &in->kept.near_branch);
+  ali3_vectors_copy(in, &in->now, &in->stored.near_branch);
   in->report = in->branch.report_before;
   in->clock.now = ali3_time(in); /* time of the last complete step */
 }
@@ -108,15 +108,15 @@ static bool all_crossed(const ali3_instance *in, int32_t first, int32_t end) {
   return true;
 }
 
-/* Repeats the step from in->kept.near_branch in n equal parts, up to the first one after which all triads from first to
- * end - 1 have changed their sign; false: a part failed. */
+/* Repeats the step from in->stored.near_branch in n equal parts, up to the first one after which all triads from first
+ * to end - 1 have changed their sign; false: a part failed. */
 static bool divide_step(ali3_instance *in, const ali3_request *step, int n, int32_t first, int32_t end) {
   ali3_request part = *step;
   part.h = step->h / n;
   part.depth = 0;
   restore_start(in);
   for (int i = 1; i <= n; i++) {
-    in->kept.backed_up = false;
+    in->stored.backed_up = false;
     part.t = step->t - step->h + step->h * (double)i / n;
     if (ali3_advance(in, &part) != ALI3_OK) return false;
     ali3_mode_angles(in, in->now.q);
@@ -160,21 +160,21 @@ static ali3_status check_jump(ali3_instance *in, const ali3_request *step, int64
   if (k == end) return ALI3_OK;
   const ali3_report whole = in->report;
   const bool is_read = step->reading != ALI3_READ_NOTHING;
-  if (!is_read) ali3_vectors_copy(in, &in->kept.coarse, &in->now);
+  if (!is_read) ali3_vectors_copy(in, &in->stored.coarse, &in->now);
   const int32_t triad = jumped_triad(in, step, first, end);
   ali3_status status;
   if (!is_read) {
-    ali3_vectors_copy(in, &in->now, &in->kept.coarse);
+    ali3_vectors_copy(in, &in->now, &in->stored.coarse);
     in->clock.now = ali3_time(in);
     status = ali3_inputs_begin(in, step->t, step->h);
     in->clock.now = step->t;
   } else {
     restore_start(in);
-    in->kept.backed_up = false;
+    in->stored.backed_up = false;
     status = ali3_advance(in, step);
   }
   in->report = whole;
-  if (status == ALI3_OK && triad >= 0) report(in, loop, triad, ALI3_BRANCH_JUMP, step->t);
+  if (status == ALI3_OK && triad >= 0) record_change(in, loop, triad, ALI3_BRANCH_JUMP, step->t);
   return status;
 }
 
@@ -182,8 +182,8 @@ static ali3_status check_jump(ali3_instance *in, const ali3_request *step, int64
 static void report_left_modes(ali3_instance *in, double t) {
   ali3_mode_angles(in, in->now.q);
   for (int64_t loop = 0; loop < ali3_loop_count(in->system); loop++) {
-    const int32_t left_triad = ali3_mode_left(in, loop);
-    if (left_triad >= 0 && in->branch.left[loop] == 0.0) report(in, loop, left_triad, ALI3_BRANCH_LEFT, t);
+    const int32_t left_triad = ali3_find_mode_misfit(in, loop);
+    if (left_triad >= 0 && in->branch.left[loop] == 0.0) record_change(in, loop, left_triad, ALI3_BRANCH_LEFT, t);
     in->branch.left[loop] = left_triad >= 0 ? 1.0 : 0.0;
   }
 }
@@ -195,7 +195,7 @@ static double ring_turn(ali3_instance *in, double h, int *sample) {
   const ali3_system *S = in->system;
   const size_t size = (size_t)ali3_triad_count(S) * sizeof(double);
   int32_t triad = -1, first = 0, end = 0;
-  ali3_mode_angles(in, in->kept.origin.q);
+  ali3_mode_angles(in, in->stored.origin.q);
   memcpy(in->branch.sine_few, in->branch.sine, size);
   for (int n = 1; n <= SAMPLES && triad < 0; n++) {
     memcpy(in->branch.sine_before, in->branch.sine, size);
@@ -220,7 +220,7 @@ static double ring_turn(ali3_instance *in, double h, int *sample) {
   return turn;
 }
 
-/* Checks the accepted controlled step of in->kept.origin, in->kept.centre and in->now for a jump between close
+/* Checks the accepted controlled step of in->stored.origin, in->stored.centre and in->now for a jump between close
  * branches: it turns a ring too far, or MANY shorter steps end elsewhere; the step and its halves may have jumped in
  * the same way. Returns the fraction of the step that may be made, 1: all. */
 double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, double t, double h) {
@@ -234,30 +234,28 @@ double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, doub
     return fraction * SAMPLES > sample ? fraction : fmax(fraction, (sample - 1.0) / SAMPLES);
   }
   const ali3_report whole = in->report;
-  ali3_vectors_copy(in, &in->kept.coarse, &in->now);
-  ali3_vectors_copy(in, &in->now, &in->kept.origin);
+  ali3_vectors_copy(in, &in->stored.coarse, &in->now);
+  ali3_vectors_copy(in, &in->now, &in->stored.origin);
   ali3_status status = ALI3_OK;
   for (int i = 0; i < MANY && status == ALI3_OK; i++)
     status = ali3_trial_step(in, t + h * (double)i / MANY, h / MANY, ALI3_READ_SENSORS);
   for (int32_t i = 0; i < nq; i++) {
-    in->step.w[i] = in->now.q[i] - in->kept.coarse.q[i];
+    in->step.w[i] = in->now.q[i] - in->stored.coarse.q[i];
     in->step.x[i] = 0.0;
   }
   const bool jumped =
       status == ALI3_OK && ali3_distance(in, measure, in->step.w, in->step.x, 1.0) > measure->control->tolerance;
-  ali3_vectors_copy(in, &in->now, &in->kept.coarse);
+  ali3_vectors_copy(in, &in->now, &in->stored.coarse);
   in->bound.iterations_before = whole.iterations;
   ali3_balance_restore(&in->report, &whole);
   in->clock.now = t + h;
   return jumped ? AFTER_JUMP : 1.0;
 }
 
-/* After a controlled step, which ali3_branch_fraction has checked for jumps. */
-void ali3_branch_look(ali3_instance *in, double t) {
+void ali3_branch_check(ali3_instance *in, double t) {
   if (has_modes(in)) report_left_modes(in, t);
 }
 
-/* After a completed step. */
 ali3_status ali3_branch_after(ali3_instance *in, const ali3_request *step) {
   const ali3_system *S = in->system;
   const size_t size = (size_t)ali3_triad_count(S) * sizeof(double);

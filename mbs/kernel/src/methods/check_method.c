@@ -12,7 +12,6 @@ static bool is_conservative(const ali3_instance *in, int32_t e) {
                                                                     in->system->el_int + in->system->el_int_ptr[e]));
 }
 
-/* Whether neither elements nor flexible bodies dissipate energy. */
 bool ali3_conservative(const ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_flex_C; i++)
@@ -22,7 +21,6 @@ bool ali3_conservative(const ali3_instance *in) {
   return true;
 }
 
-/* ALI3_WRONG_METHOD if forces at stages within a step depend on more than q, qd and time. */
 ali3_status ali3_needs_no_states(const ali3_instance *in) {
   return ali3_states_are_coordinates(in->system) ? ALI3_OK : ALI3_WRONG_METHOD;
 }

@@ -20,14 +20,14 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const double fraction[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
   int32_t iterations = 0, most_iterations = in->report.max_iterations;
   double end_time = -1.0; /* time after the end of the step, in steps */
-  ali3_vectors_copy(in, &in->kept.whole, &in->now);
+  ali3_vectors_copy(in, &in->stored.whole, &in->now);
   for (int stage = 0; stage < STAGES; stage++) {
     end_time = stage == STAGES - 1 ? 0.0 : end_time + fraction[stage];
     const ali3_status status =
         ali3_energy_momentum(in, t + end_time * h, fraction[stage] * h, 1.0 + end_time - 0.5 * fraction[stage],
                              stage == STAGES - 1 && request->reading != ALI3_READ_NOTHING);
     if (status != ALI3_OK) {
-      ali3_vectors_copy(in, &in->now, &in->kept.whole);
+      ali3_vectors_copy(in, &in->now, &in->stored.whole);
       return status;
     }
     iterations += in->report.last_iterations;
@@ -37,9 +37,9 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   return ALI3_OK;
 }
 
-static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->kept.whole, h); }
+static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->stored.whole, h); }
 
-static ali3_status takes(const ali3_instance *in) {
+static ali3_status check_system(const ali3_instance *in) {
   const ali3_status status = ali3_needs_no_states(in);
   if (status != ALI3_OK) return status;
   return ali3_conservative(in) && in->system->n_tabled == 0 ? ALI3_OK : ALI3_WRONG_METHOD;
@@ -49,7 +49,7 @@ const ali3_method ali3_method_energy_momentum_4 = {.step = step,
                                                    .before = before,
                                                    .motion = motion,
                                                    .has_guides_work = ali3_always,
-                                                   .takes = takes,
+                                                   .check_system = check_system,
                                                    .excludes =
                                                        ALI3_STATES_IN_WORDS ", no tabled bodies, and no damping",
                                                    .after_unobserved = ali3_energy_momentum_report,

@@ -11,8 +11,6 @@
 
 enum { MAX_EVENTS = 4 }; /* in a requested step */
 
-/* Begins a requested step, whose parts may be halved `depth` times. Without events in Systems with roads: for cars
- * their location costs more than it gains (theory.md). */
 void ali3_events_begin(ali3_instance *in, int32_t depth) {
   in->parting.events_left = depth > 0 && in->system->nr == 0 ? MAX_EVENTS : -1;
 }
@@ -40,7 +38,7 @@ bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
     in->report.abrupt_steps++; /* an event that is not located is reported */
     return false;
   }
-  if (!ali3_leaves_parts(in, request, in->report.last_iterations)) return false;
+  if (!ali3_allows_division(in, request, in->report.last_iterations)) return false;
   in->parting.events_left--;
   in->parting.event = fraction;
   return true;

@@ -4,7 +4,11 @@
 #include "../instance.h"
 #include "../request.h"
 
+/* Starts a requested step whose parts may be halved `depth` times: sets the number of events at which it may be
+ * divided, in->parting.events_left. Systems with roads locate none: for cars it costs more than it gains
+ * (theory.md). */
 void ali3_events_begin(ali3_instance *in, int32_t depth);
-/* Whether to divide the step from in->now to in->next, which have outputs, at in->parting.event. */
+/* Whether to divide the step from in->now to in->next, whose outputs are evaluated, at the fraction
+ * in->parting.event. */
 bool ali3_contact_event(ali3_instance *in, const ali3_request *request);
 #endif

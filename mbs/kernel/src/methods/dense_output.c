@@ -50,9 +50,8 @@ static void evaluate_basis(double x, int order, double weight[TERMS]) {
   }
 }
 
-/* q, qd and qdd of *result at x, -1 to 1, of the step of h that in->kept.origin, in->kept.centre and in->now hold. */
 void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *result) {
-  const ali3_vectors *node[NODES] = {&in->kept.origin, &in->kept.centre, &in->now};
+  const ali3_vectors *node[NODES] = {&in->stored.origin, &in->stored.centre, &in->now};
   const double scale[3] = {1.0, 0.5 * h, 0.25 * h * h}; /* of a derivative with respect to x */
   double *out[3] = {result->q, result->qd, result->qdd}, weight[TERMS];
   for (int order = 0; order < 3; order++) {
@@ -73,7 +72,7 @@ static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, 
   const int32_t nq = in->system->size.nq;
   const double x = 2.0 * (time - t) / h - 1.0;
   ali3_vectors *state = &in->next;
-  ali3_vectors_copy(in, state, x < 0.0 ? &in->kept.centre : &in->now);
+  ali3_vectors_copy(in, state, x < 0.0 ? &in->stored.centre : &in->now);
   ali3_interpolate(in, h, x, state);
   /* scratch: D interpolated accelerations, w and r errors of positions and velocities */
   memcpy(in->step.D, state->qdd, (size_t)nq * sizeof(double));
@@ -95,35 +94,34 @@ static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, 
 /* Only with element states, filtered guides or sensed work: computes in->next close to the start from the polynomial, with the
  * forces and states of the start. */
 static void evaluate_near_start(ali3_instance *in, double t, double h, double time) {
-  ali3_vectors_copy(in, &in->next, &in->kept.origin);
+  ali3_vectors_copy(in, &in->next, &in->stored.origin);
   ali3_interpolate(in, h, 2.0 * (time - t) / h - 1.0, &in->next);
   ali3_guides_time(in, &in->next, time);
-  ali3_work_beside(in, time - t);
+  ali3_work_extrapolated(in, time - t);
 }
 
-/* Computes in->next by a step of the method from the start or the centre; in->now is saved in in->kept.coarse
+/* Computes in->next by a step of the method from the start or the centre; in->now is saved in in->stored.coarse
  * meanwhile. */
 static ali3_status step_to_time(ali3_instance *in, double t, double h, double time) {
   const ali3_report before = in->report;
   const double centre = t + 0.5 * h;
   const bool second = time > centre + MIN_FRACTION * h;
   const double start = second ? centre : t;
-  ali3_vectors_copy(in, &in->kept.coarse, &in->now);
-  ali3_vectors_copy(in, &in->now, second ? &in->kept.centre : &in->kept.origin);
+  ali3_vectors_copy(in, &in->stored.coarse, &in->now);
+  ali3_vectors_copy(in, &in->now, second ? &in->stored.centre : &in->stored.origin);
   const ali3_status status = ali3_trial_step(in, start, time - start, ALI3_READ_ALL);
   if (status == ALI3_OK) ali3_vectors_copy(in, &in->next, &in->now);
-  ali3_vectors_copy(in, &in->now, &in->kept.coarse);
+  ali3_vectors_copy(in, &in->now, &in->stored.coarse);
   ali3_balance_restore(&in->report, &before);
   return status;
 }
 
+/* Sensors and coordinates of in->now; NULL: not wanted. */
 static void write_outputs(ali3_instance *in, double *out, double *positions) {
   if (out != NULL) ali3_sensors_evaluate(in, out);
   if (positions != NULL) memcpy(positions, in->now.q, (size_t)in->system->size.nq * sizeof(double));
 }
 
-/* Sensors (ns) and coordinates (nq) at `time` of the step from t that in->kept.origin, in->kept.centre, in->now
- * hold. */
 ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double time,
                               double *out, double *positions) {
   const bool relative = ali3_method_of(in)->relative;

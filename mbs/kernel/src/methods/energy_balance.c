@@ -33,21 +33,18 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
   r->energy = energy;
 }
 
-/* Kinetic energy of in->now, J. */
 double ali3_kinetic_energy(ali3_instance *in) {
   ali3_bodies_prepare(in, in->now.q);
   return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->step.w);
 }
 
-/* Kinetic and potential energy of in->now, J. */
 double ali3_energy(ali3_instance *in) {
   const double kinetic = ali3_kinetic_energy(in);
   if (kinetic > in->report.kinetic_peak) in->report.kinetic_peak = kinetic;
   return kinetic + potential(in, &in->now, NULL);
 }
 
-/* Starts the energy balance of a method that has one at in->now. */
-void ali3_balance_open(ali3_instance *in, bool balanced) {
+void ali3_balance_start(ali3_instance *in, bool balanced) {
   in->report.open_power = in->report.energy_floor = 0.0;
   if (!balanced) return;
   const double kinetic = ali3_kinetic_energy(in);
@@ -59,8 +56,6 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
   kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now, NULL));
 }
 
-/* Adds a step to in->next with its kinetic energy and energy error, J, to the balance; the remaining change of energy
- * is work. `weight`: energy of gravity, J, known for Systems without flexible and tabled bodies, otherwise NULL. */
 void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight) {
   ali3_report *r = &in->report;
   const double energy = kinetic + potential(in, &in->next, weight);
@@ -69,8 +64,6 @@ void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const 
   kinetic_energy(r, kinetic, energy);
 }
 
-/* Adds a step to the accuracy measures: squares of the velocity at its end, of its change, and of its difference from v
- * + h a. */
 void ali3_balance_motion(ali3_instance *in, double speed, double change, double miss) {
   ali3_report *report = &in->report;
   report->speed_peak = fmax(report->speed_peak, sqrt(speed));
@@ -113,15 +106,12 @@ ALI3_BY_PROCESSOR(in->system, void, balance_squares,
                    double out[3]),
                   (in, h, v0, a, v1, out))
 
-/* Adds a step of natural coordinates from velocities v0 and accelerations a to velocities v1 to the accuracy
- * measures. */
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
   double square[3];
   ali3_balance_squares(in, h, v0, a, v1, square);
   ali3_balance_motion(in, square[0], square[1], square[2]);
 }
 
-/* Adds the step from in->next to in->now to the accuracy measures. */
 void ali3_balance_step(ali3_instance *in, double h) {
   ali3_balance_change(in, h, in->next.qd, in->next.qdd, in->now.qd);
 }
@@ -135,7 +125,6 @@ void ali3_balance_long_step(ali3_instance *in, double h) {
   ali3_balance_motion(in, square[0], square[1], fmax(square[2], back[2]));
 }
 
-/* Restores the energy balance before a refused step. */
 void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->energy_error = before->energy_error;
   report->open_power = before->open_power;

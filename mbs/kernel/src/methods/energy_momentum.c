@@ -70,6 +70,7 @@ static double raised_penalty(const ali3_instance *in, double h) {
   return fmax(weight, fmin(most_refinements, SIGN_CHANGE / turn));
 }
 
+/* Rows and residual r = M (D - h v) + inertia - h^2/2 (Q - A' lam) of the iterate D, with the forces of the middle. */
 static void evaluate(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -144,6 +145,7 @@ static ali3_status factorise(ali3_instance *in, double h, double weight) {
   return ali3_factorise_lu(in, 1, in->tangent.F);
 }
 
+/* One Newton correction of D and of the multipliers. */
 static ali3_status correct(ali3_instance *in, double weight, double alpha, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
@@ -174,7 +176,7 @@ static ali3_status undo_correction(ali3_instance *in, double h) {
   for (int32_t i = 0; i < in->system->size.nq; i++) in->step.D[i] -= in->mixing.step_q[i];
   for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] -= in->mixing.step_lam[k];
   evaluate(in, h);
-  return ali3_judge(in, in->step.r) ? ALI3_OK : ALI3_NOT_FINITE;
+  return ali3_measure_residual(in, in->step.r) ? ALI3_OK : ALI3_NOT_FINITE;
 }
 
 /* Predicts the increment and multipliers and evaluates them; false: not finite. */
@@ -183,7 +185,7 @@ static bool predict(ali3_instance *in, double h) {
   ali3_history_predict(in, 0.5 * h, ali3_history_order(in, n_past), in->step.d0, in->next.lam);
   for (int32_t i = 0; i < in->system->size.nq; i++) in->step.D[i] = h * in->now.own[i] + 0.5 * h * h * in->step.d0[i];
   evaluate(in, h);
-  return ali3_judge(in, in->step.r);
+  return ali3_measure_residual(in, in->step.r);
 }
 
 /* Size of the last correction relative to the contribution of accelerations to the step, in the metric of the
@@ -231,10 +233,10 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
   for (int32_t k = 0; k < settings->max_iterations; k++) {
     ali3_status status = new_tangent ? factorise(in, h, weight) : ALI3_OK;
     if (status == ALI3_OK) status = correct(in, weight, alpha, k);
-    if (status != ALI3_OK) return ali3_newton_ended(in, status);
+    if (status != ALI3_OK) return ali3_newton_failure(in, status);
     ++*iterations;
     evaluate(in, h);
-    if (!ali3_judge(in, in->step.r)) return ALI3_NOT_FINITE;
+    if (!ali3_measure_residual(in, in->step.r)) return ALI3_NOT_FINITE;
     const double size = relative_error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
     if (r <= least_r && v <= least_v && (!is_composed || relative_correction(in) * fmin(1.0, ratio) <= limit))
       return ALI3_OK;
@@ -287,8 +289,6 @@ static bool carries_projected(const ali3_instance *in) {
   return in->system->n_flexible > 0 && in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM;
 }
 
-/* Makes a step from in->now to in->next; in->now changes only if it succeeds. t: time at its end, s; h, s, may be
- * negative; `middle`: its middle as a fraction of the step of ali3_inputs_begin. */
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double middle, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -338,7 +338,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double m
   has_same_rows(in, to, true);
   memcpy(in->discrete.J0, in->tangent.J, (size_t)S->size.nnz_rows * sizeof(double));
   if (carries_projected(in)) ali3_energy_momentum_carry(in, to, weight);
-  if (reported) status = ali3_energy_momentum_show(in, to);
+  if (reported) status = ali3_energy_momentum_complete(in, to);
   return status == ALI3_OK ? ali3_accept(in) : status;
 }
 
@@ -350,7 +350,6 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   return ali3_energy_momentum(in, request->t, request->h, 0.5, request->reading != ALI3_READ_NOTHING);
 }
 
-/* Adds steps from `from`, with the carried velocities, to the accuracy measures. */
 void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h) {
   const bool n_past = from->history[ALI3_HISTORY_COUNT] >= 1.0 &&
                       from->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
@@ -360,10 +359,12 @@ void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, do
 static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->next, h); }
 
 /* Tabled bodies have no discrete derivatives. */
-static ali3_status takes(const ali3_instance *in) { return in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ALI3_OK; }
+static ali3_status check_system(const ali3_instance *in) {
+  return in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ALI3_OK;
+}
 
 const ali3_method ali3_method_energy_momentum = {.step = step,
-                                                 .takes = takes,
+                                                 .check_system = check_system,
                                                  .excludes = "no tabled bodies",
                                                  .before = before,
                                                  .motion = motion,

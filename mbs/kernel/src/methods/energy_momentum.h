@@ -1,12 +1,21 @@
-/* Functions of the energy-momentum method for reports and compositions; energy_momentum.c describes them. */
+/* Functions of the energy-momentum method for reports and compositions. The carried velocity v->own is that of the
+ * recursion of steps; v->qd is the reported one, on the rows. */
 #ifndef ALI3_ENERGY_MOMENTUM_H
 #define ALI3_ENERGY_MOMENTUM_H
 #include "../instance.h"
 
-double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
+/* c alpha of a step h, s; dimensionless. */
+double ali3_energy_momentum_penalty(const ali3_instance *in, double h);
+/* Projects v->own onto the rows, of Systems with flexible bodies, with the factorised tangent of the step; weight: c
+ * alpha of that tangent. Needs Phi_q in in->tangent.J. */
 void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight);
-ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v);
+/* Writes v->qd, v->qdd and v->lam from v->q and v->own. Needs Phi_q in in->tangent.J. Returns a status if the equations
+ * cannot be solved. */
+ali3_status ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v);
+/* Completes in->now after steps of which nothing was read. */
 void ali3_energy_momentum_report(ali3_instance *in);
+/* Before a step of h, s: in->now.own = in->now.qd in a controlled run or if the length of the step changes. */
 void ali3_energy_momentum_restart(ali3_instance *in, double h, bool controlled);
+/* Adds steps from `from` to in->now with total length h, s, by their carried velocities, to the accuracy measures. */
 void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h);
 #endif

@@ -57,7 +57,7 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
  * v->lam are those of the forces there: of the order of positions and velocities, and of nothing but the state,
  * whatever steps led to it. Middles of past steps would give them less accurately: the error of the carried velocity
  * along rows of prescribed motion changes its sign from step to step. Needs Phi_q in in->tangent.J. */
-ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
+ali3_status ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int64_t factorizations = in->report.factorizations, solves = in->report.solves;
   const ali3_force_call call = {.q = v->q,
@@ -84,10 +84,9 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   return status;
 }
 
-/* After steps of which nothing was read. */
 void ali3_energy_momentum_report(ali3_instance *in) {
   ali3_constraints(in, in->now.q, in->now.s, in->step.Phi, in->tangent.J);
-  ali3_energy_momentum_show(in, &in->now);
+  ali3_energy_momentum_complete(in, &in->now);
 }
 
 /* Before a step of h: the carried velocity goes to the reported one where steps change. What it has off the rows has

@@ -17,9 +17,6 @@ static bool halves_left(const ali3_instance *in, const ali3_request *request) {
   return request->depth > 0 && request->depth < in->settings.max_halvings && in->settings.step_iterations == 0;
 }
 
-/* Adds an energy error, J, to the balance and, if no row is driven, refuses the step if it is large relative to `size`,
- * or if it would be with the unbalanced power `open`, W, in a next step of this size. `end`: kinetic energy at its end;
- * `weight`: as in ali3_balance_energy. */
 ali3_status ali3_energy_judge(ali3_instance *in, const ali3_request *request, double error, double size, double end,
                               double open, const double *weight) {
   const double predicted = fabs(error + 0.5 * request->h * (open - in->report.open_power)),

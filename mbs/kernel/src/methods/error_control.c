@@ -58,14 +58,14 @@ ali3_status ali3_refresh(ali3_instance *in) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   in->clock.now = ali3_time(in);
-  ali3_vectors_copy(in, &in->kept.start, &in->now);
+  ali3_vectors_copy(in, &in->stored.start, &in->now);
   ali3_guides_time(in, &in->now, in->clock.now);
   ali3_status status = in->inputs.function != NULL ? ali3_inputs_begin(in, in->clock.now, 0.0) : ALI3_OK;
   if (in->inputs.function != NULL)
     memcpy(in->inputs.set, in->inputs.begin, (size_t)in->system->size.nu * sizeof(double));
   if (status == ALI3_OK) status = ali3_solve_rates(in, false);
   if (status != ALI3_OK) {
-    ali3_vectors_copy(in, &in->now, &in->kept.start);
+    ali3_vectors_copy(in, &in->now, &in->stored.start);
     return status;
   }
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
@@ -133,6 +133,7 @@ static int judge_error(const ali3_control *c, step_trials *trials, double h, dou
   return REJECT;
 }
 
+/* Updates the statistics of the control by an accepted step. */
 static void record_accepted(ali3_control *c, double h, double error, double relative_error, int verdict) {
   if (c->accepted == 0 || h < c->smallest) c->smallest = h;
   if (h > c->largest) c->largest = h;
@@ -157,7 +158,7 @@ static double next_step(const ali3_control *c, double wanted, double tried, doub
 
 /* Restores the state before a step that is not accepted. */
 static void undo_step(ali3_instance *in, const ali3_report *end_before) {
-  ali3_vectors_copy(in, &in->now, &in->kept.origin);
+  ali3_vectors_copy(in, &in->now, &in->stored.origin);
   in->report.steps = end_before->steps;
   ali3_balance_restore(&in->report, end_before);
 }
@@ -233,6 +234,7 @@ static bool inputs_have_jumped(ali3_instance *in) {
   return ali3_inputs_begin(in, in->clock.now, 0.0) != ALI3_OK || ali3_inputs_jump(in);
 }
 
+/* Makes at most most_steps steps up to t_end, s; *done: their number. */
 static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_end, int64_t most_steps,
                        const ali3_record *record, int64_t *done) {
   const int32_t ns = in->system->size.ns, nq = in->system->size.nq;
@@ -252,7 +254,7 @@ static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_
                                  record->positions != NULL ? record->positions + *done * nq : NULL);
     t = next;
     set_time(in, t);
-    ali3_branch_look(in, t);
+    ali3_branch_check(in, t);
     if (t == piece_end && piece_end < t_end && status == ALI3_OK) status = ali3_refresh(in);
   }
   return status;
@@ -270,7 +272,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   ali3_roads_clear_read_errors(in);
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST_STEP * control->span);
   if (inputs_have_jumped(in)) status = ali3_refresh(in);
-  if (status == ALI3_OK) status = ali3_inputs_aim(in, 0.0, NULL);
+  if (status == ALI3_OK) status = ali3_inputs_set_end(in, 0.0, NULL);
   ali3_branch_before(in); /* assembly modes of the start, if not evaluated yet */
   if (status == ALI3_OK) status = run(in, &measure, t_end, most_steps, record, done);
   update_report(in);

@@ -4,24 +4,34 @@
 #include "../instance.h"
 #include "../request.h"
 
-/* Settings of a controlled run; scale (nq): length of a unit of each coordinate, m; NULL: 1 m each. */
+/* Settings of a controlled run. */
 typedef struct {
   ali3_control *control;
-  const double *scale;
+  const double *scale; /* nq, m: length that a unit of each coordinate counts as; NULL: 1 m */
 } ali3_measure;
 
-/* step_doubling.c */
+/* Makes a step of h from time t, s, once whole and once in halves, from in->now to in->now; its start is stored in
+ * in->stored.origin, its middle in in->stored.centre. *error: of positions, relative to the length of the control.
+ * After a failed step in->now is unchanged; returns its status. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error);
+/* Makes a step of h from time t, s, that is not halved; after a failure the caller restores the state. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading);
+/* Largest of |q_i| and, for coordinates with mass, |qd_i| / rate (rate: 1/s), relative to the length of the control. */
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate);
+/* Reference rate of velocities, 1/s: that of the present motion, at least the one of the control. `all`: includes
+ * coordinates without mass, such as driven angles. */
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all);
 
-/* branch_watch.c */
+/* Checks the accepted controlled step of h from time t, s, for a jump between close branches; returns the fraction of
+ * it that may be made, 1: all. */
 double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, double t, double h);
 
-/* dense_output.c */
+/* Writes q, qd and qdd at x, -1 (start) to 1 (end), of the step of h, s, in in->stored.origin, in->stored.centre and
+ * in->now. */
 void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to);
+/* Sensors (ns) and coordinates (nq) at time `when` of the same step, which starts at t, s; either may be NULL. Returns
+ * the status of the evaluation. */
 ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
                               double *out, double *positions);
 #endif

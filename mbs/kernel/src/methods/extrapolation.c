@@ -8,7 +8,6 @@ static const double SMOOTH_RATIO = 0.25; /* largest prediction error relative to
 static const double MAX_RATIO = 2.0; /* longest next step relative to the last one */
 static const double CONTROLLED_MAX_RATIO = 4.5; /* of controlled steps: the last was a half, and steps grow */
 
-/* Lagrange weights (n) by which values at n times extrapolate to time t. */
 void ali3_lagrange(const real *time, int32_t n, real t, real *weight) {
   for (int32_t k = 0; k < n; k++) {
     real numerator = ali3_same(1.0), denominator = numerator;

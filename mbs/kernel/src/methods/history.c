@@ -16,7 +16,6 @@ static int32_t past_count(const ali3_vectors *v, int32_t most) {
   return count < (double)most ? (count > 0.0 ? (int32_t)count : 0) : most;
 }
 
-/* Makes `method` the owner of the history; a new owner starts with `own` (nq) and no past steps. */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   double *history = in->now.history;
   if (history[ALI3_HISTORY_OWNER] == (double)method) return;
@@ -52,8 +51,6 @@ int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   return best;
 }
 
-/* Acceleration a (nq) and multipliers (nc) at `time_ahead` from now, extrapolated from at most `most` past ones; without a
- * past those of the state. */
 void ali3_history_predict(const ali3_instance *in, double time_ahead, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
@@ -66,8 +63,6 @@ void ali3_history_predict(const ali3_instance *in, double time_ahead, int32_t mo
   ali3_extrapolate(in, time_ahead, n, a, lam);
 }
 
-/* Shifts the history of in->now by the completed step h into in->next; the caller writes the first mean acceleration
- * and multipliers. */
 void ali3_history_shift(ali3_instance *in, double h) {
   const ali3_vectors *from = &in->now, *to = &in->next;
   const size_t nq = (size_t)in->system->size.nq, nc = (size_t)in->system->size.nc;
@@ -81,7 +76,6 @@ void ali3_history_shift(ali3_instance *in, double h) {
   memcpy(to->past_lam + nc, from->past_lam, (ALI3_PAST - 1) * nc * sizeof(double));
 }
 
-/* Shifts the history and appends the mean acceleration a and the multipliers in->next.lam. */
 void ali3_history_append(ali3_instance *in, double h, const double *a) {
   ali3_history_shift(in, h);
   memcpy(in->next.past_a, a, (size_t)in->system->size.nq * sizeof *a);

@@ -58,13 +58,11 @@ static ali3_status input_change(ali3_instance *in, double h, const double *befor
   return ALI3_OK;
 }
 
-/* Before a step h: updates in->now after a jump of inputs, and past accelerations and multipliers, which predict the
- * next ones. */
 ali3_status ali3_input_jump(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   ali3_vectors *v = &in->now;
-  double *before = in->kept.direction.step_force, *work_force = v->watched + S->n_work;
+  double *before = in->stored.direction.step_force, *work_force = v->watched + S->n_work;
   bool force_changes;
   if (!ali3_inputs_jump(in)) return ALI3_OK;
   ali3_back_up(in);

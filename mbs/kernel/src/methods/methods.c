@@ -19,10 +19,9 @@ const char *ali3_method_excludes(const ali3_instance *in) {
   return in == NULL || ali3_method_of(in)->excludes == NULL ? "" : ali3_method_of(in)->excludes;
 }
 
-/* ALI3_OK, or a status if the method of the settings does not accept the System. */
 ali3_status ali3_check_method(const ali3_instance *in) {
   const ali3_method *method = ali3_method_of(in);
-  return method->takes != NULL ? method->takes(in) : ALI3_OK;
+  return method->check_system != NULL ? method->check_system(in) : ALI3_OK;
 }
 
 bool ali3_has_balance(const ali3_instance *in) {

@@ -16,20 +16,17 @@ double ali3_penalty(const ali3_instance *in, double h) {
                         : (1.0 + (stiffness < MAX_STIFFNESS ? stiffness : MAX_STIFFNESS)) / (s->eps_rel * h * h);
 }
 
-/* Writes the size of the residual r (nq) and of the rows in in->step.Phi to the report; false: not finite. */
-bool ali3_judge(ali3_instance *in, const double *r) {
+bool ali3_measure_residual(ali3_instance *in, const double *r) {
   const ali3_system *S = in->system;
-  in->report.residual = ali3_worst_size(r, in->mass.floor_inverse, S->size.nq, &in->report.worst_coordinate);
+  in->report.residual = ali3_find_worst(r, in->mass.floor_inverse, S->size.nq, &in->report.worst_coordinate);
   in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
   return in->report.residual < 1e300 && in->report.violation < 1e300;
 }
 
-/* Status of a correction that could not be computed; far from the rows a singular tangent is divergence. */
-ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status) {
+ali3_status ali3_newton_failure(const ali3_instance *in, ali3_status status) {
   return status == ALI3_SINGULAR && in->report.violation > ALI3_LOST * in->system->fine ? ALI3_NOT_CONVERGED : status;
 }
 
-/* Reports the iterations of one step; `before`: the count before it. */
 void ali3_iterations_since(ali3_instance *in, int64_t before) {
   in->report.last_iterations = (int32_t)(in->report.iterations - before);
   if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;

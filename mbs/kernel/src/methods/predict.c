@@ -28,7 +28,7 @@ ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool f
   ali3_history_predict(in, 0.5 * h, extrapolates ? ALI3_PARABOLA : 0, in->step.x, lam);
   const double *last = from->lam, *qd = from->qd, *x = in->step.x, half = 0.5 * h * h;
   double *D = in->step.D;
-  ALI3_EACH(0, S->size.nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_SHARE * (ALI3_AT(lam) - ALI3_AT(last)))
+  ALI3_EACH(0, S->size.nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_MULTIPLIER_FRACTION * (ALI3_AT(lam) - ALI3_AT(last)))
   ALI3_EACH(0, S->size.nq, ALI3_AT(D) = h * ALI3_AT(qd) + half * ALI3_AT(x))
   return extrapolates;
 }
@@ -36,7 +36,6 @@ ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool f
 ALI3_BY_PROCESSOR(in->system, bool, predict, (ali3_instance * in, const ali3_request *request, bool from_past),
                   (in, request, from_past))
 
-/* Stores the mean acceleration and the multipliers of the step from in->now to in->next. */
 void ali3_predict_accept(ali3_instance *in, double h) {
   if (in->system->n_flexible > 0) return;
   const double *D = in->step.D, *qd = in->now.qd, square = h * h;
@@ -45,7 +44,6 @@ void ali3_predict_accept(ali3_instance *in, double h) {
   ali3_history_append(in, h, x);
 }
 
-/* Stores the mean rate of the step from in->now to in->next, of systems with flexible bodies. */
 void ali3_predict_rates(ali3_instance *in, double h) {
   if (in->system->n_flexible == 0) return;
   for (int32_t i = 0; i < in->system->size.nq; i++) {

@@ -48,22 +48,27 @@ static const double A2[STAGES][STAGES] = {{0.02183503419072274, -0.0198572540986
                                           {0.17719058743194561, 0.03816496580927726, -0.00737596352989574},
                                           {0.31804138174397717, 0.18195861825602283, 0.00000000000000000}};
 
-static double *acceleration(const ali3_instance *in, int i) {
+/* Arrays of stage i: accelerations (nq), */
+static double *stage_acceleration(const ali3_instance *in, int i) {
   return in->step.stage + (int64_t)i * in->system->size.nq;
 }
-static double *residual(const ali3_instance *in, int i) { return acceleration(in, STAGES + i); }
+/* residuals (nq), */
+static double *stage_residual(const ali3_instance *in, int i) { return stage_acceleration(in, STAGES + i); }
+/* rows or multipliers in v (nc), */
 static double *stage_rows(const ali3_instance *in, double *v, int i) { return v + (int64_t)i * in->system->size.nc; }
+/* powers of sensed elements (n_work), */
 static double *stage_power(const ali3_instance *in, int i) {
   return in->watch.stages + (int64_t)i * in->system->n_work;
 }
+/* and entries in the row pattern in v. */
 static double *stage_entries(const ali3_instance *in, double *v, int i) { return v + i * in->system->size.nnz_rows; }
 
 /* Sets position, velocity, guides and inputs of stage i. */
 static void set_stage(ali3_instance *in, double t, double h, int i) {
   const ali3_vectors *from = &in->now;
   ali3_vectors *to = &in->next;
-  const double *restrict a0 = acceleration(in, 0), *restrict a1 = acceleration(in, 1),
-                         *restrict a2 = acceleration(in, 2);
+  const double *restrict a0 = stage_acceleration(in, 0), *restrict a1 = stage_acceleration(in, 1),
+                         *restrict a2 = stage_acceleration(in, 2);
   for (int32_t k = 0; k < in->system->size.nq; k++) {
     to->qd[k] = from->qd[k] + h * (A[i][0] * a0[k] + A[i][1] * a1[k] + A[i][2] * a2[k]);
     to->q[k] = from->q[k] + h * (node[i] * from->qd[k] + h * (A2[i][0] * a0[k] + A2[i][1] * a1[k] + A2[i][2] * a2[k]));
@@ -72,7 +77,8 @@ static void set_stage(ali3_instance *in, double t, double h, int i) {
   ali3_guides_time(in, to, t - (1.0 - node[i]) * h);
 }
 
-static void forces(ali3_instance *in, double wC, double wK) {
+/* Forces at in->next; tangents of elements for weights above 0. */
+static void evaluate_forces(ali3_instance *in, double wC, double wK) {
   ali3_vectors *to = &in->next;
   const ali3_force_call call = {.q = to->q,
                                 .qd = to->qd,
@@ -92,12 +98,12 @@ static bool evaluate(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   double largest = 0.0, open = 0.0;
   for (int i = 0; i < STAGES; i++) { /* ascending, as a stage may overwrite the number after its own */
-    double *Phi = stage_rows(in, in->radau.Phi, i), *J = stage_entries(in, in->radau.J, i), *r = residual(in, i);
+    double *Phi = stage_rows(in, in->radau.Phi, i), *J = stage_entries(in, in->radau.J, i), *r = stage_residual(in, i);
     set_stage(in, t, h, i);
     ali3_constraints(in, in->next.q, in->next.s, Phi, J);
-    forces(in, 0.0, 0.0);
+    evaluate_forces(in, 0.0, 0.0);
     if (S->n_work > 0) memcpy(stage_power(in, i), in->watch.now, (size_t)S->n_work * sizeof(double));
-    ali3_mass_times(in, acceleration(in, i), r);
+    ali3_mass_times(in, stage_acceleration(in, i), r);
     ali3_rows_transposed(S, J, stage_rows(in, in->radau.lam, i), in->step.x);
     for (int32_t k = 0; k < S->size.nq; k++) {
       r[k] += in->step.x[k] - in->step.Q[k];
@@ -122,7 +128,7 @@ static bool evaluate(ali3_instance *in, double t, double h) {
 
 /* Writes blocks (stage, k) of the tangent of all stages, M + h A_ik C + h^2 (A^2)_ik K, from the fronts of one
  * stage. */
-static void merge(ali3_instance *in, double h, int stage) {
+static void add_stage_blocks(ali3_instance *in, double h, int stage) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
@@ -154,9 +160,9 @@ static ali3_status factorise(ali3_instance *in, double t, double h, double alpha
     ali3_mass_to_fronts(in, in->tangent.F);
     memset(in->radau.F_C, 0, size);
     memset(in->radau.F_K, 0, size);
-    forces(in, 1.0, 0.0);
+    evaluate_forces(in, 1.0, 0.0);
     ali3_elements_tangent(in, in->radau.F_C);
-    forces(in, 0.0, 1.0);
+    evaluate_forces(in, 0.0, 1.0);
     ali3_elements_tangent(in, in->radau.F_K);
     if (flexible) {
       ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
@@ -166,7 +172,7 @@ static ali3_status factorise(ali3_instance *in, double t, double h, double alpha
     if (in->settings.geometric)
       ali3_geometric(in, in->next.q, in->next.s, stage_rows(in, in->radau.lam, i), 1.0, in->radau.F_K);
     ali3_rows_square(in, stage_entries(in, in->radau.J, i), alpha, in->radau.F_K);
-    merge(in, h, i);
+    add_stage_blocks(in, h, i);
   }
   return ali3_factorise_lu(in, STAGES, in->radau.F);
 }
@@ -197,7 +203,7 @@ static ali3_status correct(ali3_instance *in, double h, double alpha, double *ch
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   for (int i = 0; i < STAGES; i++) {
-    const double *Phi = stage_rows(in, in->radau.Phi, i), *r = residual(in, i);
+    const double *Phi = stage_rows(in, in->radau.Phi, i), *r = stage_residual(in, i);
     for (int32_t k = 0; k < nc; k++) in->step.mu[k] = alpha * Phi[k];
     ali3_rows_transposed(S, stage_entries(in, in->radau.J_made, i), in->step.mu, in->step.x);
     for (int32_t k = 0; k < nq; k++) in->radau.x[STAGES * k + i] = -(r[k] + in->step.x[k]);
@@ -205,7 +211,7 @@ static ali3_status correct(ali3_instance *in, double h, double alpha, double *ch
   ali3_solve_lu(in, STAGES, in->radau.F, in->radau.x);
   if (!ali3_finite(in->radau.x, STAGES * (int64_t)nq)) return ALI3_NOT_FINITE;
   for (int i = 0; i < STAGES; i++) {
-    double *lam = stage_rows(in, in->radau.lam, i), *a = acceleration(in, i);
+    double *lam = stage_rows(in, in->radau.lam, i), *a = stage_acceleration(in, i);
     const double *Phi = stage_rows(in, in->radau.Phi, i);
     sum_corrections(in, i);
     ali3_rows_times(S, stage_entries(in, in->radau.J_made, i), in->step.w, in->step.mu);
@@ -240,7 +246,7 @@ static ali3_status newton(ali3_instance *in, double t, double h, double alpha, b
   for (int32_t iteration = 0; iteration < settings->max_iterations; iteration++) {
     ali3_status status = new_tangent ? factorise(in, t, h, alpha) : ALI3_OK;
     if (status == ALI3_OK) status = correct(in, h, alpha, &change);
-    if (status != ALI3_OK) return ali3_newton_ended(in, status);
+    if (status != ALI3_OK) return ali3_newton_failure(in, status);
     if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
     const double r = in->report.residual / residual_limit, v = largest_opening(in) / opening_limit;
     const double size = fmax(r, v), remaining = size < last_error ? change * size / last_error : change;
@@ -261,7 +267,7 @@ static bool predict(ali3_instance *in, double h) {
   const double *time = in->now.history + ALI3_HISTORY_TIME;
   const bool extrapolated = -time[LAST] > 0.0 && (1.0 - node[0]) * h <= MAX_RATIO * -time[LAST];
   for (int i = 0; i < STAGES; i++)
-    ali3_history_predict(in, node[i] * h, extrapolated ? STAGES : 1, acceleration(in, i),
+    ali3_history_predict(in, node[i] * h, extrapolated ? STAGES : 1, stage_acceleration(in, i),
                          stage_rows(in, in->radau.lam, i));
   return extrapolated;
 }
@@ -296,7 +302,7 @@ static void store_stages(ali3_instance *in, double h) {
   for (int i = 0; i < STAGES; i++) {
     const int index = LAST - i;
     to->history[ALI3_HISTORY_TIME + index] = (node[i] - 1.0) * h;
-    memcpy(to->past_a + (size_t)index * nq, acceleration(in, i), nq * sizeof(double));
+    memcpy(to->past_a + (size_t)index * nq, stage_acceleration(in, i), nq * sizeof(double));
     memcpy(to->past_lam + (size_t)index * nc, stage_rows(in, in->radau.lam, i), nc * sizeof(double));
   }
 }
@@ -370,7 +376,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   if (S->n_guide_work > 0) ali3_guides_work(in, to, work_of_drives(in, t, h));
-  memcpy(to->qdd, acceleration(in, LAST), nq * sizeof(double));
+  memcpy(to->qdd, stage_acceleration(in, LAST), nq * sizeof(double));
   memcpy(to->lam, stage_rows(in, in->radau.lam, LAST), (size_t)S->size.nc * sizeof(double));
   for (int i = 0; i < STAGES; i++) ali3_work_stage(in, h * A[LAST][i], stage_power(in, i), to->work);
   ali3_work_store(in, to);
@@ -385,14 +391,14 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
 }
 
 /* The tangent of the stages does not include rates of rows. */
-static ali3_status takes(const ali3_instance *in) {
+static ali3_status check_system(const ali3_instance *in) {
   return in->system->n_velocity_row + in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_states(in);
 }
 
 const ali3_method ali3_method_radau_5 = {.step = step,
                                          .motion = ali3_balance_long_step,
                                          .has_guides_work = ali3_always,
-                                         .takes = takes,
+                                         .check_system = check_system,
                                          .excludes =
                                              ALI3_STATES_IN_WORDS ", no tabled bodies, and no rolling without slip",
                                          .owner = ALI3_METHOD_RADAU_5,

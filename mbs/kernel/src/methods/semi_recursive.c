@@ -161,6 +161,7 @@ static void combine(const ali3_instance *in, double h, const double *weight, int
   for (int32_t i = 0; i < n; i++) sum[i] = w->state[i] + h * sum[i];
 }
 
+/* Largest absolute value. */
 static double largest_size(const double *v, int32_t n) {
   double most = 0.0;
   for (int32_t i = 0; i < n; i++) most = fabs(v[i]) > most ? fabs(v[i]) : most;
@@ -324,14 +325,14 @@ static void report_last(ali3_instance *in) {
   ali3_vectors_copy(in, &in->now, &in->next);
 }
 
-static ali3_status takes(const ali3_instance *in) {
+static ali3_status check_system(const ali3_instance *in) {
   return in->system->tree == NULL ? ALI3_NO_TREE : ali3_needs_no_states(in);
 }
 
 static ali3_status step_8(ali3_instance *in, const ali3_request *request) { return step(in, request, &ali3_tableau_8); }
 
 const ali3_method ali3_method_semi_recursive = {.step = step_8,
-                                                .takes = takes,
+                                                .check_system = check_system,
                                                 .excludes = ALI3_STATES_IN_WORDS,
                                                 .after_sampled = report_last,
                                                 .owner = ALI3_METHOD_SEMI_RECURSIVE,
@@ -342,7 +343,7 @@ const ali3_method ali3_method_semi_recursive = {.step = step_8,
 static ali3_status step_4(ali3_instance *in, const ali3_request *request) { return step(in, request, &ali3_tableau_4); }
 
 const ali3_method ali3_method_semi_recursive_4 = {.step = step_4,
-                                                  .takes = takes,
+                                                  .check_system = check_system,
                                                   .excludes = ALI3_STATES_IN_WORDS,
                                                   .after_sampled = report_last,
                                                   .owner = ALI3_METHOD_SEMI_RECURSIVE,

@@ -14,9 +14,8 @@
  * errors were up to four times the estimate for order eight. */
 enum { MAX_ORDER = 6 };
 
-/* A step from time t that is not halved; the caller restores the state after a failure. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading) {
-  in->kept.backed_up = false;
+  in->stored.backed_up = false;
   in->bound.iterations_before = in->report.iterations;
   in->clock.now = t;
   const ali3_request request = {.t = t + h, .h = h, .reading = reading, .controlled = true};
@@ -28,7 +27,6 @@ static double unit_length(const ali3_measure *measure, int32_t i) {
   return measure->scale != NULL ? measure->scale[i] : 1.0;
 }
 
-/* Largest of |q_i| and, for coordinates with mass, |qd_i| / rate (1/s), relative to the length of the control. */
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate) {
   const ali3_system *S = in->system;
@@ -41,8 +39,6 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
   return largest / measure->control->length;
 }
 
-/* Reference rate of velocities, 1/s: of the present motion, at least the given one. `all`: includes coordinates without
- * mass, such as driven angles. */
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all) {
   const ali3_system *S = in->system;
   double largest = 0.0;
@@ -51,28 +47,26 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all)
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
-/* Makes a step from in->now, which is saved in in->kept.origin, to in->now; its middle is in in->kept.centre. *error is
- * relative to the length. After a failed step in->now is unchanged. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;
-  ali3_vectors_copy(in, &in->kept.origin, &in->now);
+  ali3_vectors_copy(in, &in->stored.origin, &in->now);
   ali3_status status = ali3_trial_step(in, t, h, ALI3_READ_SENSORS);
   ali3_balance_restore(&in->report, &before);
-  ali3_vectors_copy(in, &in->kept.coarse, &in->now);
-  ali3_vectors_copy(in, &in->now, &in->kept.origin);
+  ali3_vectors_copy(in, &in->stored.coarse, &in->now);
+  ali3_vectors_copy(in, &in->now, &in->stored.origin);
   if (status == ALI3_OK) status = ali3_trial_step(in, t, 0.5 * h, ALI3_READ_SENSORS);
   if (status == ALI3_OK) {
     in->report.steps++;
-    ali3_vectors_copy(in, &in->kept.centre, &in->now);
+    ali3_vectors_copy(in, &in->stored.centre, &in->now);
     status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h, ALI3_READ_SENSORS);
   }
   if (status == ALI3_OK) {
     const int32_t order = ali3_method_order(in) < MAX_ORDER ? ali3_method_order(in) : MAX_ORDER;
     const double error_factor = 1.0 / (ldexp(1.0, order) - 1.0);
     for (int32_t i = 0; i < nq; i++) {
-      in->step.w[i] = error_factor * (in->now.q[i] - in->kept.coarse.q[i]);
-      in->step.x[i] = error_factor * (in->now.qd[i] - in->kept.coarse.qd[i]);
+      in->step.w[i] = error_factor * (in->now.q[i] - in->stored.coarse.q[i]);
+      in->step.x[i] = error_factor * (in->now.qd[i] - in->stored.coarse.qd[i]);
     }
     *error = ali3_distance(in, measure, in->step.w, in->step.x, ali3_rate(in, measure, false));
     in->report.steps++;
@@ -81,6 +75,6 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
   }
   ali3_balance_restore(&in->report, &before);
   in->report.steps = before.steps;
-  ali3_vectors_copy(in, &in->now, &in->kept.origin);
+  ali3_vectors_copy(in, &in->now, &in->stored.origin);
   return status;
 }

@@ -58,8 +58,6 @@ static double fastest_rate(ali3_instance *in) {
   return mean_growth;
 }
 
-/* Status of a refused step h of an explicit method: ALI3_TOO_STIFF if its cause is the fastest rate, also of diverged
- * stages, or after steps that have left a state without a rate. */
 ali3_status ali3_explain_refusal(ali3_instance *in, ali3_status status, double h) {
   const double stable_rate = ali3_method_of(in)->stable_rate;
   const bool diverged = status == ALI3_SINGULAR || status == ALI3_NOT_FINITE;

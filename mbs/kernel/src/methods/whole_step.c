@@ -15,7 +15,6 @@
 #include "energy_watch.h"
 #include "newton.h"
 
-/* Starts a step of h, s; inputs change linearly to `end` (nu), NULL: they are constant. */
 ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_reading reading,
                             ali3_whole_step *step) {
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
@@ -30,7 +29,7 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
     in->report.failures++;
     return ALI3_BEYOND_TABLE;
   }
-  const ali3_status input_status = ali3_inputs_aim(in, h, end);
+  const ali3_status input_status = ali3_inputs_set_end(in, h, end);
   if (input_status != ALI3_OK) return input_status;
   step->t_base = h == in->clock.h ? in->clock.base : ali3_time(in); /* counted steps of equal h add no round-off */
   step->count = h == in->clock.h ? in->clock.count + 1 : 1;
@@ -40,18 +39,18 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
   in->bound.capped = false;
   in->bound.capped_residual = 0.0;
   in->bound.iterations_before = step->before.iterations;
-  in->kept.backed_up = false; /* only halves and a new owner of the history change in->now before a step is accepted */
+  in->stored.backed_up =
+      false; /* only halves and a new owner of the history change in->now before a step is accepted */
   in->clock.now = ali3_time(in);
   ali3_branch_before(in);
   return ALI3_OK;
 }
 
-/* Ends a step with the status of the method; after a failure restores the state before it. */
 ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_status status) {
   if (status == ALI3_OK) status = ali3_branch_after(in, &step->asked);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    if (in->kept.backed_up) ali3_vectors_copy(in, &in->now, &in->kept.start);
+    if (in->stored.backed_up) ali3_vectors_copy(in, &in->now, &in->stored.start);
     memcpy(in->inputs.set, in->inputs.from, (size_t)in->system->size.nu * sizeof(double));
     ali3_balance_restore(&in->report, &step->before);
     in->report.failures++;

@@ -33,18 +33,23 @@ typedef struct ali3_road_file ali3_road_file;
  * is allocated later. */
 ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t count, size_t size),
                                     void (*release)(void *block), char *message, size_t message_size);
+/* Closes a file and releases its memory; NULL is allowed. */
 void ali3_road_file_close(ali3_road_file *file);
 
+/* Type of the road: plane 0, kerb 1, grid 2. */
 int32_t ali3_road_file_kind(const ali3_road_file *file);
+/* The eight reals of the header. */
 const double *ali3_road_file_reals(const ali3_road_file *file);
+/* Numbers of points in x and y of a grid. */
 void ali3_road_file_size(const ali3_road_file *file, int32_t *nx, int32_t *ny);
 uint32_t ali3_road_file_identity(const ali3_road_file *file); /* checksum of its content */
 
-/* Height and friction of a point of the grid; 0 and a read error if its tile cannot be read. */
+/* Height, m, of point (i, j) of the grid; 0 and a read error if its tile cannot be read. */
 double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j);
 /* Heights of the points beginning with (i, j), rows apart by `stride`; `size`, rows and columns, is reduced to one
  * tile. NULL: read error. */
 const double *ali3_road_file_block(ali3_road_file *file, int32_t i, int32_t j, int32_t size[2], int32_t *stride);
+/* Friction of point (i, j), likewise; without a map of frictions the one of the header. */
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j);
 /* Storage for the cell with the indices i, j before its first corner, shared with all cells that are multiples of 16
  * apart. */
@@ -52,6 +57,7 @@ ali3_cell *ali3_road_file_cell(const ali3_road_file *file, int32_t i, int32_t j)
 
 /* NULL, or why the last tile could not be read, a sentence without its full stop. */
 const char *ali3_road_file_read_error(const ali3_road_file *file);
+/* Forgets the read error. */
 void ali3_road_file_clear_read_error(ali3_road_file *file);
 int64_t ali3_road_file_reads(const ali3_road_file *file); /* tiles read so far */
 #endif

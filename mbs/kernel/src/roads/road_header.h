@@ -1,4 +1,4 @@
-/* The header of a road's file, see road_file.h. */
+/* The header of a road file, whose bytes road_file.h describes. */
 #ifndef ALI3_ROAD_HEADER_H
 #define ALI3_ROAD_HEADER_H
 #include <stddef.h>
@@ -22,6 +22,7 @@ typedef struct { /* byte 16 and after */
 const char *ali3_road_header_problem(const unsigned char *bytes, int64_t size, ali3_road_header *h, uint32_t *version,
                                      uint32_t *crc);
 const char *ali3_road_grid_problem(const ali3_road_header *h); /* NULL, or what is wrong with the numbers of a grid */
+/* Number of tiles along a number of points. */
 int64_t ali3_road_tiles_along(int64_t points);
 size_t ali3_road_tile_bytes(const ali3_road_header *h); /* size of a tile in memory, bytes */
 #endif

@@ -59,6 +59,7 @@ static const char *trim_cell(const reader *r, const char **cell, const char *lin
   return stop;
 }
 
+/* Parses a number; with separators other than a comma also with a decimal comma. 0: it is not one. */
 static int parse_cell(const reader *r, const char *cell, const char *cell_end, double *value) {
   return ali3_parse_number(cell, cell_end, r->separator != ',', value);
 }
@@ -84,6 +85,7 @@ static int read_row(const reader *r, const char *line, const char *line_end, int
   return cell == NULL ? 1 : write_message(r, "line %d has more cells than the first one", r->line);
 }
 
+/* Semicolon or tab if the line has one, otherwise comma. */
 static char choose_separator(const char *line, const char *line_end) {
   const size_t size = (size_t)(line_end - line);
   if (memchr(line, ';', size) != NULL) return ';';

@@ -8,7 +8,7 @@ enum { ALI3_MAX_TABLE = 1 << 26 }; /* bytes of a text */
 
 typedef struct {
   int64_t nx, ny;
-  double first[2], spacing[2];
+  double first[2], spacing[2]; /* m, of x and y */
   double *values; /* nx * ny heights, y fastest; followed by as many frictions if maps is 2 */
   int32_t maps;
 } ali3_road_table;

@@ -33,7 +33,8 @@ static uint32_t entry_crc(const unsigned char *bytes, int64_t number) {
 /* Coordinate of point i of a tile, -31/32 to 31/32. */
 static double normalised_coordinate(int i) { return (i - 0.5 * (SIDE - 1)) / (SIDE / 2); }
 
-static double polynomial(const double *c, int n, double t) {
+/* c[0] + c[1] t + ..., n coefficients. */
+static double evaluate_polynomial(const double *c, int n, double t) {
   double value = 0.0;
   for (int k = n - 1; k >= 0; k--) value = value * t + c[k];
   return value;
@@ -49,8 +50,9 @@ static void read_heights(const head *h, const unsigned char *from, double *to) {
   memcpy(c, from, (size_t)h->rows * (size_t)h->columns * sizeof *c);
   for (int j = 0; j < SIDE; j++) { /* Horner's scheme, in this order on every platform */
     double row[MAX_COEFFICIENTS];
-    for (int a = 0; a < h->rows; a++) row[a] = polynomial(c + a * h->columns, h->columns, normalised_coordinate(j));
-    for (int i = 0; i < SIDE; i++) to[i * SIDE + j] = polynomial(row, h->rows, normalised_coordinate(i));
+    for (int a = 0; a < h->rows; a++)
+      row[a] = evaluate_polynomial(c + a * h->columns, h->columns, normalised_coordinate(j));
+    for (int i = 0; i < SIDE; i++) to[i * SIDE + j] = evaluate_polynomial(row, h->rows, normalised_coordinate(i));
   }
 }
 

@@ -76,8 +76,7 @@ static int32_t misfit(const ali3_system *S, int64_t loop, uint32_t signs, uint32
   return k;
 }
 
-/* The triad of a loop, counted in it, that belongs to none of its modes, or -1. */
-int32_t ali3_mode_left(const ali3_instance *in, int64_t loop) {
+int32_t ali3_find_mode_misfit(const ali3_instance *in, int64_t loop) {
   const ali3_system *S = in->system;
   const int32_t cell = S->mode_cell_ptr[loop], end = S->mode_cell_ptr[loop + 1],
                 first = S->mode_triad_ptr[loop] / ITEMS, n = S->mode_triad_ptr[loop + 1] / ITEMS - first;

@@ -66,7 +66,7 @@ ALI3_INLINED real add_run(const ali3_system *S, int32_t i, const real *q, real s
   const int32_t run = S->hess_run[i], end = S->hess_ptr[i + 1];
   ALI3_SHORT
   for (int32_t t = S->hess_ptr[i]; t < run; t++) sum += S->hess_val[t] * q[S->hess_col[t]];
-  return run < end ? sum + ali3_numbers_product_backward(S->hess_val + run, q + S->hess_col[run], end - run) : sum;
+  return run < end ? sum + ali3_shared_product_backward(S->hess_val + run, q + S->hess_col[run], end - run) : sum;
 }
 
 /* The terms of a stretch of n entries, the first is i, twice with the rates qd. */
@@ -74,7 +74,7 @@ static inline real stretch_gamma(const ali3_system *S, int32_t i, int32_t n, con
   const int32_t first = S->hess_ptr[i], terms = S->hess_ptr[i + 1] - first;
   real sum = {0};
   for (int32_t t = first; t < first + terms * n; t += n)
-    sum += ali3_numbers_product_backward(S->hess_val + t, qd + S->row_col[i], n) * qd[S->hess_col[t]];
+    sum += ali3_shared_product_backward(S->hess_val + t, qd + S->row_col[i], n) * qd[S->hess_col[t]];
   return sum;
 }
 
@@ -133,12 +133,10 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
 ALI3_BY_PROCESSOR(in->system, void, constraints, (ali3_instance * in, const real *q, const real *s, real *Phi, real *J),
                   (in, q, s, Phi, J))
 
-/* The coordinates at which rows are evaluated. */
 const real *ali3_near_origin(ali3_instance *in, const real *q) {
   return in->system->size.has_pose ? near_origin(in, q) : q;
 }
 
-/* Phit = d Phi / dt */
 void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit) {
   const ali3_system *S = in->system;
   memset(Phit, 0, (size_t)S->size.nc * sizeof *Phit);

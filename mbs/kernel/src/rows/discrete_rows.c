@@ -9,6 +9,7 @@
 #include "discrete_rows.h"
 #include "switch_rows.h"
 
+/* Corrects A for terms with guides that change from s0 to s1. */
 static void correct_guided(const ali3_instance *in, const double *D, const double *s0, const double *s1) {
   const ali3_system *S = in->system;
   for (int64_t t = 0; t < S->n_gterm_row; t++) {

@@ -14,23 +14,25 @@ static inline real rate_of(const real *qd, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
 
-/* w = h s^power and its two rates. */
+/* w = h s^power */
 static inline real guide_factor(const ali3_guide_term *g, const real *s) {
   const real v = s[g->guide];
   return g->power == 1 ? g->term.h * v : g->term.h * v * v;
 }
 
+/* w' */
 static inline real guide_rate(const ali3_guide_term *g, const ali3_vectors *x) {
   const real vd = x->sd[g->guide];
   return g->power == 1 ? g->term.h * vd : 2.0 * g->term.h * x->s[g->guide] * vd;
 }
 
+/* w'' */
 static inline real guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
   const real vd = x->sd[g->guide], vdd = x->sdd[g->guide];
   return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
 }
 
-/* Part of a term in gamma, from coordinates, their rates, and w with its two rates. */
+/* Second derivative of w q_a q_b with respect to time without coordinate accelerations; va, vb: rates of q_a, q_b. */
 static inline real guide_bend(real qa, real qb, real va, real vb, real w, real wd, real wdd) {
   return wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
 }

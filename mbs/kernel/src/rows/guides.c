@@ -13,7 +13,6 @@ enum { GAIN = 1, GAIN_2 = 3, LOW, HIGH };
 
 bool ali3_guide_filters(int32_t type) { return type == ALI3_GUIDE_OF_INPUT || type == ALI3_GUIDE_OF_TWO_INPUTS; }
 
-/* Demand of the inputs of a filtered guide: gain times input, or the sum of two. */
 double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input) {
   const ali3_system *S = in->system;
   const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
@@ -21,8 +20,7 @@ double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input
   return S->guide_type[g] == ALI3_GUIDE_OF_INPUT ? first : first + real[GAIN_2] * input[S->guide_second[g]];
 }
 
-/* A demand clamped to the limits of its guide. */
-double ali3_guide_held(const ali3_instance *in, int32_t g, double demand) {
+double ali3_guide_clamped(const ali3_instance *in, int32_t g, double demand) {
   const double *real = in->parameters.guide_real + in->system->guide_real_ptr[g];
   if (in->system->guide_type[g] == ALI3_GUIDE_OF_INPUT) return demand;
   return demand < real[LOW] ? real[LOW] : demand > real[HIGH] ? real[HIGH] : demand;
@@ -30,15 +28,17 @@ double ali3_guide_held(const ali3_instance *in, int32_t g, double demand) {
 
 /* Value to which a filtered guide tends at given inputs. */
 static double target_of(const ali3_instance *in, int32_t g, const double *input) {
-  return ali3_guide_held(in, g, ali3_guide_demand(in, g, input));
+  return ali3_guide_clamped(in, g, ali3_guide_demand(in, g, input));
 }
 
-static ali3_cubic_table table_of(const double *real, int32_t nreal) { return ali3_cubic_table_at(real, nreal / 3, 0); }
+/* Table of a guide over another one: points, values and slopes by columns. */
+static ali3_cubic_table make_table(const double *real, int32_t nreal) {
+  return ali3_cubic_table_at(real, nreal / 3, 0);
+}
 
-/* ds/du of a guide by a table of u. */
 double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s) {
   const int32_t *at = in->system->guide_real_ptr + g;
-  const ali3_cubic_table table = table_of(in->parameters.guide_real + at[0], at[1] - at[0]);
+  const ali3_cubic_table table = make_table(in->parameters.guide_real + at[0], at[1] - at[0]);
   double slope;
   ali3_cubic_value(&table, s[in->system->guide_input[g]], &slope, NULL);
   return slope;
@@ -47,7 +47,7 @@ double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s) {
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {
   if (type == ALI3_GUIDE_BY_TABLE) {
     if (nreal < 6 || nreal % 3 != 0) return "a guide by a table needs two points or more, and a slope at each";
-    const ali3_cubic_table table = table_of(real, nreal);
+    const ali3_cubic_table table = make_table(real, nreal);
     return ali3_cubic_rises(&table) ? NULL : "the first column of the table of a guide must rise";
   }
   if (type == ALI3_GUIDE_OF_INPUT) {
@@ -104,7 +104,6 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
  * more than noise of samples, and than SAME times their largest value, which is more than round-off. */
 static const double ABRUPT = 0.05, SAME = 1e-9;
 
-/* Measures the range of rate and acceleration of each guide of time, and from it the least jump that counts. */
 void ali3_guides_measure(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
@@ -149,23 +148,20 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
   return end;
 }
 
-/* The first break of a guide of time after t and before `end`, otherwise `end`. */
 double ali3_guides_until(const ali3_instance *in, double t, double end) { return first_break(in, t, end, true); }
 
-/* The first such break at which rate or acceleration of the guide jump. */
 double ali3_guides_break(const ali3_instance *in, double t, double end) { return first_break(in, t, end, false); }
 
 /* s = f(u): s' = f' u' and s'' = f' u'' + f'' u'^2. */
 static void guide_by_table(const ali3_instance *in, ali3_vectors *v, int32_t g) {
   const int32_t *at = in->system->guide_real_ptr + g, u = in->system->guide_input[g];
-  const ali3_cubic_table table = table_of(in->parameters.guide_real + at[0], at[1] - at[0]);
+  const ali3_cubic_table table = make_table(in->parameters.guide_real + at[0], at[1] - at[0]);
   double slope, curvature;
   v->s[g] = ali3_cubic_derivatives(&table, v->s[u], &slope, &curvature);
   v->sd[g] = slope * v->sd[u];
   v->sdd[g] = slope * v->sdd[u] + curvature * v->sd[u] * v->sd[u];
 }
 
-/* Evaluates guides of time and by tables at t; filtered ones keep their values. */
 void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++)

@@ -86,7 +86,6 @@ ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, r
 ALI3_BY_PROCESSOR(in->system, void, rows_square, (ali3_instance * in, const real *J, double weight, real *F),
                   (in, J, weight, F))
 
-/* F += weight * A' J, whole blocks. */
 void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
   for (int32_t k = 0; k < S->size.nc; k++) {

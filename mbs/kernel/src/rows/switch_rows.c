@@ -7,7 +7,6 @@ bool ali3_row_is_off(const ali3_instance *in, int32_t k) {
   return number >= 0 && in->now.on[number] == 0.0;
 }
 
-/* Phi minus the anchors; rows that are off vanish. */
 void ali3_switch_rows(const ali3_instance *in, real *Phi, real *J) {
   const ali3_system *S = in->system;
   for (int32_t k = 0; k < S->size.nc; k++) {
@@ -21,7 +20,6 @@ void ali3_switch_rows(const ali3_instance *in, real *Phi, real *J) {
   }
 }
 
-/* One number per row, zero if the row is off. */
 void ali3_switch_values(const ali3_instance *in, real *v) {
   const ali3_system *S = in->system;
   for (int32_t k = 0; k < S->size.nc; k++)

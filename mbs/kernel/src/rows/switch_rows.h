@@ -4,7 +4,10 @@
 #include "../algebra/real.h"
 #include "../instance.h"
 
+/* Whether row k belongs to a switch that is off. */
 bool ali3_row_is_off(const ali3_instance *in, int32_t k);
+/* Subtracts the anchors from Phi (nc); clears Phi and J of rows that are off. */
 void ali3_switch_rows(const ali3_instance *in, real *Phi, real *J);
+/* Clears the numbers (nc) of rows that are off. */
 void ali3_switch_values(const ali3_instance *in, real *v);
 #endif

@@ -6,7 +6,6 @@
 #include "../instance.h"
 #include "switch_rows.h"
 
-/* No Phi, and what the coordinates add to A. */
 void ali3_velocity_jacobian(const ali3_instance *in, const real *q, real *Phi, real *J) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
@@ -16,7 +15,6 @@ void ali3_velocity_jacobian(const ali3_instance *in, const real *q, real *Phi, r
   }
 }
 
-/* d(A)/dt qd */
 void ali3_velocity_gamma(const ali3_instance *in, const real *qd, real *gamma) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
@@ -27,7 +25,6 @@ void ali3_velocity_gamma(const ali3_instance *in, const real *qd, real *gamma) {
   }
 }
 
-/* Phi = A v / rate */
 void ali3_velocity_values(const ali3_instance *in, const real *A, const real *v, double rate, real *Phi) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
@@ -38,7 +35,6 @@ void ali3_velocity_values(const ali3_instance *in, const real *A, const real *v,
   }
 }
 
-/* Over a step that goes D with the A of its middle: Phi = A D, and J its exact derivative A + sum of h D_b / 2. */
 void ali3_velocity_middle(const ali3_instance *in, const real *A, const real *D, real *Phi, real *J) {
   const ali3_system *S = in->system;
   ali3_velocity_values(in, A, D, 1.0, Phi);
@@ -51,7 +47,6 @@ void ali3_velocity_middle(const ali3_instance *in, const real *A, const real *D,
   }
 }
 
-/* Rows that positions do not know. */
 void ali3_velocity_release(const ali3_instance *in, real *J) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_velocity_row; i++) {

@@ -5,8 +5,7 @@
 #include "../system.h"
 #include "violation.h"
 
-/* The largest of n sizes |x| factor, a NaN if there is one; *worst becomes the first that has it, if it is not 0. */
-double ali3_worst_size(const double *x, const double *factor, int32_t n, int32_t *worst) {
+double ali3_find_worst(const double *x, const double *factor, int32_t n, int32_t *worst) {
   double largest = 0.0;
   for (int32_t i = 0; i < n; i++) {
     const double size = fabs(x[i]) * factor[i];
@@ -19,10 +18,9 @@ double ali3_worst_size(const double *x, const double *factor, int32_t n, int32_t
 }
 
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
-  return ali3_worst_size(Phi, S->row_measure, S->size.nc, worst);
+  return ali3_find_worst(Phi, S->row_measure, S->size.nc, worst);
 }
 
-/* Largest violation of a row beyond its round-off, m; of finite rows. */
 double ali3_opening(const ali3_system *S, const double *Phi) {
   double largest = 0.0;
   for (int32_t k = 0; k < S->size.nc; k++) {
@@ -38,7 +36,6 @@ bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance) {
   return true;
 }
 
-/* The sum of the sizes of row k's terms. */
 double ali3_row_sum(const ali3_system *S, int32_t k, const double *q) {
   double sum = fabs(S->row_const[k]);
   for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) sum += fabs(S->row_lin[i] * q[S->row_col[i]]);
@@ -47,9 +44,7 @@ double ali3_row_sum(const ali3_system *S, int32_t k, const double *q) {
   return sum;
 }
 
-/* ali3_closed with the round-off of the squares of the present coordinates, which may be far from where they were
- * drawn. */
-bool ali3_closed_here(const ali3_system *S, const double *Phi, const double *q, double tolerance) {
+bool ali3_closed_at(const ali3_system *S, const double *Phi, const double *q, double tolerance) {
   for (int32_t k = 0; k < S->size.nc; k++) {
     const double open = fabs(Phi[k]) * S->row_measure[k] - tolerance;
     if (open <= S->row_round[k]) continue;

@@ -1,5 +1,5 @@
-/* Rates of the sensors that have one: their change along in->kept.direction, a direction in the space of states, which
- * is (qd, qdd, ...); a function for each such type. */
+/* Rates of the sensors that have one: their change along in->stored.direction, a direction in the space of states,
+ * which is (qd, qdd, ...); a function for each such type. */
 #include <math.h>
 #include <string.h>
 
@@ -16,27 +16,28 @@ typedef struct {
 } dual_vector;
 
 /* Signal i (order 0) or its first or second rate, of a state, without the constant. */
-static double signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, int32_t order) {
+static double evaluate_signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const double *column = order == 0 ? x->q : (order == 1 ? x->qd : x->qdd);
-  if (S->n_tabled > 0) column = in->tabled.extended[order + (x == &in->kept.direction)]; /* a direction is a rate */
+  if (S->n_tabled > 0) column = in->tabled.extended[order + (x == &in->stored.direction)]; /* a direction is a rate */
   double sum = 0.0;
   for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * column[S->sig_col[k]];
   return sum;
 }
 
-/* Vector of n signals and its derivative in the direction. */
-static dual_vector vector(const ali3_instance *in, const int32_t *v, int32_t order, int32_t n) {
+/* n signals (order 1, 2: their rates), and their derivatives in the direction. */
+static dual_vector evaluate_vector(const ali3_instance *in, const int32_t *v, int32_t order, int32_t n) {
   dual_vector m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (int32_t i = 0; i < n; i++) {
-    m.v[i] = signal(in, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
-    m.d[i] = signal(in, &in->kept.direction, v[i], order);
+    m.v[i] = evaluate_signal(in, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
+    m.d[i] = evaluate_signal(in, &in->stored.direction, v[i], order);
   }
   return m;
 }
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/* Derivative of a . b. */
 static double dot_change(const dual_vector *a, const dual_vector *b) { return dot(a->d, b->v) + dot(a->v, b->d); }
 
 static void cross(const double a[3], const double b[3], double out[3]) {
@@ -51,22 +52,26 @@ static double angle_change(double y, double x, double dy, double dx) {
   return square > 0.0 ? (x * dy - y * dx) / square : 0.0;
 }
 
+/* real: scale. */
 static double change_signal(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in, &in->kept.direction, v[0], 0);
+  return real[0] * evaluate_signal(in, &in->stored.direction, v[0], 0);
 }
 
+/* real: scale. */
 static double change_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in, &in->kept.direction, v[0], 1);
+  return real[0] * evaluate_signal(in, &in->stored.direction, v[0], 1);
 }
 
+/* v: order, 3 signals of the vector, 3 of the axis. */
 static double change_component(const ali3_instance *in, const int32_t *v, const double *real) {
-  const dual_vector p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3);
+  const dual_vector p = evaluate_vector(in, v + 1, v[0], 3), a = evaluate_vector(in, v + 4, 0, 3);
   (void)real;
   return dot_change(&p, &a);
 }
 
+/* v: order, 15 signals, 3 of the axis. */
 static double change_carried(const ali3_instance *in, const int32_t *v, const double *real) {
-  const dual_vector axis = vector(in, v + 16, 0, 3);
+  const dual_vector axis = evaluate_vector(in, v + 16, 0, 3);
   dual_vector p;
   (void)real;
   ali3_carried(in, v + 1, v[0], p.v);
@@ -74,22 +79,25 @@ static double change_carried(const ali3_instance *in, const int32_t *v, const do
   return dot_change(&p, &axis);
 }
 
+/* Of atan2(y, x), rad/s; v: signals of y and x. */
 static double change_angle(const ali3_instance *in, const int32_t *v, const double *real) {
-  const dual_vector y = vector(in, v, 0, 1), x = vector(in, v + 1, 0, 1);
+  const dual_vector y = evaluate_vector(in, v, 0, 1), x = evaluate_vector(in, v + 1, 0, 1);
   (void)real;
   return angle_change(y.v[0], x.v[0], y.d[0], x.d[0]);
 }
 
+/* Of -asin(u), rad/s; 0 at +-90 degrees. */
 static double change_pitch(const ali3_instance *in, const int32_t *v, const double *real) {
-  const dual_vector u = vector(in, v, 0, 1);
+  const dual_vector u = evaluate_vector(in, v, 0, 1);
   (void)real;
   const double rest = 1.0 - u.v[0] * u.v[0];
   return rest > 0.0 ? -u.d[0] / sqrt(rest) : 0.0;
 }
 
+/* Of (a' . b - b' . a) / 2, rad/s^2; a, b: 3 signals each. */
 static double change_angular_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  const dual_vector a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3);
-  const dual_vector ad = vector(in, v, 1, 3), bd = vector(in, v + 3, 1, 3);
+  const dual_vector a = evaluate_vector(in, v, 0, 3), b = evaluate_vector(in, v + 3, 0, 3);
+  const dual_vector ad = evaluate_vector(in, v, 1, 3), bd = evaluate_vector(in, v + 3, 1, 3);
   return real[0] * (0.5 * (dot_change(&ad, &b) - dot_change(&bd, &a)));
 }
 
@@ -100,7 +108,7 @@ static double change_quaternion(const ali3_instance *in, const int32_t *v, const
   (void)real;
   ali3_quaternion(in, v + 1, p);
   for (int32_t i = 0; i < 3; i++) {
-    const dual_vector a = vector(in, v + 1 + 3 * i, 0, 3);
+    const dual_vector a = evaluate_vector(in, v + 1 + 3 * i, 0, 3);
     cross(a.v, a.d, one);
     for (int32_t j = 0; j < 3; j++) w[j] += 0.5 * one[j];
   }
@@ -114,7 +122,7 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
   const int32_t nq = in->system->size.nq;
   for (int side = -1; side <= 1; side += 2) {
     double twice = 0.0, of_weight = 0.0, of_strain = 0.0;
-    for (int32_t i = 0; i < nq; i++) in->step.w[i] = in->now.q[i] + side * in->kept.direction.q[i];
+    for (int32_t i = 0; i < nq; i++) in->step.w[i] = in->now.q[i] + side * in->stored.direction.q[i];
     ali3_bodies_prepare(in, in->step.w);
     ali3_bodies_energy(in, in->step.w, &of_weight, &of_strain);
     memset(in->step.x, 0, (size_t)nq * sizeof(double));
@@ -126,6 +134,7 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
   }
 }
 
+/* W; v[0]: kinetic, gravity, elastic, sum. */
 static double change_energy(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   const ali3_system *S = in->system;
@@ -134,11 +143,11 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
   ali3_bodies_prepare(in, in->now.q);
   ali3_mass_times(in, in->now.qd, in->step.x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    kinetic += in->step.x[i] * in->kept.direction.qd[i];
-    gravity -= in->mass.gravity[i] * in->kept.direction.q[i];
+    kinetic += in->step.x[i] * in->stored.direction.qd[i];
+    gravity -= in->mass.gravity[i] * in->stored.direction.q[i];
   }
   if (S->n_tabled > 0) ali3_tabled_power(in, in->now.qd, &kinetic, &gravity);
-  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->kept.direction.potential[e];
+  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->stored.direction.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
 }
@@ -148,24 +157,29 @@ static double change_mass(const ali3_instance *in, const int32_t *v, const doubl
   return 0.0;
 }
 
+/* Of a vector of v[1] signals or of its rate; 0 at length 0. */
 static double change_norm(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  const dual_vector p = vector(in, v + 2, v[0], v[1]);
+  const dual_vector p = evaluate_vector(in, v + 2, v[0], v[1]);
   const double length = sqrt(dot(p.v, p.v));
   return length > 0.0 ? dot(p.v, p.d) / length : 0.0;
 }
 
+/* rad/s: turn of a vector between two axes; v: order, 3 signals each of the vector and both axes. */
 static double change_direction(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  const dual_vector p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3), b = vector(in, v + 7, 0, 3);
+  const dual_vector p = evaluate_vector(in, v + 1, v[0], 3), a = evaluate_vector(in, v + 4, 0, 3),
+                    b = evaluate_vector(in, v + 7, 0, 3);
   const double along = dot(p.v, a.v), across = dot(p.v, b.v);
   if (v[0] == 1 && along * along + across * across < ALI3_SLOWEST_DIRECTION * ALI3_SLOWEST_DIRECTION) return 0.0;
   return angle_change(across, along, dot_change(&p, &b), dot_change(&p, &a));
 }
 
+/* rad/s: angle from b to a about c, 3 signals each. */
 static double change_angle_about(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  const dual_vector a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3), c = vector(in, v + 6, 0, 3);
+  const dual_vector a = evaluate_vector(in, v, 0, 3), b = evaluate_vector(in, v + 3, 0, 3),
+                    c = evaluate_vector(in, v + 6, 0, 3);
   double one[3], two[3];
   dual_vector turn;
   cross(b.v, a.v, turn.v);
@@ -175,8 +189,9 @@ static double change_angle_about(const ali3_instance *in, const int32_t *v, cons
   return angle_change(dot(turn.v, c.v), dot(a.v, b.v), dot_change(&turn, &c), dot_change(&a, &b));
 }
 
+/* v: guide, order; real: scale. */
 static double change_guide(const ali3_instance *in, const int32_t *v, const double *real) {
-  const double *of_order[3] = {in->kept.direction.s, in->kept.direction.sd, in->kept.direction.sdd};
+  const double *of_order[3] = {in->stored.direction.s, in->stored.direction.sd, in->stored.direction.sdd};
   return real[0] * of_order[v[1]][v[0]];
 }
 
@@ -210,9 +225,9 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   const ali3_system *S = in->system;
   const ali3_vectors *now = &in->now;
-  ali3_vectors *d = &in->kept.direction;
+  ali3_vectors *d = &in->stored.direction;
   const size_t nq = (size_t)S->size.nq * sizeof(double), ng = (size_t)S->size.ng * sizeof(double);
-  memset(d->q, 0, in->kept.n * sizeof(double));
+  memset(d->q, 0, in->stored.n * sizeof(double));
   if (nq > 0) {
     memcpy(d->q, now->qd, nq);
     memcpy(d->qd, now->qdd, nq);

@@ -15,14 +15,15 @@
 #include "sensors.h"
 
 /* Value of signal i (order 0), its rate (1) or its second rate (2). */
-static double signal(const ali3_instance *in, int32_t i, int32_t order) {
+static double evaluate_signal(const ali3_instance *in, int32_t i, int32_t order) {
   const double *own = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
   const double *x = in->system->n_tabled > 0 ? in->tabled.extended[order] : own;
   return ali3_signal_at(in->system, i, x, order > 0);
 }
 
-static void vector(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]) {
-  for (int i = 0; i < 3; i++) out[i] = signal(in, v[i], order);
+/* Three signals, or their first or second rates (order 1, 2). */
+static void evaluate_vector(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]) {
+  for (int i = 0; i < 3; i++) out[i] = evaluate_signal(in, v[i], order);
 }
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -30,23 +31,27 @@ static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a
 /* Component along a moving axis of a vector (order 0) or of its rates. */
 static double moving_component(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
   double p[3], a[3];
-  vector(in, points, order, p);
-  vector(in, axis, 0, a);
+  evaluate_vector(in, points, order, p);
+  evaluate_vector(in, axis, 0, a);
   return dot(p, a);
 }
 
+/* real: scale. */
 static double value_signal(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in, v[0], 0);
+  return real[0] * evaluate_signal(in, v[0], 0);
 }
 
+/* real: scale. */
 static double value_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in, v[0], 1);
+  return real[0] * evaluate_signal(in, v[0], 1);
 }
 
+/* real: scale. */
 static double value_signal_second_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in, v[0], 2);
+  return real[0] * evaluate_signal(in, v[0], 2);
 }
 
+/* v: order, 3 signals of the vector, 3 of the axis. */
 static double value_component(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   return moving_component(in, v + 1, v + 4, v[0]);
@@ -56,7 +61,7 @@ static double value_component(const ali3_instance *in, const int32_t *v, const d
 static double signal_of_modes(const ali3_instance *in, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const int32_t first = S->sig_ptr[i], n = S->sig_ptr[i + 1] - first, *col = S->sig_col + first;
-  if (!ali3_are_consecutive(col, n) || S->n_tabled > 0) return signal(in, i, order);
+  if (!ali3_consecutive(col, n) || S->n_tabled > 0) return evaluate_signal(in, i, order);
   const double *x = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
   return (order == 0 ? S->sig_const[i] : 0.0) + ali3_product_backward(S->sig_val + first, x + col[0], n);
 }
@@ -64,40 +69,44 @@ static double signal_of_modes(const ali3_instance *in, int32_t i, int32_t order)
 /* Position of a point of a flexible body or its rates, by Leibniz' rule: r + sum of axis_i times signal_i of its modes. */
 void ali3_carried(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]) {
   static const double binomial[3][3] = {{1.0}, {1.0, 1.0}, {1.0, 2.0, 1.0}};
-  vector(in, v, order, out);
+  evaluate_vector(in, v, order, out);
   for (int i = 0; i < 3; i++)
     for (int32_t k = 0; k <= order; k++) {
       double axis[3];
-      vector(in, v + 3 + 3 * i, order - k, axis);
+      evaluate_vector(in, v + 3 + 3 * i, order - k, axis);
       const double factor = binomial[order][k] * signal_of_modes(in, v[12 + i], k);
       for (int j = 0; j < 3; j++) out[j] += axis[j] * factor;
     }
 }
 
+/* Component of `ali3_carried` along a moving axis; v: order, 15 signals, 3 of the axis. */
 static double value_carried(const ali3_instance *in, const int32_t *v, const double *real) {
   double p[3], axis[3];
   (void)real;
   ali3_carried(in, v + 1, v[0], p);
-  vector(in, v + 16, 0, axis);
+  evaluate_vector(in, v + 16, 0, axis);
   return dot(p, axis);
 }
 
+/* atan2 of two signals, rad. */
 static double value_angle(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  return ali3_atan2(signal(in, v[0], 0), signal(in, v[1], 0));
+  return ali3_atan2(evaluate_signal(in, v[0], 0), evaluate_signal(in, v[1], 0));
 }
 
+/* rad, from the third component of the forward axis in earth axes. */
 static double value_pitch(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  return -ali3_asin(fmax(-1.0, fmin(1.0, signal(in, v[0], 0))));
+  return -ali3_asin(fmax(-1.0, fmin(1.0, evaluate_signal(in, v[0], 0))));
 }
 
+/* (a' . b - b' . a) / 2 times a scale: angular velocity about a x b, rad/s; a, b orthonormal, 3 signals each. */
 static double value_angular_rate(const ali3_instance *in, const int32_t *v, const double *real) {
   double a[3], b[3], ad[3], bd[3];
-  vector(in, v, 0, a);
-  vector(in, v + 3, 0, b);
-  vector(in, v, 1, ad);
-  vector(in, v + 3, 1, bd);
+  evaluate_vector(in, v, 0, a);
+  evaluate_vector(in, v + 3, 0, b);
+  evaluate_vector(in, v, 1, ad);
+  evaluate_vector(in, v + 3, 1, bd);
   return real[0] * (0.5 * (dot(ad, b) - dot(bd, a)));
 }
 
@@ -107,7 +116,7 @@ void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]) {
   double R[3][3];
   for (int i = 0; i < 3; i++) {
     double axis[3];
-    vector(in, v + 3 * i, 0, axis);
+    evaluate_vector(in, v + 3 * i, 0, axis);
     for (int j = 0; j < 3; j++) R[j][i] = axis[j];
   }
   const double trace = R[0][0] + R[1][1] + R[2][2];
@@ -135,6 +144,7 @@ void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]) {
   for (int i = 0; i < 4; i++) n[i] = length > 0.0 ? n[i] / size : (i == 0 ? 1.0 : 0.0);
 }
 
+/* v: component, 9 signals of the body axes. */
 static double value_quaternion(const ali3_instance *in, const int32_t *v, const double *real) {
   double n[4];
   (void)real;
@@ -142,6 +152,7 @@ static double value_quaternion(const ali3_instance *in, const int32_t *v, const 
   return n[v[0]];
 }
 
+/* v: element, output; real: scale. */
 static double value_element_output(const ali3_instance *in, const int32_t *v, const double *real) {
   return real[0] * in->now.out[in->system->el_out_ptr[v[0]] + v[1]];
 }
@@ -164,6 +175,7 @@ static void energies(const ali3_instance *in, double kinds[4]) {
   kinds[3] = kinetic + gravity + elastic;
 }
 
+/* J; v[0]: kind as in `energies`. */
 static double value_energy(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   double kinds[4];
@@ -171,6 +183,7 @@ static double value_energy(const ali3_instance *in, const int32_t *v, const doub
   return kinds[v[0]];
 }
 
+/* kg: the mass of the drawing (real), payloads and changes of masses by parameters. */
 static double value_mass(const ali3_instance *in, const int32_t *v, const double *real) {
   double sum = real[0];
   (void)v;
@@ -180,6 +193,7 @@ static double value_mass(const ali3_instance *in, const int32_t *v, const double
   return sum;
 }
 
+/* Weighted sum of multipliers in the units of the user, N or N m; v: number, rows. */
 static double value_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
   for (int32_t i = 0; i < v[0]; i++) sum += weight[i] * in->system->row_scale[v[1 + i]] * in->now.lam[v[1 + i]];
@@ -190,10 +204,11 @@ static double value_reaction(const ali3_instance *in, const int32_t *v, const do
 static double reaction_product(const ali3_instance *in, const int32_t *term, double weight) {
   double value = weight * in->system->row_scale[term[0]] * in->now.lam[term[0]];
   for (int i = 1; i < 4; i++)
-    if (term[i] >= 0) value *= signal(in, term[i], 0);
+    if (term[i] >= 0) value *= evaluate_signal(in, term[i], 0);
   return term[4] >= 0 ? value * in->now.s[term[4]] : value;
 }
 
+/* v: number of products, then 5 integers each. */
 static double value_reaction_products(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
   for (int32_t k = 0; k < v[0]; k++) sum += reaction_product(in, v + 1 + 5 * k, weight[k]);
@@ -211,28 +226,31 @@ static double value_reaction_by_table(const ali3_instance *in, const int32_t *v,
   return sum;
 }
 
+/* Norm of a vector of v[1] signals, or of its rate. */
 static double value_norm(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   double sum = 0.0;
   for (int32_t i = 0; i < v[1]; i++) {
-    const double x = signal(in, v[2 + i], v[0]);
+    const double x = evaluate_signal(in, v[2 + i], v[0]);
     sum += x * x;
   }
   return sqrt(sum);
 }
 
+/* rad: angle of a vector from axis 1 towards axis 2; v: order, 3 signals each of the vector and both axes. */
 static double value_direction(const ali3_instance *in, const int32_t *v, const double *real) {
   const double x = moving_component(in, v + 1, v + 4, v[0]), y = moving_component(in, v + 1, v + 7, v[0]);
   (void)real;
   return v[0] == 1 && x * x + y * y < ALI3_SLOWEST_DIRECTION * ALI3_SLOWEST_DIRECTION ? 0.0 : ali3_atan2(y, x);
 }
 
+/* rad: angle from b to a about c, 3 signals each. */
 static double value_angle_about(const ali3_instance *in, const int32_t *v, const double *real) {
   double a[3], b[3], c[3];
   (void)real;
-  vector(in, v, 0, a);
-  vector(in, v + 3, 0, b);
-  vector(in, v + 6, 0, c);
+  evaluate_vector(in, v, 0, a);
+  evaluate_vector(in, v + 3, 0, b);
+  evaluate_vector(in, v + 6, 0, c);
   const double cross[3] = {b[1] * a[2] - b[2] * a[1], b[2] * a[0] - b[0] * a[2], b[0] * a[1] - b[1] * a[0]};
   return ali3_atan2(dot(cross, c), dot(a, b));
 }
@@ -242,8 +260,8 @@ static double value_quasi_static(const ali3_instance *in, const int32_t *v, cons
   const int32_t n = v[0], *row = v + 13;
   const double *gravity = real, *weight = real + 3;
   double axis[3][3], rdd[3], axis_dd[3], sum = 0.0;
-  for (int i = 0; i < 3; i++) vector(in, v + 4 + 3 * i, 0, axis[i]);
-  vector(in, v + 1, 2, rdd);
+  for (int i = 0; i < 3; i++) evaluate_vector(in, v + 4 + 3 * i, 0, axis[i]);
+  evaluate_vector(in, v + 1, 2, rdd);
   for (int k = 0; k < 3; k++) rdd[k] -= gravity[k];
   for (int32_t p = 0; p < n; p++, row += 3, weight += 3) {
     double force[3];
@@ -253,12 +271,13 @@ static double value_quasi_static(const ali3_instance *in, const int32_t *v, cons
   for (int i = 0; i < 3; i++) sum += weight[i] * dot(axis[i], rdd);
   weight += 3;
   for (int j = 0; j < 3; j++) {
-    vector(in, v + 4 + 3 * j, 2, axis_dd);
+    evaluate_vector(in, v + 4 + 3 * j, 2, axis_dd);
     for (int i = 0; i < 3; i++) sum += weight[3 * i + j] * dot(axis[i], axis_dd);
   }
   return sum;
 }
 
+/* As used in the last step. */
 static double value_input(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   return in->now.used[v[0]];
@@ -268,15 +287,17 @@ static double value_scaled_input(const ali3_instance *in, const int32_t *v, cons
   return real[0] * in->now.used[v[0]];
 }
 
+/* v: guide, order; real: scale. */
 static double value_guide(const ali3_instance *in, const int32_t *v, const double *real) {
   const double *of_order[3] = {in->now.s, in->now.sd, in->now.sdd};
   return real[0] * of_order[v[1]][v[0]];
 }
 
+/* What the inputs demand of a filtered guide minus what its limits allow; 0 without a filter. */
 static double value_guide_excess(const ali3_instance *in, const int32_t *v, const double *real) {
   if (!ali3_guide_filters(in->system->guide_type[v[0]])) return 0.0;
   const double demand = ali3_guide_demand(in, v[0], in->now.used);
-  return real[0] * (demand - ali3_guide_held(in, v[0], demand));
+  return real[0] * (demand - ali3_guide_clamped(in, v[0], demand));
 }
 
 static double value_solver(const ali3_instance *in, const int32_t *v, const double *real) {
@@ -289,6 +310,7 @@ static double value_work(const ali3_instance *in, const int32_t *v, const double
   return ali3_work_sum(in, v[0], v[1], v + 2);
 }
 
+/* J: work of all guides and nonconservative work of v[0] elements. */
 static double value_guided_work(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   return ali3_work_sum(in, 1, v[0], v + 1) + in->now.work[in->system->n_work];
@@ -301,7 +323,8 @@ static sensor_function *const value_of[ALI3_SENSOR_TYPE_COUNT] = {
 #undef ALI3_SENSOR_TYPE
 };
 
-static double value(const ali3_instance *in, int32_t i) {
+/* Value of sensor i. */
+static double evaluate_sensor(const ali3_instance *in, int32_t i) {
   const ali3_system *S = in->system;
   return value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->parameters.sen_real + S->sen_real_ptr[i]);
 }
@@ -325,7 +348,7 @@ static void evaluate(const ali3_instance *in, int32_t n, const int32_t *number, 
     const bool energy = S->sen_type[i] == ALI3_SENSOR_ENERGY;
     if (energy && !have_energies) energies(in, kinds);
     have_energies = have_energies || energy;
-    out[k] = energy ? kinds[S->sen_int[S->sen_int_ptr[i]]] : value(in, i);
+    out[k] = energy ? kinds[S->sen_int[S->sen_int_ptr[i]]] : evaluate_sensor(in, i);
   }
 }
 

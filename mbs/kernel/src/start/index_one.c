@@ -15,7 +15,6 @@
 enum { SOLVES = 2, ITERATIONS = 60 };
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 
-/* Accelerations and multipliers at q, qd and the guides of v, iterated from the present v->qdd and v->lam. */
 ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
@@ -49,7 +48,6 @@ ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
   return ali3_finite(v->qdd, nq) ? ALI3_OK : ALI3_NOT_FINITE;
 }
 
-/* F = M(q) + ALPHA Phi_q' Phi_q, factorised; Phi_q in in->tangent.J. */
 ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q) {
   ali3_bodies_prepare(in, q);
   ali3_mass_to_fronts(in, in->tangent.F);

@@ -102,8 +102,6 @@ static ali3_status close_velocity(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* Makes the velocities of in->now consistent and computes forces, accelerations and multipliers; at a start also sets
- * discrete states, such as a gear, to match. */
 ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;
@@ -137,7 +135,7 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   }
   status = ali3_index_one_solve(in, in->step.Q, in->step.gamma, ROUND_OFF, v->qdd, v->lam);
   if (status != ALI3_OK) return status;
-  return ali3_finite(v->q, (int64_t)in->kept.n) ? ali3_roads_status(in) : ALI3_NOT_FINITE;
+  return ali3_finite(v->q, (int64_t)in->stored.n) ? ali3_roads_status(in) : ALI3_NOT_FINITE;
 }
 
 ali3_status ali3_solve_initial(ali3_instance *in, double t) {

@@ -49,7 +49,7 @@ static ali3_status copy_state(ali3_instance *in, const ali3_instance *source) {
   const ali3_vectors *from = &source->now;
   ali3_vectors *v = &in->now;
   if (z->np > 0 && memcmp(in->parameters.value, source->parameters.value, (size_t)z->np * sizeof(double)) != 0 &&
-      !ali3_parameters_take(in, source->parameters.value))
+      !ali3_parameters_set_all(in, source->parameters.value))
     return ALI3_BAD_ARGUMENT;
   map_coordinates(S, from->q, S->ported_const, v->q);
   map_coordinates(S, from->qd, NULL, v->qd);

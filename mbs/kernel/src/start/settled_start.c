@@ -59,7 +59,7 @@ static void measure(const ali3_instance *in, ali3_held_motion *m) {
   m->rate = (x * -ali3_turned(S, m->axis, qd, true) - y * qd[m->axis]) / (size * size);
 }
 
-bool ali3_hold(ali3_instance *in, ali3_held_motion *held) {
+bool ali3_measure_held_motion(ali3_instance *in, ali3_held_motion *held) {
   find_heaviest(in, held);
   if (held->point < 0 || held->axis < 0) return false;
   measure(in, held);
@@ -88,12 +88,12 @@ double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *star
 /* Factor on the velocity of a scene at rest: until HELD_FROM it slides with a damping, so that the deflections of its
  * tyres can hold it; then it is held. If its velocity were set to 0 after every step, that would take 2 m / (k h)
  * instead of 2 / SLIDING, with mass m and stiffness k of the tyres of cars. */
-double ali3_kept_velocity(const ali3_held_motion *held, double h, double progress) {
+double ali3_velocity_factor(const ali3_held_motion *held, double h, double progress) {
   const bool at_rest = held->velocity[0] == 0.0 && held->velocity[1] == 0.0 && held->rate == 0.0;
   return at_rest && progress < HELD_FROM ? 1.0 / (1.0 + SLIDING * h) : 0.0;
 }
 
-void ali3_put_back(ali3_instance *in, const ali3_held_motion *start, double kept_velocity) {
+void ali3_restore_motion(ali3_instance *in, const ali3_held_motion *start, double kept_velocity) {
   const ali3_system *S = in->system;
   double *q = in->now.q, *qd = in->now.qd;
   ali3_held_motion now = *start;

@@ -77,20 +77,19 @@ static void restore(ali3_instance *in) {
  * started, so that equal parameters give equal bits in a file and in an instance. */
 static ali3_status solve_equilibrium(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
-  ali3_vectors_copy(in, &in->kept.whole, &in->now);
+  ali3_vectors_copy(in, &in->stored.whole, &in->now);
   memcpy(in->now.q, S->n_static_q > 0 ? S->static_q : S->q0, (size_t)S->size.nq * sizeof(double));
   const double *y = S->n_static_q > S->size.nq ? S->static_q + S->size.nq : S->y0;
   memcpy(in->now.y, y, (size_t)S->size.ny * sizeof(double));
   const ali3_status status = ali3_solve_static(in, t, TOLERANCE, ITERATIONS);
   memcpy(in->step.stage, in->now.q, (size_t)S->size.nq * sizeof(double));
   memcpy(in->element.y, in->now.y, (size_t)S->size.ny * sizeof(double));
-  ali3_vectors_copy(in, &in->now, &in->kept.whole);
+  ali3_vectors_copy(in, &in->now, &in->stored.whole);
   if (status == ALI3_OK) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
   if (status == ALI3_OK || status == ALI3_NO_MEMORY) return status;
   return ALI3_NO_EQUILIBRIUM;
 }
 
-/* Moves a start at time t to the equilibrium of the parameters, unless coordinates were given. */
 ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
   if (S->n_static_start == 0 || in->start.placed == ALI3_PLACED_BY_Q) return ALI3_OK;

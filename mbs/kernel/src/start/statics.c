@@ -151,7 +151,7 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   ali3_status status = ali3_solve_initial(in, t);
   if (status != ALI3_OK) return status;
   ali3_held_motion start;
-  const bool floats = S->size.has_pose && ali3_hold(in, &start);
+  const bool floats = S->size.has_pose && ali3_measure_held_motion(in, &start);
   status = iterate(in, tolerance, max_iterations, 0.0);
   if (status != ALI3_OK && S->size.ny > 0) {
     status = iterate(in, tolerance, max_iterations, LONG);
@@ -161,6 +161,6 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
   const double heading_change = floats ? fabs(ali3_heading_change(in, &start)) : 0.0;
-  if (heading_change > TURNED && heading_change < HELD) ali3_put_back(in, &start, 0.0);
+  if (heading_change > TURNED && heading_change < HELD) ali3_restore_motion(in, &start, 0.0);
   return ali3_solve_rates(in, true);
 }

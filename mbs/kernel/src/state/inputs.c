@@ -39,9 +39,7 @@ static ali3_status call_function(ali3_instance *in, double t, bool after, double
   return check_normals(in, to);
 }
 
-/* Sets the inputs of a step of size h from the present time: from the present values to `end` (nu), limited to their
- * ranges; NULL: constant. */
-ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end) {
+ali3_status ali3_inputs_set_end(ali3_instance *in, double h, const double *end) {
   const ali3_system *S = in->system;
   if (end != NULL && !ali3_finite(end, S->size.nu)) return ALI3_BAD_ARGUMENT;
   in->inputs.whole_time = ali3_time(in);
@@ -53,8 +51,6 @@ ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end) {
   return ALI3_OK;
 }
 
-/* Computes the inputs at both ends of a step, or of a part of one, that ends at time t: in->inputs.begin and
- * in->inputs.set. */
 ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   in->inputs.part_time = in->clock.now;
@@ -74,7 +70,6 @@ ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
   return ali3_roads_normals(in);
 }
 
-/* Writes the inputs at a fraction, 0 to 1, of the step begun by ali3_inputs_begin to in->inputs.middle. */
 ali3_status ali3_inputs_at(ali3_instance *in, double fraction) {
   const double *u0 = in->inputs.begin;
   const size_t size = (size_t)in->system->size.nu * sizeof(double);
@@ -88,7 +83,6 @@ ali3_status ali3_inputs_at(ali3_instance *in, double fraction) {
   return ALI3_OK;
 }
 
-/* Whether the inputs jump at the start of the step, so that the last accelerations are invalid. */
 bool ali3_inputs_jump(const ali3_instance *in) {
   for (int32_t i = 0; i < in->system->size.nu; i++) {
     const double before = in->now.used[i], after = in->inputs.begin[i];
@@ -112,7 +106,6 @@ ali3_status ali3_set_input_breaks(ali3_instance *in, const double *time, int64_t
   return ALI3_OK;
 }
 
-/* The first break of the inputs after the present time and before t, otherwise t. */
 double ali3_inputs_until(const ali3_instance *in, double t) {
   int64_t low = 0, high = in->inputs.n_breaks;
   while (low < high) {

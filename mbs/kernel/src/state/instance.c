@@ -35,7 +35,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->system = in->base = s;
   in->release = s->memory.release;
   in->roads.n = s->nr;
-  in->kept.n = ali3_vector_count(s);
+  in->stored.n = ali3_vector_count(s);
   in->inputs.forces = in->inputs.set;
   ali3_masses_start(in);
   if (s->tree != NULL) ali3_tree_start(s, in->tree);
@@ -108,7 +108,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   in->start.to_lift = true;
   in->start.lift = in->start.uneven = 0.0;
   ali3_file_start(in);
-  memset(in->now.q, 0, in->kept.n * sizeof(double));
+  memset(in->now.q, 0, in->stored.n * sizeof(double));
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);
   copy(in->now.y, S->y0, S->size.ny);

@@ -17,7 +17,6 @@ static bool has_changes(const ali3_system *s) {
   return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_real > 0 || s->n_axis_inertia > 0;
 }
 
-/* Places the arrays of the sums, if anything changes them. */
 void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const bool changing = has_changes(s);
   const size_t nq = changing ? (size_t)s->size.nq : 0;
@@ -32,7 +31,6 @@ void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->mass.own.gravity = ali3_pool_array(p, nq);
 }
 
-/* Selects the mass arrays of a new instance. */
 void ali3_masses_start(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_own_masses *own = &in->mass.own;
@@ -140,7 +138,6 @@ static void sum_carried_mass(ali3_instance *in) {
       carried[b] += in->parameters.payload_mass[k];
 }
 
-/* Updates the masses after payloads, ratios, inertias or axes have changed. */
 void ali3_masses_apply(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_own_masses *own = &in->mass.own;

@@ -13,7 +13,6 @@
 
 ALI3_BRANCHES_AS_WRITTEN
 
-/* Number that a parameter with a value writes to target k. */
 double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {
   const bool inverse = S->n_par_inverse > 0 && S->par_inverse[k];
   const double product = inverse ? S->par_scale[k] / value : S->par_scale[k] * value;
@@ -60,14 +59,12 @@ static bool has_target(const ali3_system *S, int32_t p, int32_t family) {
   return false;
 }
 
-/* Sets the switches with parameters to their values. */
 void ali3_parameters_switch(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int64_t k = 0; k < S->n_par_target; k++)
     if (S->par_target[k] == ALI3_TARGET_SWITCH) in->now.on[S->par_index[k]] = in->parameters.switch_on[S->par_index[k]];
 }
 
-/* Applies all parameters; ALI3_BAD_ARGUMENT if the data of an element, guide or road become invalid. */
 ali3_status ali3_parameters_apply(ali3_instance *in) {
   for (int32_t p = 0; p < in->system->size.np; p++) write(in, p);
   ali3_guides_measure(in);
@@ -77,9 +74,7 @@ ali3_status ali3_parameters_apply(ali3_instance *in) {
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
 }
 
-/* Sets all values (size.np doubles at any address) if the data they write are valid, otherwise keeps the present ones;
- * in both cases the previous values are in parameters.work afterwards. */
-bool ali3_parameters_take(ali3_instance *in, const void *values) {
+bool ali3_parameters_set_all(ali3_instance *in, const void *values) {
   const size_t size = (size_t)in->system->size.np * sizeof(double);
   memcpy(in->parameters.work, in->parameters.value, size);
   memcpy(in->parameters.value, values, size);

@@ -8,7 +8,7 @@ ALI3_INLINED void signal_displacements(const ali3_instance *in, real *displaceme
   const ali3_system *S = in->system;
   const real *D = in->step.D;
   if (S->n_tabled > 0) {
-    ali3_tabled_way(in, D);
+    ali3_tabled_displacements(in, D);
     D = in->tabled.extended[0];
   }
   for (int32_t k = 0; k < S->n_work; k++) {

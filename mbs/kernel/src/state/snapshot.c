@@ -29,23 +29,23 @@ void ali3_snapshot_take(const ali3_instance *in, void *snapshot) {
   head->t_base = in->clock.base;
   head->h_last = in->clock.h;
   head->count = in->clock.count;
-  copy(vector, in->now.q, in->kept.n);
-  copy(vector + in->kept.n, in->inputs.set, nu);
-  copy(vector + in->kept.n + nu, in->parameters.value, np);
+  copy(vector, in->now.q, in->stored.n);
+  copy(vector + in->stored.n, in->inputs.set, nu);
+  copy(vector + in->stored.n + nu, in->parameters.value, np);
 }
 
 void ali3_snapshot_restore(ali3_instance *in, const void *snapshot) {
   if (in == NULL || snapshot == NULL) return;
   const size_t nu = (size_t)in->system->size.nu, np = (size_t)in->system->size.np;
   const ali3_snapshot_head *head = snapshot;
-  const double *vector = (const double *)(head + 1), *parameter = vector + in->kept.n + nu;
+  const double *vector = (const double *)(head + 1), *parameter = vector + in->stored.n + nu;
   in->report = head->report;
   in->clock.base = head->t_base;
   in->clock.h = head->h_last;
   in->clock.count = head->count;
   in->branch.known = false; /* its angles are of a later position */
-  copy(in->now.q, vector, in->kept.n);
-  copy(in->inputs.set, vector + in->kept.n, nu);
+  copy(in->now.q, vector, in->stored.n);
+  copy(in->inputs.set, vector + in->stored.n, nu);
   if (np == 0 || memcmp(in->parameters.value, parameter, np * sizeof(double)) == 0) return;
   copy(in->parameters.value, parameter, np);
   ali3_parameters_apply(in); /* these values are valid, as they were applied before */

@@ -5,7 +5,7 @@
 
 typedef struct {
   ali3_report report;
-  double t_base, h_last;
-  int64_t count;
+  double t_base, h_last; /* s: as base and h of ali3_clock */
+  int64_t count; /* steps of h_last since t_base */
 } ali3_snapshot_head;
 #endif

@@ -51,7 +51,7 @@ ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size) {
   append(&p, &in->report, sizeof in->report);
   append(&p, &in->clock.base, sizeof(double));
   append(&p, &in->clock.h, sizeof(double));
-  append(&p, in->now.q, in->kept.n * sizeof(double));
+  append(&p, in->now.q, in->stored.n * sizeof(double));
   append(&p, in->inputs.set, (size_t)z->nu * sizeof(double));
   append(&p, in->parameters.value, (size_t)z->np * sizeof(double));
   header.crc = ali3_crc32((unsigned char *)bytes + CHECKED_FROM, size - CHECKED_FROM);
@@ -79,10 +79,12 @@ static bool in_ranges(const unsigned char *p, int32_t n, const double *low, cons
   return true;
 }
 
+/* A count that a report may have; a size, finite and not negative. */
 static bool count_valid(int64_t n) { return n >= 0 && n < MAX_COUNT; }
 
 static bool magnitude_valid(double x) { return x >= 0.0 && x - x == 0.0; }
 
+/* A change of an assembly mode names a triad of the System. */
 static bool branch_valid(const ali3_system *s, const ali3_report *r) {
   if (!count_valid(r->branch_changes) || !(r->branch_time - r->branch_time == 0.0)) return false;
   return r->branch_changes == 0 ||
@@ -91,17 +93,20 @@ static bool branch_valid(const ali3_system *s, const ali3_report *r) {
               s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]);
 }
 
+/* Measures of abrupt forces. */
 static bool forces_valid(const ali3_report *r) {
   return magnitude_valid(r->largest_force) && magnitude_valid(r->largest_load) && count_valid(r->abrupt_steps) &&
          count_valid(r->divisions) && magnitude_valid(r->change_rate);
 }
 
+/* Sums of the linear trend of the energy; see ali3_energy_trend. */
 static bool trend_valid(const ali3_report *r) {
   return count_valid(r->free_states) && magnitude_valid(r->free_steps) && r->free_start - r->free_start == 0.0 &&
          r->free_energy - r->free_energy == 0.0 && magnitude_valid(r->free_steps_squares) &&
          magnitude_valid(r->free_energy_squares) && r->free_product - r->free_product == 0.0;
 }
 
+/* A report that an instance of the System can have. */
 static bool report_valid(const ali3_system *s, const ali3_report *r) {
   return branch_valid(s, r) && forces_valid(r) && trend_valid(r) && magnitude_valid(r->work) &&
          magnitude_valid(r->kinetic_peak) && magnitude_valid(r->speed_peak) && magnitude_valid(r->velocity_path) &&
@@ -118,9 +123,9 @@ static bool report_valid(const ali3_system *s, const ali3_report *r) {
 /* Checks vectors, inputs and parameters, stored in this order. */
 static bool vectors_valid(const ali3_instance *in, const unsigned char *vectors) {
   const ali3_system *S = in->system;
-  const unsigned char *inputs = vectors + in->kept.n * sizeof(double),
+  const unsigned char *inputs = vectors + in->stored.n * sizeof(double),
                       *parameters = inputs + (size_t)S->size.nu * sizeof(double);
-  return numbers_valid(vectors, in->kept.n) && in_ranges(inputs, S->size.nu, S->input_min, S->input_max) &&
+  return numbers_valid(vectors, in->stored.n) && in_ranges(inputs, S->size.nu, S->input_min, S->input_max) &&
          in_ranges(parameters, S->size.np, S->par_min, S->par_max);
 }
 
@@ -133,9 +138,9 @@ ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot) {
   if (!report_valid(in->system, &head.report) || !count_valid(head.count) || !(fabs(head.t_base) <= MAX_MAGNITUDE) ||
       !(head.h_last >= 0.0 && head.h_last <= MAX_MAGNITUDE) || !vectors_valid(in, vectors))
     return ALI3_BAD_STATE;
-  const unsigned char *parameters = vectors + (in->kept.n + (size_t)in->system->size.nu) * sizeof(double);
+  const unsigned char *parameters = vectors + (in->stored.n + (size_t)in->system->size.nu) * sizeof(double);
   if (memcmp(parameters, in->parameters.value, size) == 0) return ALI3_OK;
-  if (!ali3_parameters_take(in, parameters)) return ALI3_BAD_STATE;
+  if (!ali3_parameters_set_all(in, parameters)) return ALI3_BAD_STATE;
   memcpy(in->parameters.value, in->parameters.work, size);
   return ali3_parameters_apply(in);
 }
@@ -165,7 +170,8 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   extract(&report, &p, sizeof report);
   const unsigned char *times = (const unsigned char *)bytes + fixed, *vectors = times + 2 * sizeof(double);
   if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(times, 2) ||
-      !vectors_valid(in, vectors) || !ali3_parameters_take(in, vectors + (in->kept.n + (size_t)z->nu) * sizeof(double)))
+      !vectors_valid(in, vectors) ||
+      !ali3_parameters_set_all(in, vectors + (in->stored.n + (size_t)z->nu) * sizeof(double)))
     return ALI3_BAD_STATE;
   in->settings = settings;
   in->report = report;
@@ -176,7 +182,7 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   in->start.to_lift = false;
   extract(&in->clock.base, &p, sizeof(double));
   extract(&in->clock.h, &p, sizeof(double));
-  extract(in->now.q, &p, in->kept.n * sizeof(double));
+  extract(in->now.q, &p, in->stored.n * sizeof(double));
   extract(in->inputs.set, &p, (size_t)z->nu * sizeof(double));
   return ALI3_OK;
 }

@@ -35,7 +35,7 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, ali3_pool *pool) 
   v->stored = ali3_pool_numbers(pool, (size_t)s->n_work);
   v->watched = ali3_pool_numbers(pool, (size_t)s->n_work + (size_t)s->n_work_force);
   v->step_force = ali3_pool_numbers(pool, (size_t)s->n_work_force);
-  v->step_way = ali3_pool_numbers(pool, (size_t)s->n_work_force);
+  v->step_displacement = ali3_pool_numbers(pool, (size_t)s->n_work_force);
   v->by_inputs = ali3_pool_numbers(pool, (size_t)s->n_input_work);
 }
 
@@ -47,23 +47,20 @@ size_t ali3_vector_count(const ali3_system *s) {
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
-  memcpy(to->q, from->q, in->kept.n * sizeof(double));
+  memcpy(to->q, from->q, in->stored.n * sizeof(double));
 }
 
-/* Copies the vectors that a method does not write: all except positions, velocities, accelerations and multipliers, and
- * the past of the last two if steps do not write it. */
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
-  const double *end = from->q + in->kept.n, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
+  const double *end = from->q + in->stored.n, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
   const bool past = in->system->n_flexible > 0 && from->history[ALI3_HISTORY_COUNT] > 0.0;
   memcpy(to->y, from->y, (size_t)((past ? end : from->past_a) - from->y) * sizeof(double));
   if (!past) memcpy(to->q + (past_end - from->q), past_end, (size_t)(end - past_end) * sizeof(double));
 }
 
-/* Stores in->now once per step, before it changes, for a failed step. */
 void ali3_back_up(ali3_instance *in) {
-  if (in->kept.backed_up) return;
-  ali3_vectors_copy(in, &in->kept.start, &in->now);
-  in->kept.backed_up = true;
+  if (in->stored.backed_up) return;
+  ali3_vectors_copy(in, &in->stored.start, &in->now);
+  in->stored.backed_up = true;
 }
 
 /* Whether a state is finite; of the past only what the step added, as the rest was checked before. */
@@ -71,7 +68,7 @@ ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v)
   const int64_t nq = in->system->size.nq, nc = in->system->size.nc;
   const double *rest = v->past_lam + ALI3_PAST * nc;
   const double *const begin[] = {v->q, v->past_lam, rest};
-  const double *const end[] = {v->past_a + nq, v->past_lam + nc, v->q + in->kept.n};
+  const double *const end[] = {v->past_a + nq, v->past_lam + nc, v->q + in->stored.n};
   for (int k = 0; k < 3; k++)
     if (!ali3_finite_inlined(begin[k], end[k] - begin[k])) return false;
   return true;
@@ -79,7 +76,6 @@ ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v)
 
 ALI3_BY_PROCESSOR(in->system, bool, vectors_finite, (const ali3_instance *in, const ali3_vectors *v), (in, v))
 
-/* Swaps in->next in as the state if it is finite and the road under it could be read. */
 ali3_status ali3_accept(ali3_instance *in) {
   if (!ali3_vectors_finite(in, &in->next)) return ALI3_NOT_FINITE;
   if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;

@@ -21,12 +21,10 @@ static void copy(double *to, const double *from, int32_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
 
-/* Stores the watched forces and powers of the last ali3_forces, evaluated at v. */
 void ali3_work_store(const ali3_instance *in, ali3_vectors *v) {
   copy(v->watched, in->watch.now, in->system->n_work + in->system->n_work_force);
 }
 
-/* Power of the guides at a state, W. */
 double ali3_guides_power(ali3_instance *in, const ali3_vectors *v) {
   double power = 0.0;
   ali3_constraint_rate(in, v->q, v, in->step.mu);
@@ -38,7 +36,6 @@ void ali3_guides_work(const ali3_instance *in, ali3_vectors *v, double work) {
   if (in->system->n_guide_work > 0) v->work[in->system->n_work] += work;
 }
 
-/* Resets the work at a start; the last ali3_forces was at v. */
 void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   if (S->n_guide_work > 0) v->work[S->n_work] = 0.0;
@@ -61,7 +58,6 @@ static void evaluate_forces(ali3_instance *in, const ali3_vectors *v, double *po
   ali3_forces(in, &call);
 }
 
-/* Evaluates the forces at in->now with the inputs of the last step, for a method that did not make that step. */
 void ali3_work_reopen(ali3_instance *in) {
   ali3_vectors *v = &in->now;
   if (in->system->n_work == 0) return;
@@ -71,18 +67,16 @@ void ali3_work_reopen(ali3_instance *in) {
   ali3_work_store(in, v);
 }
 
-/* Adds the work of a step D from in->now to in->next, with the mean of the forces at its ends (weight = 1/2) or the
- * forces of the last ali3_forces (weight = 1). */
 void ali3_work_step(ali3_instance *in, double weight) {
   if (in->system->n_work == 0) return;
-  ali3_signal_displacements(in, in->next.step_way);
+  ali3_signal_displacements(in, in->next.step_displacement);
   ali3_work_along(in, weight);
 }
 
 /* Leaves the powers of the start unchanged: a method that reads them stores its own or calls ali3_work_reopen. */
 ALI3_INLINED void work_along(ali3_instance *in, double weight) {
   const ali3_system *S = in->system;
-  const double *before = in->now.watched + S->n_work, *displacement = in->next.step_way;
+  const double *before = in->now.watched + S->n_work, *displacement = in->next.step_displacement;
   double *mean = in->next.step_force, *after = in->next.watched + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
     const double *force = in->element.force + S->el_sig_ptr[S->work_element[k]];
@@ -96,21 +90,17 @@ ALI3_INLINED void work_along(ali3_instance *in, double weight) {
 
 ALI3_BY_PROCESSOR(in->system, void, work_along, (ali3_instance * in, double weight), (in, weight))
 
-/* sum (n_work) += weight (s) times the powers of a stage. */
 void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum) {
   for (int32_t k = 0; k < in->system->n_work; k++) sum[k] += weight * power[k];
 }
 
-/* Restores the powers at the start of a step that continues the last one. */
 void ali3_work_recall(ali3_instance *in) { copy(in->watch.now, in->now.watched, in->system->n_work); }
 
-/* Initialises in->watch.sum by the first stage with the powers of the last ali3_forces. */
 void ali3_work_first(ali3_instance *in, double weight) {
   for (int32_t k = 0; k < in->system->n_work; k++) in->watch.sum[k] = weight * in->watch.now[k];
 }
 
-/* Adds the work from the state in->next was extrapolated from, dt earlier, s. */
-void ali3_work_beside(ali3_instance *in, double dt) {
+void ali3_work_extrapolated(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
   if (in->system->n_guide_work > 0) ali3_guides_work(in, v, dt * ali3_guides_power(in, v));
   if (in->system->n_work == 0) return;
@@ -118,8 +108,6 @@ void ali3_work_beside(ali3_instance *in, double dt) {
   ali3_work_stage(in, dt, in->watch.now, v->work);
 }
 
-/* Adds the change of potentials by a jump of the inputs at in->now, of which in->next is a copy; before, after_jump
- * (ne): potentials on both sides. */
 void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *after_jump) {
   const ali3_system *S = in->system;
   for (int32_t k = 0; k < S->n_input_work; k++) {
@@ -128,8 +116,6 @@ void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *
   }
 }
 
-/* Sum over the n elements in `element`, J; kind 0: work; 1: also the change of their potentials since the start,
- * without the part by inputs; 2: that part. */
 double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element) {
   double sum = 0.0;
   for (int32_t i = 0; i < n; i++) {

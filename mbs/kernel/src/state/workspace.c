@@ -11,7 +11,6 @@
 #include "masses.h"
 #include "vectors.h"
 
-/* Size of S B of the largest element: signals times coordinates. */
 size_t ali3_signal_work(const ali3_system *s) {
   size_t largest = 0;
   for (int32_t e = 0; e < s->size.ne; e++) {
@@ -30,12 +29,12 @@ static void place_state(const ali3_system *s, ali3_vectors *v, ali3_pool *p) {
 static void place_states(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   place_state(s, &in->now, p);
   place_state(s, &in->next, p);
-  place_state(s, &in->kept.start, p);
-  place_state(s, &in->kept.whole, p);
-  place_state(s, &in->kept.direction, p);
-  place_state(s, &in->kept.origin, p);
-  place_state(s, &in->kept.centre, p);
-  place_state(s, &in->kept.coarse, p);
+  place_state(s, &in->stored.start, p);
+  place_state(s, &in->stored.whole, p);
+  place_state(s, &in->stored.direction, p);
+  place_state(s, &in->stored.origin, p);
+  place_state(s, &in->stored.centre, p);
+  place_state(s, &in->stored.coarse, p);
 }
 
 /* Places inputs, parameters and the data that parameters write. */
@@ -150,7 +149,7 @@ static void place_modes(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->branch.sine_after = ali3_pool_array(p, triads);
   in->branch.sine_few = ali3_pool_array(p, triads);
   in->branch.left = ali3_pool_array(p, loops);
-  if (triads > 0) place_state(s, &in->kept.near_branch, p);
+  if (triads > 0) place_state(s, &in->stored.near_branch, p);
 }
 
 /* Places the arrays of start_equilibrium.c and work.c. */

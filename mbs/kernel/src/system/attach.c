@@ -6,6 +6,7 @@
 #include "../system.h"
 #include "message.h"
 
+/* Hash of an earlier hash and an array. */
 static uint32_t hash_bytes(uint32_t hash, const void *bytes, int64_t size) {
   const uint32_t both[3] = {hash, (uint32_t)size, size > 0 ? ali3_crc32(bytes, (size_t)size) : 0u};
   return ali3_crc32(both, sizeof both);

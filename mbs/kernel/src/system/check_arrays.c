@@ -45,6 +45,7 @@ static ali3_status check_numbers(ali3_message m, const limits_of_array *a) {
   return ALI3_OK;
 }
 
+/* Items of an array by its rule. */
 static ali3_status check_values(ali3_message m, const limits_of_array *a) {
   switch (a->rule) {
   case IN_RANGE:

@@ -76,6 +76,7 @@ static ali3_status check_term(ali3_message m, const char *name, int32_t a, int32
   return ALI3_OK;
 }
 
+/* Terms of angles, which do not contain the angle itself. */
 static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   const int64_t na = s->n_angle_row;
   for (int64_t i = 0; i < na; i++) {

@@ -5,7 +5,6 @@
 #include "loading.h"
 #include "message.h"
 
-/* Whether the mass matrix has an entry for every coordinate of one signal with one of another. */
 bool ali3_mass_has_room(const ali3_system *s, int32_t one, int32_t other) {
   for (int32_t a = s->sig_ptr[one]; a < s->sig_ptr[one + 1]; a++)
     for (int32_t b = s->sig_ptr[other]; b < s->sig_ptr[other + 1]; b++) {
@@ -15,7 +14,6 @@ bool ali3_mass_has_room(const ali3_system *s, int32_t one, int32_t other) {
   return true;
 }
 
-/* Requires checked arrays of signals and of the mass matrix. */
 ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_payload_mass;
   for (int64_t i = 0; i < 3 * n; i++) CHECK(ali3_check_independent(s, s->payload_signal[i], "a payload", m));

@@ -40,7 +40,6 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* Refuses a signal of dependent coordinates for a purpose that reads coordinates directly. */
 ali3_status ali3_check_independent(const ali3_system *s, int32_t signal, const char *what, ali3_message m) {
   for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++)
     if (s->sig_col[k] >= s->size.nq) return ali3_bad(m, "%s is on a lookup-table body", what);

@@ -6,6 +6,7 @@
 #include "loading.h"
 #include "message.h"
 
+/* Rows and bodies of the cut joints; n: joints. */
 static ali3_status check_cuts(const ali3_system *s, int64_t n, ali3_message m) {
   const int64_t cuts = s->n_tree_cut_body / 2;
   int64_t rows = 0;
@@ -27,6 +28,7 @@ static bool on_path(const ali3_system *s, int32_t j, int32_t k) {
   return j == k;
 }
 
+/* Relative angles; one with inertia has its joints on one path. */
 static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   const int64_t angles = s->n_tree_angle_col;
   if (angles > ALI3_MAX_ANGLES) return ali3_bad(m, "the tree has %lld angles", (long long)angles);

@@ -13,8 +13,6 @@
 #include "loading.h"
 #include "sensor_types.h"
 
-/* Whether rows i to i + 2 of a sparse matrix have equal values in columns that increase by one from row to row, without
- * common columns. */
 bool ali3_is_triple(const int32_t *ptr, const int32_t *col, const double *val, int32_t i) {
   const int32_t n = ptr[i + 1] - ptr[i];
   const int32_t *a = col + ptr[i], *b = col + ptr[i + 1], *c = col + ptr[i + 2];
@@ -33,6 +31,7 @@ static void derive_triples(const ali3_system *s, const int32_t *row, int32_t n, 
   }
 }
 
+/* For qsort. */
 static int compare_int32(const void *a, const void *b) {
   const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
   return (x > y) - (x < y);
@@ -112,7 +111,6 @@ void ali3_elements_derive(ali3_system *s) {
   }
 }
 
-/* Lists the elements with sensed work, in ascending order. */
 void ali3_work_derive(ali3_system *s) {
   for (int32_t e = 0; e < s->size.ne; e++) s->work_of[e] = -1;
   for (int32_t i = 0; i < s->size.ns; i++) {

@@ -44,6 +44,7 @@ static int32_t row_pos(const ali3_system *s, int32_t k, int32_t i, int32_t j) {
   return s->front_off[f] + (li > lj ? lj * n + li : li * n + lj);
 }
 
+/* Term h q_a q_b of row k from local indices a, b; -1: no factor. */
 static ali3_term make_term(const ali3_system *s, int32_t k, int32_t a, int32_t b, double h) {
   ali3_term t = {.a = -1, .b = -1, .ja = -1, .jb = -1, .pos = -1, .h = h};
   if (a >= 0) {
@@ -58,6 +59,7 @@ static ali3_term make_term(const ali3_system *s, int32_t k, int32_t a, int32_t b
   return t;
 }
 
+/* Terms of rows, guides, angles and rows on velocities. */
 static void derive_rows(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++)
     for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
@@ -111,6 +113,7 @@ static bool has_other_effects(const ali3_system *s, int32_t k, int32_t theta) {
   return affects;
 }
 
+/* Lists the angles with inertia or other rows. */
 static void derive_turning(ali3_system *s) {
   for (int32_t i = 0; i < s->n_angle_row; i++)
     if (has_other_effects(s, s->angle_row[i], s->angle_theta_col[i])) s->turning[s->n_turning++] = i;
@@ -230,6 +233,7 @@ static bool same_stretch(const ali3_system *s, int32_t k, int32_t next) {
          s->row_loc[first] == s->row_loc[other];
 }
 
+/* Rows front by front, and how many rows in turn have the same stretch. */
 static void derive_alike_rows(ali3_system *s) {
   int32_t *end = s->front_row_ptr + 1; /* ends of fronts; initially their starts, advanced with each row */
   const int32_t n = s->size.nc, nf = s->size.nf;
@@ -288,6 +292,7 @@ static void derive_runs(ali3_system *s, int32_t k) {
   }
 }
 
+/* Terms of stretches, and all others with their second derivatives. */
 static void derive_stretches(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++) {
     derive_runs(s, k);
@@ -301,7 +306,6 @@ static void derive_stretches(ali3_system *s) {
   }
 }
 
-/* Requires the masses, by which angles have inertia. */
 void ali3_rows_derive(ali3_system *s) {
   derive_rows(s);
   derive_round(s);

@@ -75,7 +75,8 @@ static ali3_status derive_item(const ali3_system *s, int32_t i, int32_t *depende
                                             : ali3_bad(m, "a coordinate of table %d is not in its front", (int)i);
 }
 
-static int ascending(const void *a, const void *b) {
+/* For qsort. */
+static int compare_int32(const void *a, const void *b) {
   const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
   return (x > y) - (x < y);
 }
@@ -332,7 +333,7 @@ static bool derive_parts(const ali3_system *s, ali3_tabled_group *group) {
 static void derive_group(ali3_system *s, int32_t g) {
   ali3_tabled_group *group = s->tabled_group + g;
   int32_t loc[ALI3_TABLED_COLUMNS];
-  qsort(group->loc, (size_t)group->m, sizeof *group->loc, ascending);
+  qsort(group->loc, (size_t)group->m, sizeof *group->loc, compare_int32);
   for (int32_t n = 0; n < group->n_item; n++) {
     find_local(s, s->tabled + group->item[n], group->front, loc);
     for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) group->slot[n][k] = find_index(group->loc, group->m, loc[k]);

@@ -7,7 +7,6 @@
 #include "../tabled/tabled.h"
 #include "loading.h"
 
-/* Whether rows i to i + 2, all of one length, have the same values. */
 bool ali3_same_values(const int32_t *ptr, const double *val, int32_t i) {
   const double *row = val + ptr[i];
   const int32_t n = ptr[i + 1] - ptr[i];
@@ -16,7 +15,6 @@ bool ali3_same_values(const int32_t *ptr, const double *val, int32_t i) {
   return true;
 }
 
-/* Whether the mass matrix with these values has equal rows for the three coordinates of each point. */
 bool ali3_mass_isotropic(const ali3_system *s, const double *val) {
   for (int32_t i = 0; i < s->size.nq; i++)
     if (s->mass_alike[i] == 0 && !ali3_same_values(s->mass_ptr, val, i)) return false;

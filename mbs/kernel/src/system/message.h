@@ -6,8 +6,9 @@
 #include "../../include/ali3.h"
 
 typedef struct {
-  char *text;
-  size_t size;
+  char *text; /* NULL: no message */
+  size_t size; /* bytes, including the terminator */
 } ali3_message;
+/* Writes a formatted message, cut to its size, and returns ALI3_BAD_FILE. */
 ali3_status ali3_bad(ali3_message m, const char *format, ...);
 #endif

@@ -13,7 +13,6 @@
 enum { FRAME = ALI3_AXIS_SIGNALS };
 static const double STEEPEST = 1.4; /* rad: largest elevation of an axis */
 
-/* Checks the two angles of an axis; NULL: valid. */
 const char *ali3_check_axis(const double *real) {
   return fabs(real[0]) <= 7.0 && fabs(real[1]) <= STEEPEST ? NULL : "the axis of a wheel must not stand upright";
 }
@@ -26,7 +25,6 @@ static bool has_all(const ali3_system *s, int32_t to, int32_t from) {
   return true;
 }
 
-/* Requires checked arrays of signals, of tables and of the mass matrix. */
 ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_axis_inertia;
   for (int64_t k = 0; k < n; k++)
@@ -51,6 +49,7 @@ typedef struct {
   bool *written; /* whether axes write each signal */
 } lean;
 
+/* Places the arrays of a System without entries that are zero as drawn. */
 static void place_arrays(const ali3_system *s, ali3_pool *p, lean *to) {
   const size_t nsig = (size_t)s->size.nsig, entries = (size_t)s->n_sig_col;
   to->sig_val = ali3_pool_items(p, entries, sizeof(double));
@@ -66,6 +65,7 @@ static bool is_kept(const ali3_system *s, const lean *to, int32_t signal, int32_
   return !to->written[signal] || s->sig_val[k] != 0.0;
 }
 
+/* Fills them. */
 static void drop_zeros(ali3_system *s, lean *to) {
   int32_t n = 0, at = 0;
   for (int64_t i = 0; i < s->n_axis_signal; i++) to->written[s->axis_signal[i]] = true;

@@ -13,11 +13,13 @@ typedef struct {
 #if defined(ALI3_GAPS)
 #include <sanitizer/asan_interface.h>
 enum { ALI3_GAP = 64 }; /* bytes */
+/* Leaves a gap after an array. */
 static inline void ali3_pool_gap(ali3_pool *pool) {
   if (pool->block != NULL) ASAN_POISON_MEMORY_REGION(pool->block + pool->used, ALI3_GAP);
   pool->used += ALI3_GAP;
 }
 #else
+/* Leaves a gap after an array. */
 static inline void ali3_pool_gap(ali3_pool *pool) { (void)pool; }
 #endif
 

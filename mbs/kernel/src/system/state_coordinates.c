@@ -3,7 +3,6 @@
 #include "../rows/guides.h"
 #include "../system.h"
 
-/* True without element states and filtered guides: stages inside a step then depend only on q, qd and the time. */
 bool ali3_states_are_coordinates(const ali3_system *S) {
   if (S->size.ny > 0) return false;
   for (int32_t g = 0; g < S->size.ng; g++)

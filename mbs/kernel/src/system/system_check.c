@@ -12,6 +12,7 @@
 
 enum { MAX_COORDINATES = 1 << 20, MAX_OUTPUTS = 1 << 20 };
 
+/* Derives the sizes of the System from the lengths of its arrays. */
 static ali3_status check_sizes(ali3_system *s, ali3_message m) {
   ali3_sizes *z = &s->size;
   if (s->n_q0 < 1 || s->n_q0 > MAX_COORDINATES) return ali3_bad(m, "%lld coordinates", (long long)s->n_q0);
@@ -34,6 +35,7 @@ static ali3_status check_sizes(ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
+/* Columns ascend; the matrix is symmetric with a diagonal that is not negative. */
 static ali3_status check_mass(const ali3_system *s, ali3_message m) {
   const int32_t nq = s->size.nq;
   for (int32_t i = 0; i < nq; i++)
@@ -51,6 +53,7 @@ static ali3_status check_mass(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
+/* Columns of signals are coordinates or dependents; inputs start within their ranges. */
 static ali3_status check_signals(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_indices(m, "sig_col", s->sig_col, s->n_sig_col, 0, s->size.nq + s->n_dependent));
   for (int64_t i = 0; i < s->size.nu; i++)
@@ -59,6 +62,7 @@ static ali3_status check_signals(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
+/* Inputs and tabulated guides that guides refer to. */
 static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) {
   const int32_t ng = s->size.ng;
   for (int32_t g = 0; g < ng; g++) {
@@ -92,6 +96,7 @@ static ali3_status check_fixed_parameters(const ali3_system *s, ali3_message m) 
   return ALI3_OK;
 }
 
+/* Indices that parameters write to; values within their ranges. */
 static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int32_t np = s->size.np;
   const int64_t length[ALI3_TARGET_COUNT] = {
@@ -112,6 +117,7 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   return check_fixed_parameters(s, m);
 }
 
+/* NULL, or what is wrong with the data of element e; el_real: numbers of all elements. */
 static const char *check_element(const ali3_system *s, int32_t e, const double *el_real) {
   const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
   const int32_t real = s->el_real_ptr[e], integer = s->el_int_ptr[e];
@@ -119,11 +125,13 @@ static const char *check_element(const ali3_system *s, int32_t e, const double *
                             s->el_int + integer, s->el_int_ptr[e + 1] - integer, s->size.nu, s->nr);
 }
 
+/* NULL, or what is wrong with the numbers of guide g. */
 static const char *check_guide(const ali3_system *s, int32_t g, const double *guide_real) {
   const int32_t real = s->guide_real_ptr[g];
   return ali3_guide_check(s->guide_type[g], guide_real + real, s->guide_real_ptr[g + 1] - real);
 }
 
+/* NULL, or what is wrong with the numbers of road k. */
 static const char *check_road(const ali3_system *s, int32_t k, const double *road_real) {
   const int32_t real = s->road_real_ptr[k];
   const int32_t n = s->road_real_ptr[k + 1] - real;
@@ -195,7 +203,6 @@ static int32_t find_owner(const int32_t *ptr, int32_t n, int32_t index) {
   return low;
 }
 
-/* Checks the data that target k of a parameter writes. */
 const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]) {
   const int32_t index = s->par_index[k], family = s->par_target[k];
   if (family == ALI3_TARGET_ELEMENT)

@@ -19,6 +19,7 @@
 
 enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
 
+/* Places the derived arrays; n_entry: entries of the signals of all elements. */
 static void place_arrays(ali3_system *s, ali3_pool *p, size_t n_entry) {
   const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne;
   ali3_rows_place(s, p);
@@ -65,6 +66,7 @@ static void longest_stretch(const int32_t *col, int32_t begin, int32_t end, int3
   }
 }
 
+/* Rows of the mass matrix with equal columns, stretches of consecutive columns, triples, and the transposed entries. */
 static void derive_mass_rows(ali3_system *s) {
   const int32_t *ptr = s->mass_ptr, *col = s->mass_col;
   for (int32_t i = s->size.nq - 1; i >= 0; i--) {
@@ -81,6 +83,7 @@ static void derive_mass_rows(ali3_system *s) {
   }
 }
 
+/* Diagonal entries in front storage, the mass matrix in it, and the acceleration by gravity, s->fall. */
 static void derive_mass(ali3_system *s) {
   derive_mass_rows(s);
   for (int32_t i = 0, f = 0; i < s->size.nq; i++) {
@@ -98,6 +101,7 @@ static void derive_mass(ali3_system *s) {
   s->fall = mass > 0.0 ? sqrt(square / mass) : 0.0;
 }
 
+/* Offsets of matrices of flexible bodies, their largest number of modes, and the largest K_jj / M_jj, s->flex_rate. */
 static void derive_flexible(ali3_system *s) {
   s->flex_square[0] = 0;
   for (int32_t b = 0; b < s->n_flexible; b++) {
@@ -112,6 +116,7 @@ static void derive_flexible(ali3_system *s) {
   }
 }
 
+/* Index, or -1. */
 static int32_t first_nonzero(const double *v, int32_t n) {
   for (int32_t i = 0; i < n; i++)
     if (v[i] != 0.0) return i;

@@ -29,6 +29,7 @@ static const ali3_slot slots[ALI3_ARRAY_COUNT] = {
 #undef ALI3_SLOT
 };
 
+/* Little-endian numbers at any address. */
 static uint32_t read_u32(const unsigned char *p) {
   uint32_t v;
   memcpy(&v, p, sizeof v);
@@ -41,6 +42,7 @@ static uint64_t read_u64(const unsigned char *p) {
   return v;
 }
 
+/* Header of the file, with its size and checksum. */
 static ali3_status check_header(const unsigned char *bytes, size_t size, ali3_message m) {
   const uint16_t one = 1;
   if (*(const unsigned char *)&one != 1) return ali3_bad(m, "this machine is not little endian");
@@ -59,6 +61,7 @@ static ali3_status check_header(const unsigned char *bytes, size_t size, ali3_me
   return ALI3_OK;
 }
 
+/* One entry of the directory: sets the array and its length. */
 static ali3_status read_entry(ali3_system *s, const unsigned char *entry, size_t size, bool *seen, ali3_message m) {
   static const size_t item_size[] = {0, 4, 8, 1};
   char name[NAME_SIZE + 1] = {0};
@@ -84,6 +87,7 @@ static ali3_status read_entry(ali3_system *s, const unsigned char *entry, size_t
   return ALI3_OK;
 }
 
+/* All entries; required arrays are there. */
 static ali3_status read_directory(ali3_system *s, size_t size, ali3_message m) {
   bool seen[ALI3_ARRAY_COUNT] = {false};
   const uint32_t n = read_u32(s->bytes + 12);

@@ -43,6 +43,7 @@ static inline const real *gather_points(const double *const point[LANES], int64_
 #endif
 }
 
+/* Cells and weights at parameter x of a table with `count` control points; axis: first point, spacing. */
 ALI3_INLINED window window_at(const double *axis, int32_t count, real x) {
   window n;
   const double inverse_spacing = 1.0 / axis[1], end = count - WINDOW + 1;
@@ -66,6 +67,7 @@ ALI3_INLINED real weighted_sum(const real w[WINDOW], const real *x, int32_t n) {
   return (w[0] * x[0] + w[1] * x[n]) + (w[2] * x[2 * n] + w[3] * x[3 * n]);
 }
 
+/* Value and derivatives by one parameter of n functions. */
 ALI3_INLINED void evaluate_one_parameter(int32_t n, const window *x, const double *const point[LANES],
                                          real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   real buffer[WINDOW * ALI3_TABLED_BODY];

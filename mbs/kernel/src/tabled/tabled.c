@@ -3,8 +3,10 @@
 
 #include <string.h>
 
+/* Values of item i at the prepared q. */
 static ali3_tabled_work *work_of(const ali3_instance *in, int32_t i) { return in->tabled.item + i; }
 
+/* Coordinate or rate of parameter 0 or 1; 0 without it. */
 static real parameter(const ali3_tabled *c, int which, const real *x) {
   return c->param[which] < 0 ? ali3_same(0.0) : x[c->param[which]];
 }
@@ -49,8 +51,8 @@ void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
 
 /* First and second time derivatives of functions i to i + n - 1 at rates a, b of the parameters, without second rates
  * of these. */
-static void rates(const ali3_tabled *c, const ali3_tabled_work *w, real a, real b, int32_t i, int32_t n, real *first,
-                  real *second) {
+static void parameter_rates(const ali3_tabled *c, const ali3_tabled_work *w, real a, real b, int32_t i, int32_t n,
+                            real *first, real *second) {
   for (int32_t k = 0; k < n; k++, i++) {
     first[k] = a * w->value[ALI3_BY_A][i];
     second[k] = a * a * w->value[ALI3_BY_AA][i];
@@ -64,7 +66,7 @@ static void rates(const ali3_tabled *c, const ali3_tabled_work *w, real a, real 
 static void first_rate(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *x,
                        const real frame[12], int32_t v, real out[3]) {
   real first[3], second[3], rotated[3];
-  rates(c, w, parameter(c, 0, x), parameter(c, 1, x), 3 * v, 3, first, second);
+  parameter_rates(c, w, parameter(c, 0, x), parameter(c, 1, x), 3 * v, 3, first, second);
   ali3_tabled_turn(in->tabled.base[c->base].axes, first, rotated);
   ali3_tabled_turn(frame + 3, w->value[0] + 3 * v, out);
   for (int k = 0; k < 3; k++) out[k] += rotated[k];
@@ -74,20 +76,21 @@ static void first_rate(const ali3_instance *in, const ali3_tabled *c, const ali3
 static void second_rate(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
                         const real frame[12], int32_t v, real out[3]) {
   real first[3], second[3], rotated[3];
-  rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 3 * v, 3, first, second);
+  parameter_rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 3 * v, 3, first, second);
   ali3_tabled_turn(in->tabled.base[c->base].axes, second, out);
   ali3_tabled_turn(frame + 3, first, rotated);
   for (int k = 0; k < 3; k++) out[k] += 2.0 * rotated[k];
 }
 
+/* Value and rates of a number, to entry `to` of in->tabled.extended; qdd NULL: without the second rate. */
 static void extend_number(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
                           const real *qdd, int32_t to) {
   real first, second, unused;
   in->tabled.extended[0][to] = w->value[0][0];
-  rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 0, 1, &first, &second);
+  parameter_rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 0, 1, &first, &second);
   in->tabled.extended[1][to] = first;
   if (qdd == NULL) return;
-  rates(c, w, parameter(c, 0, qdd), parameter(c, 1, qdd), 0, 1, &first, &unused);
+  parameter_rates(c, w, parameter(c, 0, qdd), parameter(c, 1, qdd), 0, 1, &first, &unused);
   in->tabled.extended[2][to] = first + second;
 }
 
@@ -125,7 +128,7 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
   }
 }
 
-void ali3_tabled_way(const ali3_instance *in, const real *D) {
+void ali3_tabled_displacements(const ali3_instance *in, const real *D) {
   const ali3_system *S = in->system;
   memcpy(in->tabled.extended[0], D, (size_t)S->size.nq * sizeof(real));
   for (int32_t i = 0; i < S->n_tabled; i++) {
@@ -134,7 +137,7 @@ void ali3_tabled_way(const ali3_instance *in, const real *D) {
     real *displacement = in->tabled.extended[0] + S->size.nq + c->first, frame[12];
     if (c->n != ALI3_TABLED_BODY) {
       real second;
-      rates(c, w, parameter(c, 0, D), parameter(c, 1, D), 0, 1, displacement, &second);
+      parameter_rates(c, w, parameter(c, 0, D), parameter(c, 1, D), 0, 1, displacement, &second);
       displacement[0] -= 0.5 * second;
       continue;
     }

@@ -102,8 +102,10 @@ struct ali3_tabled_parameter_work {
   real own[12], turned[12]; /* sum of T J dT'/dp along Y, along the axes of the earth */
 };
 
+/* Functions of an item at parameters a, b and their derivatives by a, b, aa, ab, bb. */
 ALI3_PER_WIDTH void ali3_tabled_table(const ali3_system *S, const ali3_tabled *c, real a, real b,
                                       real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
+/* Evaluates all items at q (nq), and the inertia of the bodies; the other functions use the last q prepared. */
 ALI3_PER_WIDTH void ali3_tabled_prepare(const ali3_instance *in, const real *q);
 /* Writes q, qd, qdd (NULL: omitted), each followed by the dependents, to in->tabled.extended[0 .. 2]: all dependents,
  * or those with signals; after ali3_tabled_prepare at q. */
@@ -111,10 +113,11 @@ ALI3_PER_WIDTH void ali3_tabled_extend(const ali3_instance *in, const real *q, c
                                        bool all);
 /* Writes D and the change of X by a change D of the coordinates that ends at the prepared position to
  * in->tabled.extended[0]; to second order, for vectors with signals. */
-ALI3_PER_WIDTH void ali3_tabled_way(const ali3_instance *in, const real *D);
+ALI3_PER_WIDTH void ali3_tabled_displacements(const ali3_instance *in, const real *D);
 /* Computes Q from the forces on coordinates and dependents in in->tabled.force, with gravity and inertia forces. */
 ALI3_PER_WIDTH void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q);
 
+/* Whether an item is a body with mass. */
 static inline bool ali3_tabled_heavy(const ali3_tabled *c) { return c->n == ALI3_TABLED_BODY && c->mass[0] > 0.0; }
 /* out (3) = Y t. */
 static inline void ali3_tabled_turn(const real *restrict Y, const real *restrict t, real *restrict out) {
@@ -122,13 +125,18 @@ static inline void ali3_tabled_turn(const real *restrict Y, const real *restrict
 }
 /* Moments of a body times four vectors; `m`: mass, first (3), second xx, yy, zz, yz, zx, xy. */
 ALI3_PER_WIDTH void ali3_tabled_moments(const double *m, const real *x, real *out);
+/* Adds the inertia of a body to its base and its parameters. */
 ALI3_PER_WIDTH void ali3_tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w);
+/* out += B' M_X B x */
 ALI3_PER_WIDTH void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out);
 /* Adds gravity and -B' M_X Bd qd to Q. */
 ALI3_PER_WIDTH void ali3_tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q);
+/* Potential energy of gravity, J, at the prepared q. */
 double ali3_tabled_gravity(const ali3_instance *in, const double *q);
 /* Adds the power of both energies beyond M qdd and constant gravity, W. */
 void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kinetic, double *gravity);
+/* F += wM B' M_X B and wK times the geometric stiffness of gravity and of the forces of elements, lower triangles. */
 ALI3_PER_WIDTH void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F);
+/* F += tangents of elements on dependents, transformed by B. */
 ALI3_PER_WIDTH void ali3_tabled_elements_tangent(ali3_instance *in, real *F);
 #endif

@@ -154,7 +154,6 @@ ALI3_BY_PROCESSOR(in->system, void, tabled_inertia_forces, (const ali3_instance 
                   (in, qd, Q))
 
 #ifndef ALI3_WIDTH
-/* Potential energy of gravity of the prepared tabled bodies, J. */
 double ali3_tabled_gravity(const ali3_instance *in, const double *q) {
   double energy = 0.0;
   for (int32_t b = 0; b < in->system->n_tabled_base; b++) {

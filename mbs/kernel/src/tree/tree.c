@@ -53,7 +53,6 @@ void ali3_tree_joints(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* Velocities, and the parts of accelerations that are quadratic in them. */
 void ali3_tree_move(const ali3_tree *T, ali3_tree_work *w) {
   for (int32_t b = 1; b <= T->n; b++) {
     const int32_t p = T->parent[b];
@@ -87,7 +86,6 @@ void ali3_tree_move(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* Adds the joint accelerations qdd (n) to the rates and removes the acceleration of the ground. */
 void ali3_tree_accelerate(const ali3_tree *T, ali3_tree_work *w, const double *qdd) {
   ali3_lanes spin[3] = {{0.0}}, drift[3] = {{0.0}};
   for (int i = 0; i < 3; i++) drift[i][0] = w->gravity[i];

@@ -3,6 +3,7 @@
 #include "../system.h"
 #include "tree.h"
 
+/* Sum of the joint coordinates (or rates) x of angle a, with their signs. */
 static double joint_sum(const ali3_system *S, int32_t a, const double *x) {
   double value = 0.0;
   for (int32_t k = S->tree_angle_ptr[a]; k < S->tree_angle_ptr[a + 1]; k++)
@@ -10,19 +11,16 @@ static double joint_sum(const ali3_system *S, int32_t a, const double *x) {
   return value;
 }
 
-/* Sets w->turned from natural coordinates q and the relative ones in w->state. */
 void ali3_angles_read(const ali3_system *S, ali3_tree_work *w, const double *q) {
   for (int32_t a = 0; a < S->tree->n_angle; a++) w->turned[a] = q[S->tree_angle_col[a]] - joint_sum(S, a, w->state);
 }
 
-/* Compensates an angle subtracted from a joint's coordinate, so that the angles of the System are continuous. */
 void ali3_angles_turn(const ali3_system *S, ali3_tree_work *w, int32_t joint, double angle) {
   for (int32_t a = 0; a < S->tree->n_angle; a++)
     for (int32_t k = S->tree_angle_ptr[a]; k < S->tree_angle_ptr[a + 1]; k++)
       if (S->tree_angle_joint[k] == joint) w->turned[a] += S->tree_angle_sign[k] * angle;
 }
 
-/* Writes the angles at w->q, w->qd and w->qdd; qd and qdd may be NULL. */
 void ali3_angles_write(const ali3_system *S, const ali3_tree_work *w, double *q, double *qd, double *qdd) {
   for (int32_t a = 0; a < S->tree->n_angle; a++) {
     const int32_t column = S->tree_angle_col[a];
@@ -32,14 +30,12 @@ void ali3_angles_write(const ali3_system *S, const ali3_tree_work *w, double *q,
   }
 }
 
-/* Adds the generalised forces of the angles to the forces of their joints. */
 void ali3_angles_load(const ali3_system *S, ali3_tree_work *w, const double *Q) {
   for (int32_t a = 0; a < S->tree->n_angle; a++)
     for (int32_t k = S->tree_angle_ptr[a]; k < S->tree_angle_ptr[a + 1]; k++)
       w->load[S->tree_angle_joint[k]] += S->tree_angle_sign[k] * Q[S->tree_angle_col[a]];
 }
 
-/* Adds the inertia of an angle to the lower triangle of M; its joints are on one path. */
 void ali3_angles_mass(const ali3_system *S, ali3_tree_work *w) {
   for (int32_t a = 0; a < S->tree->n_angle; a++) {
     if (S->tree_angle_inertia[a] == 0.0) continue;

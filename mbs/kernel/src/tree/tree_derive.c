@@ -4,7 +4,6 @@
 #include "../system.h"
 #include "tree.h"
 
-/* Initialises s->tree from the arrays; requires zeroed memory. */
 void ali3_tree_derive(const ali3_system *s, ali3_tree *T) {
   T->n = (int32_t)s->n_tree_parent;
   T->lanes = (T->n + 2) / 2 * 2;
@@ -38,7 +37,6 @@ void ali3_tree_derive(const ali3_system *s, ali3_tree *T) {
   for (int i = 0; i < 3; i++) T->gravity[i] = s->tree_gravity[i];
 }
 
-/* Initialises the ground, and gravity if the System has no forces that include it; requires zeroed memory. */
 void ali3_tree_start(const ali3_system *s, ali3_tree_work *w) {
   for (int i = 0; i < 3; i++) {
     w->frame[0][i][i] = 1.0;

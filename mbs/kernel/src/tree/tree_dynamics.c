@@ -39,7 +39,6 @@ static void centroidal_inertia(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* Inertia of each body about the origin of the earth, and its inertia forces by velocity and gravity. */
 void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) {
   centroidal_inertia(T, w);
   ALI3_FOR_LANES
@@ -172,7 +171,6 @@ bool ali3_tree_factorise(const ali3_tree *T, ali3_tree_work *w, double *b) {
   return positive;
 }
 
-/* b becomes L^-1 D^-1 b by the factors. */
 void ali3_tree_solve(const ali3_tree *T, const ali3_tree_work *w, double *b) {
   for (int32_t k = 1; k <= T->n; k++) {
     const double *row = w->mass[k];

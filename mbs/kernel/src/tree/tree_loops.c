@@ -10,11 +10,13 @@
 static const double RANK = 1e-7; /* of the largest pivot: a smaller one belongs to a redundant row */
 
 typedef struct {
-  int32_t first, second, points, axes;
+  int32_t first, second; /* bodies */
+  int32_t points, axes; /* numbers of rows: coincident points; axes normal to each other */
   double p[3], n[2][3], r[3],
       z[3]; /* point and normals of the first body, point and axis of the second, in earth axes */
 } cut;
 
+/* Cut joint c at the present frames. */
 static cut cut_of(const ali3_system *S, const ali3_tree_work *w, int32_t c) {
   const double *place = S->tree_cut_place + 15 * (int64_t)c;
   cut k = {.first = S->tree_cut_body[2 * c],
@@ -46,7 +48,6 @@ static void add_path_derivatives(const ali3_tree *T, ali3_tree_work *w, const cu
   }
 }
 
-/* Computes w->Phi at the present frames and, with `gradients`, its derivatives by the joints. */
 void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients) {
   const ali3_tree *T = S->tree;
   int32_t row = 0;
@@ -80,8 +81,6 @@ static void point_bias(const ali3_tree_work *w, int32_t b, const double r[3], do
   for (int i = 0; i < 3; i++) out[i] += w->drift_rate[i][b] + turned[i];
 }
 
-/* Computes w->gamma, the second rates of the rows without joint accelerations; the acceleration of the ground cancels
- * between both bodies. */
 void ali3_loops_bias(const ali3_system *S, ali3_tree_work *w) {
   int32_t row = 0;
   for (int32_t c = 0; c < S->tree->n_cut; c++) {
@@ -110,7 +109,6 @@ void ali3_loops_bias(const ali3_system *S, ali3_tree_work *w) {
   }
 }
 
-/* Chooses independent rows and dependent joints by complete pivoting of the present rows. */
 void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
   const int32_t m = T->n_row, n = T->n;
   double largest = 0.0;
@@ -145,8 +143,6 @@ void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* Factorises the chosen rows in their order: L U of J_d with inverse pivots on the diagonal, then G in the columns of
- * the other joints. */
 void ali3_loops_factorise(const ali3_tree *T, ali3_tree_work *w) {
   const int32_t r = w->rank, n = T->n;
   for (int32_t i = 0; i < r; i++) {
@@ -201,6 +197,7 @@ static bool factorise_dense(ali3_tree_work *w, int32_t f) {
   return positive;
 }
 
+/* z becomes the solution with the factorised w->dense. */
 static void solve_dense(const ali3_tree_work *w, int32_t f, double *z) {
   for (int32_t i = 0; i < f; i++)
     for (int32_t k = 0; k < i; k++) z[i] -= w->dense[i][k] * z[k];
@@ -233,7 +230,6 @@ static bool reduce_mass(const ali3_tree *T, ali3_tree_work *w) {
   return factorise_dense(w, f);
 }
 
-/* Joint accelerations (n) from w->load, w->gamma and M. */
 bool ali3_loops_solve(const ali3_tree *T, ali3_tree_work *w, double *qdd) {
   const int32_t r = w->rank, n = T->n, f = n - r;
   double g[ALI3_MAX_CUT_ROWS], z[ALI3_LANES];
@@ -258,7 +254,6 @@ bool ali3_loops_solve(const ali3_tree *T, ali3_tree_work *w, double *qdd) {
   return positive;
 }
 
-/* Subtracts from x (n) the smallest change, in the metric of mass, that removes the violation of the chosen rows. */
 void ali3_loops_correct(const ali3_tree *T, ali3_tree_work *w, const double *violation, double *x) {
   const int32_t r = w->rank, n = T->n, f = n - r;
   double y[ALI3_MAX_CUT_ROWS], z[ALI3_LANES];

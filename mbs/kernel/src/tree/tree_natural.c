@@ -59,7 +59,6 @@ void ali3_tree_read(ali3_instance *in, const double *q, const double *qd, double
   }
 }
 
-/* Writes the natural coordinates at the motion in the work space; qd and qdd may be NULL. */
 void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd) {
   const ali3_system *S = in->system;
   const ali3_tree_work *w = in->tree;
@@ -88,7 +87,6 @@ void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd
   }
 }
 
-/* Subtracts generalised forces of the natural coordinates from the inertia forces of the bodies. */
 void ali3_tree_load(const ali3_instance *in, const double *Q) {
   const ali3_system *S = in->system;
   ali3_tree_work *w = in->tree;

@@ -1,21 +1,21 @@
-/* Declarations that the files of the FMI 2.0 interface share. */
-#ifndef ALI3_FMI2_FACE_H
-#define ALI3_FMI2_FACE_H
+/* The adapter between FMI 2.0 and the slave: the instance that a host holds, and checks that its functions share. */
+#ifndef ALI3_FMI2_ADAPTER_H
+#define ALI3_FMI2_ADAPTER_H
 #include "fmi2.h"
 #include "slave.h"
 
 typedef struct {
-  ali3_float_control control; /* first, see float_control.c */
-  fmi2CallbackFunctions host;
+  ali3_float_control control; /* of the host; first, as float_control.c reads it at the address of an instance */
+  fmi2CallbackFunctions host; /* logger and memory */
   slave *s;
-  void *detour; /* of the Python FMU */
-} fmi2_face;
+  void *detour; /* PythonFMU's instance; NULL in the native FMU */
+} fmi2_adapter;
 
-/* The calls that PythonFMU also has. The native FMU calls the slave directly (fmi2_direct.c), the Python FMU calls it
- * through its Python class (python_slave/detour.c). */
-slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
+/* The calls that PythonFMU also has, with the arguments of slave_new, slave_setup and the others in slave.h. The native
+ * FMU calls the slave directly (fmi2_direct.c), the Python FMU through its Python class (python_slave/detour.c). */
+slave *fmi2_new(fmi2_adapter *adapter, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
                 const char *token, const char *resources);
-void fmi2_free(fmi2_face *face);
+void fmi2_free(fmi2_adapter *adapter);
 slave_status fmi2_setup(slave *s, double start_time, bool stop_defined, double stop_time);
 slave_status fmi2_enter(slave *s);
 slave_status fmi2_exit(slave *s);
