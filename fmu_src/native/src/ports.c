@@ -4,7 +4,7 @@
 #include "slave.h"
 
 enum { MIN_TIMES_SET = 10 }; /* number of times that a port must have been set before a stop is reported */
-static const double SILENCE = 0.5; /* s, beyond the longest interval between two of them */
+static const double MIN_PAUSE = 0.5; /* s, beyond the longest interval between two of them */
 
 void slave_record_port_set(slave *s, size_t i, bool changed) {
   slave_rhythm *r = &s->rhythm[i];
@@ -62,7 +62,7 @@ void slave_watch_ports(slave *s, double begin) {
     if (!(s->input_flags[i] & SLAVE_WAS_SET)) {
       s->input_flags[i] |= SLAVE_WAS_SET;
       if (n_ports++ == 0) first = &t->variable[i];
-    } else if (!t->variable[i].whole && r->times >= MIN_TIMES_SET && begin - r->last_set > SILENCE + r->longest) {
+    } else if (!t->variable[i].whole && r->times >= MIN_TIMES_SET && begin - r->last_set > MIN_PAUSE + r->longest) {
       s->rhythm[i].times = -HUGE_VAL; /* reported */
       if (stops++ == 0) stopped = &t->variable[i];
     }

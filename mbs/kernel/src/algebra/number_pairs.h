@@ -163,8 +163,8 @@ static inline double ali3_sum_product_backward(const double *restrict x, const d
     while (i-- > 0) all += term(i);                                                                                    \
     return all;                                                                                                        \
   }
-#define ALI3_PRODUCT(i) x[i] * y[i]
-#define ALI3_SUM_PRODUCT(i) (x[i] + z[i]) * y[i]
+#define ALI3_PRODUCT(i) (x[i] * y[i])
+#define ALI3_SUM_PRODUCT(i) ((x[i] + z[i]) * y[i])
 ALI3_BACKWARD(ali3_product_backward, (const real *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
 ALI3_BACKWARD(ali3_shared_product_backward, (const double *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
 ALI3_BACKWARD(ali3_sum_product_backward,
