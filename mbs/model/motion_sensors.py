@@ -92,7 +92,7 @@ class MotionSensorVocabulary(SensorVocabulary):
         scale : float
             Factor on it.
         unit : str
-            By default the unit of the coordinate, "1" for an expression.
+            By default the unit of the coordinate, "1" for an expression: checks of a run then do not compare it.
         display_unit : str
             Customary unit in engineering, if that is not the unit.
         """

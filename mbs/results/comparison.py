@@ -175,7 +175,7 @@ def _find_compared_sensors(system: System) -> dict[str, Compared]:
     for i, sensor in enumerate(system.meta["sensors"]):
         if not sensor.get("computed", True):
             continue
-        kind, unit = SensorType(arrays["sen_type"][i]), sensor["unit"]
+        kind, unit = SensorType(arrays["sen_type"][i]), sensor["unit"].replace("N.m", "N m")
         integers = np.asarray(arrays["sen_int"][slice(*arrays["sen_int_ptr"][i : i + 2])]).tolist()
         order = integers[0] if kind in WITH_ORDER and integers else 0
         signal = kind in (SensorType.SIGNAL, SensorType.PITCH) or (kind in WITH_ORDER and order == 0)
@@ -183,7 +183,7 @@ def _find_compared_sensors(system: System) -> dict[str, Compared]:
         output = kind == SensorType.ELEMENT_OUTPUT
         if ((signal or kind in ANGLES) and unit in ("m", "rad")) or (output and unit == "m"):
             compared[sensor["name"]] = Compared(unit, place=True, wrapped=kind in ANGLES)
-        elif output and unit == "N":
+        elif output and unit in ("N", "N m"):
             compared[sensor["name"]] = Compared(unit, load=True)
         elif rate and unit in ("m/s", "rad/s"):
             compared[sensor["name"]] = Compared(unit, always=False)

@@ -123,20 +123,16 @@ class RefinedRuns:
         start_coordinates = self._coordinates(self.run)
         at_rest = bool(start_coordinates) and not sizes_of(start_coordinates, coordinates, self.length, self.before)
         has_guides = len(self.system.arrays["gterm_row"]) > 0
-        self.compared = select_compared(
-            self.run[0],
-            compared_sensors(self.system),
-            self.length,
-            self.before,
-            at_rest,
-            has_guides,
-            report.energy_floor,
-        )
+        compared, context = compared_sensors(self.system), (at_rest, has_guides, report.energy_floor)
+        self.compared = select_compared(self.run[0], compared, self.length, self.before, *context)
         self.rests = at_rest and not self.compared
         if shows_motion(self.compared):
             self.run = self.run[0], []
         elif self.run[1]:
-            self.compared |= coordinates
+            # beside coordinates that driving functions prescribe the forces of motors are compared
+            values = {name: self.run[0][name] for name in compared} | start_coordinates
+            selected = select_compared(values, {**compared, **coordinates}, self.length, self.before, *context)
+            self.compared = selected | coordinates
 
     def refine(self, parts: int) -> Accuracy:
         """Make a refined run with the step divided by `parts`, and return the accuracy estimated from it.
