@@ -39,9 +39,9 @@ _MAX_DOTS = 200  # of a key: the time of the parser is proportional to their squ
 _STRINGS_AND_COMMENTS = re.compile(
     "|".join(
         (
-            r'"{3}(?:\\.|.)*?(?:"{3,5}|\Z)',
+            r'"{3}[^"\\]*(?:(?:\\.|"{1,2}(?!"))[^"\\]*)*(?:"{3,5}|\\?\Z)',
             r"'{3}.*?(?:'{3,5}|\Z)",
-            r'"(?:\\[^\n]|[^"\n])*"?',
+            r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"?',
             r"'[^'\n]*'?",
             r"#[^\n]*",
         )

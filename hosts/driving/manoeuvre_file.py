@@ -100,7 +100,7 @@ class _ManoeuvreFile(_StrictModel):
         if odd := next((name for name in self.held if name == "time" or name not in self.inputs), None):
             raise ValueError(f"held has '{odd}'; it must be a list of names of [inputs]")
         if self.driver and (driven := [name for name in ACTS if name in self.inputs]):
-            raise ValueError(f"[inputs] has {', '.join(driven)}, which the driver of [driver] acts on")
+            raise ValueError(f"[inputs] has {', '.join(driven)}, which the driver sets; remove them, or [driver]")
         if self.find_throttle and (self.driver or "throttle" in self.inputs):
             conflict = "[driver]" if self.driver else "throttle in [inputs]"
             raise ValueError(f"with find_throttle there is no {conflict}")
@@ -132,10 +132,11 @@ def _read_toml(path: Path) -> Manoeuvre:
 
 def _flattened(table: Mapping[str, Any], where: str) -> dict[str, Any]:
     """Values by the whole names of their keys. Raises `HostError` if one is given twice, as ``a.b`` and ``"a.b"``."""
-    counts = Counter(name for name, _ in _named_values(table))
+    values = list(_named_values(table))
+    counts = Counter(name for name, _ in values)
     if repeated := next((name for name, count in counts.items() if count > 1), None):
         raise HostError(f"{where}: {brief(repeated)} is given twice.")
-    return dict(_named_values(table))
+    return dict(values)
 
 
 def _named_values(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

@@ -46,7 +46,7 @@ class Compared:
     place: bool = False
     """Whether it is a position, a length, an angle or a coordinate; otherwise it is a rate or a load."""
     load: bool = False
-    """Whether it is a force: its size is the largest value, as it may be constant; the size of others is the range."""
+    """Whether it is a force or torque: its size is the largest value, as it may be constant; the size of others is the range."""
     always: bool = True
     """False for rates and motor forces, which may jump: compared only if no position moves by itself."""
     wrapped: bool = False
@@ -170,7 +170,7 @@ def compared_sensors(system: System) -> Mapping[str, Compared]:
 
 
 def _find_compared_sensors(system: System) -> dict[str, Compared]:
-    arrays, compared = system.arrays, dict[str, Compared]()
+    arrays, compared, torques = system.arrays, dict[str, Compared](), dict[str, Compared]()
     driven = set(np.asarray(arrays["gterm_row"]).tolist())
     for i, sensor in enumerate(system.meta["sensors"]):
         if not sensor.get("computed", True):
@@ -183,13 +183,16 @@ def _find_compared_sensors(system: System) -> dict[str, Compared]:
         output = kind == SensorType.ELEMENT_OUTPUT
         if ((signal or kind in ANGLES) and unit in ("m", "rad")) or (output and unit == "m"):
             compared[sensor["name"]] = Compared(unit, place=True, wrapped=kind in ANGLES)
-        elif output and unit in ("N", "N m"):
+        elif output and unit == "N":
             compared[sensor["name"]] = Compared(unit, load=True)
+        elif output and unit == "N m":
+            torques[sensor["name"]] = Compared(unit, load=True)
         elif rate and unit in ("m/s", "rad/s"):
             compared[sensor["name"]] = Compared(unit, always=False)
         elif kind in REACTIONS and unit in UNITS and driven.intersection(_rows_of_reaction(kind, integers)):
             compared[sensor["name"]] = Compared(unit, load=True, always=False)
-    return compared
+    # Beside positions they are not compared: the torque of a brake that holds jumps with each small motion.
+    return compared if shows_motion(compared) else compared | torques
 
 
 def _rows_of_reaction(kind: SensorType, integers: list[int]) -> list[int]:

@@ -129,7 +129,7 @@ class RefinedRuns:
         if shows_motion(self.compared):
             self.run = self.run[0], []
         elif self.run[1]:
-            # beside coordinates that driving functions prescribe the forces of motors are compared
+            # if driving functions prescribe the coordinates, forces of motors are compared, too
             values = {name: self.run[0][name] for name in compared} | start_coordinates
             selected = select_compared(values, {**compared, **coordinates}, self.length, self.before, *context)
             self.compared = selected | coordinates

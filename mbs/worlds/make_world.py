@@ -18,7 +18,9 @@ from mbs.roads.write_road import write_road
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.thinned_world import STEP, measure_thinning, thinned_spacing
 from mbs.worlds.world_file import is_world
-from mbs.worlds.world_plausibility import world_plausibility as world_plausibility  # summary of `read_world`
+from mbs.worlds.world_plausibility import (
+    world_plausibility as world_plausibility,
+)  # registers the summary of a WorldDescription
 from mbs.worlds.world_record import make_record, world_record
 from mbs.worlds.world_road_file import grid_shape, write_world_road
 from mbs.worlds.world_types import WorldDescription
@@ -45,7 +47,7 @@ def read_world(file: Path) -> WorldDescription:
         )
     for k, place in enumerate(world.places):
         if place.name in (other.name for other in world.places[:k]):
-            raise RoadFileError(f"{file}: two places have the name '{place.name}', by which a start is chosen.")
+            raise RoadFileError(f"{file}: two places have the name '{place.name}'; a start is chosen by its name.")
         x, y, _ = place.at
         if not (x0 <= x <= x1 and y0 <= y <= y1):
             raise RoadFileError(f"{file}: the place '{place.name}' lies at ({x:g}, {y:g}), outside of the world.")

@@ -36,7 +36,7 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     begin = time.perf_counter()
     file = _world_file(name_or_file)
     name, source_files = named_files(file)
-    # Not of what is made: a page has a coarser spacing.
+    # Of the description, not of the world that is made, whose spacing is coarser for a page.
     described = _plausibilities_of_description(file)
     key = cache_key([file, *source_files], name_or_file) + ("-thin" if thin else "")
     paths, cached = world_files(key, lambda folder: _make_files(file, name, folder, thin), out)

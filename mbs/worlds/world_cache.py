@@ -29,7 +29,7 @@ COMPLETE_MARK = "made"
 def cache_key(files: Iterable[Path], name: str = "") -> str:
     """Key of the world made from files; it changes with their content and with the code.
 
-    `name`: what the user calls the world, which stands in its warnings.
+    `name`: name or path as the user gave it; the stored warnings contain it.
     """
     digest = hashlib.sha256(name.encode(errors="surrogateescape"))
     sources = [path for entry in CODE for path in _source_files(ROOT / entry)]

@@ -34,14 +34,14 @@ def named_files(file: Path) -> tuple[str, list[Path]]:
         else:
             entries = [table.get("heights"), table.get("frictions")]
     paths = [path for item in entries if isinstance(item, str) and is_file(path := file.parent / item)]
-    for path in paths[:]:
-        paths += named_files(path)[1] if path.suffix.lower() == ".gltf" else []
+    meshes = [path for path in paths if path.suffix.lower() == ".gltf"]
+    paths += [buffer for mesh in meshes for buffer in named_files(mesh)[1]]
     return name if isinstance(name, str) else file.stem, paths
 
 
 def _buffers(file: Path) -> list[str]:
     """Names of the buffers of a glTF file."""
-    with suppress(RoadFileError):  # it is told when the mesh is read
+    with suppress(RoadFileError):  # the fault is reported when the mesh is read
         content = read_json(file, RoadFileError)
         buffers = content.get("buffers") if isinstance(content, dict) else None
         names = [b.get("uri") for b in buffers if isinstance(b, dict)] if isinstance(buffers, list) else []

@@ -35,7 +35,7 @@ def test_every_import_has_a_line_that_installs_it() -> None:
     names = set(imported()) - sys.stdlib_module_names - set(PACKAGES)
     assert len(names) > 20
     lines = {name: re.search(r'pip install (ali3|"ali3\[(\w+)\]")$', missing_package(name)) for name in names}
-    packed = {"slave_face", "slave", "fmi2_face"}  # beside each other in an FMU
+    packed = {"slave"}  # beside each other in an FMU
     assert [name for name, line in lines.items() if line is None] == []
     without = {name for name, line in lines.items() if line is not None and line[2] is None}
     assert without - packed <= {

@@ -474,10 +474,10 @@ def test_a_key_of_many_parts_behind_a_string_is_refused(prefix: str) -> None:
 
 @pytest.mark.parametrize("part", ['\n\\"""', '"\\', "'''\n", '\\"'])
 def test_strings_without_an_end_are_refused_soon(part: str) -> None:
-    start = time.monotonic()
+    start = time.process_time()
     with pytest.raises(FileError, match=r"is not a TOML file"):
         toml_of(f'a = """\n{part * (900_000 // len(part))}'.encode(), FileError, "a.toml")
-    assert time.monotonic() - start < 10.0
+    assert time.process_time() - start < 2.0
 
 
 def test_whole_numbers_of_toml_have_64_bits() -> None:

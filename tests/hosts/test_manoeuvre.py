@@ -237,7 +237,7 @@ def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
         ("[inputs]\ntime = [-2, 1]\nu = [0, 1]\n", r"m\.toml begins at -2 s; a run begins at 0: add 2 s"),
         (
             "[driver]\nspeed = 9\n[inputs]\ntime = [0, 1]\nsteering = [0, 1]\nbrake = [0, 1]\nu = [0, 1]\n",
-            r"\[inputs\] has steering, brake, which the driver of \[driver\] acts on",
+            r"\[inputs\] has steering, brake, which the driver sets; remove them, or \[driver\]",
         ),
         ("stop_time = 1\n[start]\na.b = 1\n'a.b' = 2\n", r"m\.toml, \[start\]: 'a\.b' is given twice"),
     ],

@@ -149,7 +149,7 @@ def changed(scale: float = 1.0, order: tuple[int, ...] = (0, 1, 2)) -> tuple[Arr
         (changed(1000.0), r"4e\+04 by 8000 m, .* A spacing of .* millimetres .* scale = 0\.001"),
         (changed(0.001), r"is 0\.0408 m across, which is not a road; `scale`"),
         (changed(1.0, (0, 2, 1)), r"shows only [\d.]+ % of its area from above, .* up = \"y\""),
-        ((np.full((3, 3), np.nan), np.array([[0, 1, 2]])), "coordinates that are not numbers"),
+        ((np.full((3, 3), np.nan), np.array([[0, 1, 2]])), "coordinates that are not finite numbers"),
     ],
 )
 def test_a_mesh_that_is_no_road_is_refused(tmp_path: Path, mesh: tuple[Array, Array], sentence: str) -> None:

@@ -184,7 +184,7 @@ def test_an_invalid_course_is_refused(tmp_path, course, sentence):
         ('[ground]\nheights = "../none.npz"\n', "'../none.npz' is not below the folder"),
         ('[ground]\nheights = "a.npz"\nvariation = { height = 1.0, length = 20.0 }\n', "heights and a variation"),
         ('[[places]]\nname = "far"\nat = [90.0, 0.0, 0.0]\n', "'far' lies at \\(90, 0\\), outside"),
-        (2 * '[[places]]\nname = "a"\nat = [9.0, 0.0, 0.0]\n', "two places have the name 'a', by which a start is"),
+        (2 * '[[places]]\nname = "a"\nat = [9.0, 0.0, 0.0]\n', "two places have the name 'a'; a start is chosen by"),
         ('[[places]]\nname = "Far away"\nat = [9.0, 0.0, 0.0]\n', "places.0.name is 'Far away'"),
         ('[[obstacles]]\nkind = "wall"\nat = [9.0, 0.0, 0.0]\n', "obstacles.0"),
         ("[frictions]\ntar = 1.0\n", "frictions has the name 'tar'; a name is 'asphalt'"),

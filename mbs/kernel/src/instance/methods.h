@@ -13,12 +13,10 @@ typedef struct {
   double *A, *A_made; /* row pattern: discrete derivative at the iterate, and of the tangent in F */
 } ali3_discrete;
 
-enum { ALI3_GUIDE_LIMITS = 3 }; /* of a guide of time: of its value, rate and acceleration */
-
 /* Guides in a step, ng each. */
 typedef struct {
   double *mean;    /* mean rates */
-  double *jump;    /* 3 ng: smallest departure and jumps of rate and acceleration of guides of time that divide a step */
+  double *jump;    /* 2 ng: smallest jumps of rate and acceleration of guides of time that divide a step */
   double *follows; /* 1 if a filtered guide moves in the step, otherwise 0 */
 } ali3_guide_work;
 

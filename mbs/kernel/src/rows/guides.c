@@ -100,29 +100,27 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
   if (!inside) *sd = *sdd = 0.0;
 }
 
-/* A jump of the rate or acceleration of a guide of time, or a departure of its value from a straight line, counts if it
- * is larger than ABRUPT times their range, which is more than noise of samples, and than SAME times their largest value,
- * which is more than round-off. */
+/* A jump of the rate or acceleration of a guide of time counts if it is larger than ABRUPT times their range, which is
+ * more than noise of samples, and than SAME times their largest value, which is more than round-off. */
 static const double ABRUPT = 0.05, SAME = 1e-9;
-enum { LIMITS = ALI3_GUIDE_LIMITS };
 
 void ali3_guides_measure(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
     const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
-    double least[LIMITS] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, most[LIMITS] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
     for (int32_t i = 0; i < (int32_t)real[0]; i++)
       for (int32_t part = 0; part < 3; part++) {
-        double s[LIMITS];
-        piece(real, i, 0.5 * part * (real[2 + i] - real[1 + i]), &s[0], &s[1], &s[2]);
-        for (int32_t k = 0; k < LIMITS; k++) {
-          least[k] = fmin(least[k], s[k]);
-          most[k] = fmax(most[k], s[k]);
+        double s, rate[2];
+        piece(real, i, 0.5 * part * (real[2 + i] - real[1 + i]), &s, &rate[0], &rate[1]);
+        for (int32_t k = 0; k < 2; k++) {
+          least[k] = fmin(least[k], rate[k]);
+          most[k] = fmax(most[k], rate[k]);
         }
       }
-    for (int32_t k = 0; k < LIMITS; k++)
-      in->guide.jump[LIMITS * g + k] = fmax(ABRUPT * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
+    for (int32_t k = 0; k < 2; k++)
+      in->guide.jump[2 * g + k] = fmax(ABRUPT * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
   }
 }
 
@@ -135,40 +133,17 @@ static bool jumps(const double *real, int32_t i, const double *least) {
   return fabs(behind[0] - before[0]) > least[0] || fabs(behind[1] - before[1]) > least[1];
 }
 
-/* The break between t and `end` at which the value departs most from the straight line between both, if it departs by
- * more than `least`, otherwise `end`. */
-static double farthest(const double *real, double t, double end, double least) {
-  const int32_t n = (int32_t)real[0];
-  const double *breaks = real + 1;
-  double from, to, s, sd, sdd, at = end;
-  guide_of_time(real, t, &from, &sd, &sdd);
-  guide_of_time(real, end, &to, &sd, &sdd);
-  for (int32_t i = t < breaks[0] ? 0 : piece_at(real, t) + 1; i <= n && breaks[i] < end; i++) {
-    guide_of_time(real, breaks[i], &s, &sd, &sdd);
-    const double departs = fabs(s - from - (to - from) * (breaks[i] - t) / (end - t));
-    if (!(breaks[i] > t && departs > least)) continue;
-    least = departs;
-    at = breaks[i];
-  }
-  return at;
-}
-
 /* The first break after t and before `end` of all guides of time, otherwise `end`; with `all` false only breaks that
- * jump, and such that the guides depart little from straight lines between them. */
+ * jump. */
 static double first_break(const ali3_instance *in, double t, double end, bool all) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
     const double *real = in->parameters.guide_real + S->guide_real_ptr[g], *breaks = real + 1;
-    const double *least = in->guide.jump + (ptrdiff_t)LIMITS * g;
     const int32_t n = (int32_t)real[0];
     if (end <= breaks[0] || t >= breaks[n]) continue;
     for (int32_t i = t < breaks[0] ? 0 : piece_at(real, t) + 1; i <= n && breaks[i] < end; i++)
-      if (breaks[i] > t && (all || jumps(real, i, least + 1))) end = breaks[i];
-    for (double whole = HUGE_VAL; !all && end < whole;) {
-      whole = end;
-      end = farthest(real, t, whole, least[0]);
-    }
+      if (breaks[i] > t && (all || jumps(real, i, in->guide.jump + 2 * g))) end = breaks[i];
   }
   return end;
 }

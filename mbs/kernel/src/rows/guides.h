@@ -21,12 +21,12 @@ double ali3_guide_clamped(const ali3_instance *in, int32_t g, double demand);
 double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s);
 /* NULL, or what is wrong with the numbers of a guide. */
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal);
-/* Measures the ranges of value, rate and acceleration of each guide of time and writes the smallest departure and jumps
- * that count to in->guide.jump. */
+/* Measures the range of rate and acceleration of each guide of time and writes the smallest jumps that count to
+ * in->guide.jump. */
 void ali3_guides_measure(ali3_instance *in);
 /* The first break of a guide of time after t and before `end`, otherwise `end`; s. */
 double ali3_guides_until(const ali3_instance *in, double t, double end);
-/* The first such break at which rate or acceleration of the guide jump, or a part of the step up to it ends. */
+/* The first such break at which rate or acceleration of the guide jump. */
 double ali3_guides_break(const ali3_instance *in, double t, double end);
 /* Writes guides and their rates at the start to v: filtered ones rest where their inputs hold them. */
 void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t);
