@@ -18,9 +18,7 @@ from mbs.roads.write_road import write_road
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.thinned_world import STEP, measure_thinning, thinned_spacing
 from mbs.worlds.world_file import is_world
-from mbs.worlds.world_plausibility import (
-    world_plausibility as world_plausibility,
-)  # registers the summary of a WorldDescription
+from mbs.worlds.world_plausibility import world_plausibility as world_plausibility  # registers summaries of worlds
 from mbs.worlds.world_record import make_record, world_record
 from mbs.worlds.world_road_file import grid_shape, write_world_road
 from mbs.worlds.world_types import WorldDescription

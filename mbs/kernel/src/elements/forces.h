@@ -3,14 +3,14 @@
 #define ALI3_FORCES_H
 #include "../instance.h"
 
-/* Request for an evaluation of all elements; no array may be NULL. */
+/* Request for an evaluation: ali3_forces needs all arrays, ali3_elements_forces neither q, qd nor Q. */
 typedef struct {
-  const double *q, *qd, *y_old; /* nq, nq, ny: coordinates, rates, element states at the start of the step */
+  const double *q, *qd, *y_old; /* nq, nq, ny: coordinates, rates, element states to start from */
   double h, wC, wK, reach; /* as in ali3_element_args */
   bool tangent; /* also signal tangents, in->element.S */
   bool discrete; /* over a step from in->now, by discrete gradients if an element has them */
   bool iterate; /* one of several iterates: in->watch.now is not updated */
-  double *Q; /* nq, N: generalised forces with gravity */
+  double *Q; /* nq, N or N m: generalised forces with gravity */
   double *y_new, *out, *potential; /* ny; nout; ne, J */
 } ali3_force_call;
 

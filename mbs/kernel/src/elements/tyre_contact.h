@@ -76,9 +76,9 @@ ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patc
 /* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
 ALI3_PER_WIDTH void ali3_tyre_semidefinite(real C[3]);
 
-/* Depth of a tyre in its road, m, if it were higher by `raised`; *part: cosine at the deepest contact. Its first number
+/* Depth of a tyre in its road, m, if it were higher by `raised`; *share: cosine at the deepest contact. Its first number
  * is the radius, its first integer the road. */
-double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part);
+double ali3_tyre_depth(const ali3_element_args *a, double raised, double *share);
 /* Verdict on a start with the scene raised by `raised`, m: refused with the centre below the road, where the spring of
  * the tyre would throw the scene up. The rise is the depth along the road's normal; at a wall it is repeated. */
 ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised);

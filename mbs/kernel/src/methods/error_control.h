@@ -11,7 +11,7 @@ typedef struct {
 } ali3_measure;
 
 /* Makes a step of h from time t, s, once whole and once in halves, from in->now to in->now; its start is stored in
- * in->stored.origin, its middle in in->stored.centre. *error: of positions, relative to the length of the control.
+ * in->stored.origin, its middle in in->stored.centre. *error: of positions and velocities, as in ali3_distance.
  * After a failed step in->now is unchanged; returns its status. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error);
 /* Makes a step of h from time t, s, that is not halved; after a failure the caller restores the state. */

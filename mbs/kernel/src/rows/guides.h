@@ -11,7 +11,7 @@ enum { /* guide_type of a System file; `GuideType` in Python is read from here *
        ALI3_GUIDE_TYPE_COUNT
 };
 
-/* Whether a guide of this type is an input through a filter. */
+/* Whether a guide of this type is one or two inputs through a filter. */
 bool ali3_guide_filters(int32_t type);
 /* Unlimited demand of the inputs (nu) of filtered guide g: gain times input, or the sum of two. */
 double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input);

@@ -1,4 +1,4 @@
-/* Violation of the rows (Phi, nc), m. A row counts as closed if it is below the tolerance, m, and its round-off. */
+/* Violation of the rows (Phi, nc), m. A row counts as closed if it is at most the tolerance, m, plus its round-off. */
 #ifndef ALI3_VIOLATION_H
 #define ALI3_VIOLATION_H
 #include "../system.h"
