@@ -46,7 +46,7 @@ class Compared:
     place: bool = False
     """Whether it is a position, a length, an angle or a coordinate; otherwise it is a rate or a load."""
     load: bool = False
-    """Whether it is a force or torque, which may be constant: its size is the largest value; of others it is the range."""
+    """Whether it is a force or torque, which may be constant: its size is the largest value, of others the range."""
     always: bool = True
     """False for rates and motor forces, which may jump: compared only if no position moves by itself."""
     wrapped: bool = False
