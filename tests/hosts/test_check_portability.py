@@ -119,14 +119,14 @@ CALLS: list[tuple[str, str, str, str, Change]] = [
         "answers of steps",
         "bad",
         "lastSuccessfulTime is its end",
-        ("sources/fmi3_step.c", "= ali3_time(face->s->fidelity.kernel)", "= time"),
+        ("sources/fmi3_step.c", "= ali3_time(adapter->s->fidelity.kernel)", "= time"),
     ),
     (
         "fmi3",
         "answers of steps",
         "bad",
         "returns early, which was not allowed",
-        ("sources/fmi3_step.c", "*early_return = face->s->returned_early", "*early_return = true"),
+        ("sources/fmi3_step.c", "*early_return = adapter->s->returned_early", "*early_return = true"),
     ),
     (
         "fmi3",
