@@ -301,8 +301,9 @@ def test_levers_drive_and_a_hidden_page_stands(live_car: Path, chromium: Any, tm
         beside = [figures["x"] + figures["width"] <= box["x"] for box in boxes]
         above = [figures["y"] + figures["height"] <= box["y"] for box in boxes]
         assert all(np.logical_or(beside, above)), "figures can be read beside levers"
-    box = opened.page.locator('[data-a3="lever throttle"]').bounding_box()
-    opened.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.25)
+    throttle = opened.page.locator('[data-a3="lever throttle"]')
+    box = throttle.bounding_box()
+    throttle.hover(position={"x": box["width"] / 2, "y": box["height"] * 0.25})  # waits until the layout rests
     opened.page.mouse.down()
     opened.until("player.get('used.throttle') > 0.7 && player.get('used.throttle') < 0.8")
     opened.page.mouse.up()
