@@ -254,13 +254,12 @@ class Isolated(Generic[T, R]):
         """
         data = pickle.dumps(task)
         process, is_new = self._started()
-        expired_texts: list[str] = []
+        expired = ""
 
         def end() -> None:
+            nonlocal expired
             has_begun = process.pid is not None
-            expired_texts.append(
-                f"took more than {limit:g} s" if has_begun else f"had not begun after {_START_TIMEOUT:g} s"
-            )
+            expired = f"took more than {limit:g} s" if has_begun else f"had not begun after {_START_TIMEOUT:g} s"
             process.kill()
 
         process.send(data)
@@ -280,11 +279,11 @@ class Isolated(Generic[T, R]):
             raise
         if answer is None:
             end_of_process = self._end(finish)
-            how = expired_texts[0] + end_of_process.call if expired_texts else end_of_process.how
-            return Lost(how, bool(expired_texts), end_of_process.stored)
+            how = expired + end_of_process.call if expired else end_of_process.how
+            return Lost(how, bool(expired), end_of_process.stored)
         kind, content = answer
         result: R | None = finish(content, process.store) if kind == DONE else None
-        if expired_texts:
+        if expired:
             self._end()
         if kind == ERROR:
             error = UserError(content[0])

@@ -30,7 +30,7 @@ class Comparison:
 
     signals: dict[str, ComparedSignal]
     common: Alignment
-    """Common delay and drift of all signals whose own delay could be determined; of all signals if there is none."""
+    """Common delay and drift of the signals whose own delay could be determined; of all signals if there are none."""
 
 
 def compare(

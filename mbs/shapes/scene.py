@@ -26,11 +26,11 @@ from mbs.shapes.joint_points import joint_geometry
 from mbs.system.drawing import Drawing, Places, matrices
 
 TABLED_REASON = "a table moves it, and pictures follow coordinates"
+SLIDING_REASON = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
+Scene = dict[str, Any]
 JOINT_TYPES = ("spherical", "revolute", "universal", "weld")
 """Types of joints that constrain a common point."""
 OFFSET = 0.1  # m, from the point of a joint to further common points
-SLIDING_REASON = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
-Scene = dict[str, Any]
 
 
 def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
