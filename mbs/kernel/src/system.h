@@ -87,6 +87,7 @@ struct ali3_system {
   /* tabled_square: size of the work array of a group */
   int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square;
   bool senses_rows; /* a sensor reads multipliers or violations */
+  bool has_force_tables; /* an element has a force by a table */
   bool has_avx2; /* the processor has AVX2, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;

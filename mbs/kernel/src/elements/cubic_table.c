@@ -77,6 +77,35 @@ double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1) {
   return mean;
 }
 
+static const double NEAR = 1e-6; /* of the way: a nearer point is at its end */
+
+/* Fraction of the way from x0 to x1 of the point that departs most from the cubic through both, if by too much;
+ * otherwise 1. */
+static double departing_point(const ali3_cubic_table *t, double x0, double x1, double share, double least) {
+  const double high = fmax(x0, x1), way = x1 - x0;
+  int32_t k = piece_number(t, fmin(x0, x1));
+  if (k == t->n || !(t->x[k] < high)) return 1.0; /* one piece */
+  double slope0, slope1, most = 0.0, fraction = 1.0;
+  const double y0 = ali3_cubic_value(t, x0, &slope0, NULL), y1 = ali3_cubic_value(t, x1, &slope1, NULL),
+               largest = fmax(least, fmax(fabs(y0), fabs(y1)));
+  for (; k < t->n && t->x[k] < high; k++) {
+    const double u = (t->x[k] - x0) / way, v = 1.0 - u;
+    const double cubic =
+        v * v * (y0 * (1.0 + 2.0 * u) + slope0 * way * u) + u * u * (y1 * (1.0 + 2.0 * v) - slope1 * way * v);
+    const double departure = fabs(t->y[k] - cubic);
+    if (!(u > NEAR && v > NEAR && departure > most && departure > share * fmax(largest, fabs(t->y[k])))) continue;
+    most = departure;
+    fraction = u;
+  }
+  return fraction;
+}
+
+double ali3_cubic_told(const ali3_cubic_table *t, double x0, double x1, double share, double least) {
+  double told = 1.0;
+  for (double part = 0.0; part < 1.0; told *= part) part = departing_point(t, x0, x0 + told * (x1 - x0), share, least);
+  return told;
+}
+
 int ali3_cubic_rises(const ali3_cubic_table *t) {
   for (int32_t i = 1; i < t->n; i++)
     if (!(t->x[i] > t->x[i - 1])) return 0;

@@ -99,6 +99,15 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
 
 static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
 
+/* The table of a damper does not fall: it hides nothing between two rates. */
+static double told_for(const double *real, const int32_t *integer, const double *out, double h, double share,
+                       double largest) {
+  const double stretch = out[0] - real[FREE_LENGTH], factor = real[STIFFNESS_FACTOR];
+  if (integer[SPRING_POINTS] == 0 || factor == 0.0) return h;
+  const ali3_cubic_table table = spring_table(real, integer);
+  return h * ali3_cubic_told(&table, stretch, stretch + h * out[2], share, largest / factor);
+}
+
 /* A damper never supplies energy: its force must not decrease with the rate and is 0 at rest. */
 static const char *check_damper(const ali3_cubic_table *t) {
   double slope;
@@ -122,5 +131,5 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 
 const ali3_element_type ali3_spring_damper_table = {
     ALI3_SPRING_DAMPER_TABLE, .evaluate = evaluate, .discrete = discrete, .conservative = true, .lossy = lossy,
-    .stops = stops,           .first_force = 1,     .n_forces = 1,        .check = check,
+    .stops = stops,           .first_force = 1,     .n_forces = 1,        .check = check,       .told_for = told_for,
 };

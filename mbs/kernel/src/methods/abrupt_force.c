@@ -117,3 +117,16 @@ void ali3_abrupt_force(ali3_instance *in) {
   if ((in->parting.changed < 0.0 ? step_change(in) : in->parting.changed) > ABRUPT * r->largest_force)
     r->abrupt_steps++;
 }
+
+double ali3_tables_told_for(const ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  if (!S->has_force_tables) return h;
+  for (int32_t c = 0; c < S->n_contact; c++) {
+    const int32_t e = S->contact[c].element;
+    const ali3_element_size *at = S->el_size + e;
+    if (S->el_kind[e]->told_for == NULL) continue;
+    h = S->el_kind[e]->told_for(in->parameters.el_real + at->real, S->el_int + at->integer, in->now.out + at->out, h,
+                                ABRUPT, in->report.largest_force);
+  }
+  return h;
+}

@@ -91,10 +91,12 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
   return ALI3_OK;
 }
 
-/* End of the next part of a step of h to time t: the next jump of an input or a guide, otherwise t. `*guide`: time of
- * the jump if it is one of a guide, otherwise infinity. */
+/* End of the next part of a step of h to time t: the next jump of an input or a guide, or the next point that a force
+ * by a table hides within the step, otherwise t. `*guide`: time of the jump if it is one of a guide, otherwise
+ * infinity. */
 static double part_end(const ali3_instance *in, double t, double h, double *guide) {
-  const double inputs = ali3_inputs_until(in, t), near = AT_END * h;
+  const double tables = ali3_tables_told_for(in, h), near = AT_END * h,
+               inputs = ali3_inputs_until(in, tables < h ? fmin(t, in->clock.now + tables) : t);
   const double piece_end =
       in->system->size.ng > 0 ? ali3_guides_break(in, in->clock.now + near, inputs + near) : inputs + near;
   *guide = piece_end < inputs + near ? piece_end : HUGE_VAL;
