@@ -294,7 +294,12 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
   remove_turns(S, w);
   ali3_vectors *v = read ? &in->next : &in->now;
-  if (read) ali3_vectors_copy(in, v, &in->now);
+  if (read) { /* keeps the outputs of elements at the end of the step, which the last stage evaluated */
+    const size_t outputs = S->n_contact > 0 ? (size_t)S->size.nout * sizeof(double) : 0;
+    memcpy(in->element.out, v->out, outputs);
+    ali3_vectors_copy(in, v, &in->now);
+    memcpy(v->out, in->element.out, outputs);
+  }
   ali3_work_stage(in, 1.0, in->watch.sum, v->work);
   ali3_work_store(in, v);
   if (read) {
