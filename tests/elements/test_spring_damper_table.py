@@ -1,13 +1,14 @@
 """Springs and dampers by table, against scipy's monotone cubic and its integral."""
 
 import re
+import warnings
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from mbs import Model, Settings, compile, simulate
+from mbs import AccuracyWarning, Model, Settings, System, Trajectory, compile, simulate
 from mbs.elements import EndStops, SpringDamper, SpringDamperTable
 from tests.elements.harness import Array, Element, vectors
 
@@ -128,6 +129,51 @@ def oscillator(damper: object = 0.0) -> Model:
     m.sense_energy("energy")
     m.sense_position("y", bob, component="y")
     return m
+
+
+SPEED = 1.5  # m/s
+
+
+def slide(rows: object) -> System:
+    """2 kg on a line, on a spring from 1 m behind the start."""
+    m = Model("slide", dimension=2, gravity=(0.0, 0.0))
+    body = m.body("body", mass=2.0, com=(1.0, 0.0), inertia=0.1)
+    m.prismatic("guide", m.ground, body, axis=(1.0, 0.0))
+    m.initial_velocity(body, linear=(SPEED, 0.0), angular=0.0)
+    m.add(SpringDamperTable(rows).record("spring", body.point((1.0, 0.0)) - m.ground.point((0.0, 0.0))))  # type: ignore[arg-type]
+    m.sense_position("x", body, component="x")
+    return compile(m)
+
+
+@pytest.mark.parametrize(
+    "method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum", "radau_5", "runge_kutta_8", "semi_recursive_4"]
+)
+@pytest.mark.parametrize("energy", [0.5, 2.0])
+def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method: str, energy: float) -> None:
+    """8 mm wide, in steps of 15 mm; of so much of the energy of the motion: it is passed, or throws the body back."""
+    peak = energy * SPEED**2 / 0.004
+    system = slide([(0.1, 0.0), (1.2, 0.0), (1.503, 0.0), (1.507, peak), (1.511, 0.0), (2.0, 0.0), (9.0, 0.0)])
+    exit_speed = SPEED * np.sqrt(1.0 - energy) if energy < 1.0 else -SPEED
+
+    def error(run: Trajectory) -> float:
+        return abs(float(run["x"][-1] - run["x"][-2]) / 0.01 / exit_speed - 1.0)
+
+    assert error(simulate(system, 0.6, 0.01, method=method, tolerance=1e-2, progress=False)) < 0.01
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        run = simulate(system, 0.6, 0.01, method=method, progress=False)
+    assert run.report is not None
+    assert run.report.divisions >= 2
+    assert error(run) < 0.1 or any(w.category is AccuracyWarning for w in caught)
+
+
+def test_a_bent_table_that_its_ends_tell_divides_no_step() -> None:
+    """Steps over six of its rows."""
+    x = np.linspace(-0.3, 0.3, 121)
+    run = simulate(slide(np.c_[1.0 + x, 30.0 * (x + 40.0 * x**3)]), 2.0, 0.02, progress=False)
+    assert np.ptp(run["x"]) > 0.4
+    assert run.report is not None
+    assert run.report.divisions == run.report.halvings == 0
 
 
 def test_energy_is_kept_by_the_energy_momentum_method() -> None:
