@@ -164,6 +164,7 @@ def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method: str, ener
         run = simulate(system, 0.6, 0.01, method=method, progress=False)
     assert run.report is not None
     assert run.report.divisions >= 2
+    assert run.report.abrupt_steps >= 2
     assert error(run) < 0.1 or any(w.category is AccuracyWarning for w in caught)
 
 
@@ -173,7 +174,7 @@ def test_a_bent_table_that_its_ends_tell_divides_no_step() -> None:
     run = simulate(slide(np.c_[1.0 + x, 30.0 * (x + 40.0 * x**3)]), 2.0, 0.02, progress=False)
     assert np.ptp(run["x"]) > 0.4
     assert run.report is not None
-    assert run.report.divisions == run.report.halvings == 0
+    assert run.report.divisions == run.report.abrupt_steps == run.report.halvings == 0
 
 
 def test_energy_is_kept_by_the_energy_momentum_method() -> None:

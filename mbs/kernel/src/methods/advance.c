@@ -117,7 +117,10 @@ ali3_status ali3_advance(ali3_instance *in, const ali3_request *request) {
   const double piece_end = part_end(in, t, h, &guide);
   if (piece_end == t && guide == HUGE_VAL) return advance_part(in, &part);
   ali3_back_up(in);
-  if (piece_end < t) in->report.divisions++;
+  if (piece_end < t) {
+    in->report.divisions++;
+    if (ali3_tables_told_for(in, h) < h) in->report.abrupt_steps++;
+  }
   part.t = fmin(piece_end, guide - ROUND_OFF * fabs(guide));
   if (piece_end < t) part.h = piece_end - in->clock.now;
   if (guide < HUGE_VAL) part.reading = ALI3_READ_ALL; /* guide_jump needs all of the state before it */
