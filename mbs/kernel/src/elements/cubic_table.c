@@ -44,10 +44,16 @@ static double value_at(const piece *p, double x) {
   return p->y + d * (p->m + d * (p->c + d * p->e));
 }
 
+/* Slope of a piece at x. */
+static double slope_at(const piece *p, double x) {
+  const double d = x - p->start;
+  return p->m + d * (2.0 * p->c + d * 3.0 * p->e);
+}
+
 double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, double *integral) {
   const piece p = piece_of(t, piece_number(t, x));
   const double d = x - p.start;
-  *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
+  *slope = slope_at(&p, x);
   if (integral != NULL) *integral += p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
   return value_at(&p, x);
 }
@@ -55,7 +61,7 @@ double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, doub
 double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope, double *curvature) {
   const piece p = piece_of(t, piece_number(t, x));
   const double d = x - p.start;
-  *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
+  *slope = slope_at(&p, x);
   *curvature = 2.0 * p.c + d * 6.0 * p.e;
   return value_at(&p, x);
 }
@@ -82,16 +88,18 @@ static const double NEAR = 1e-6; /* of the way: a nearer point is at its end */
 /* Fraction of the way from x0 to x1 of the point that departs most from the cubic through both, if by too much;
  * otherwise 1. */
 static double departing_point(const ali3_cubic_table *t, double x0, double x1, double share, double least) {
-  const double high = fmax(x0, x1), way = x1 - x0;
-  int32_t k = piece_number(t, fmin(x0, x1));
-  if (k == t->n || !(t->x[k] < high)) return 1.0; /* one piece */
-  double slope0, slope1, most = 0.0, fraction = 1.0;
-  const double y0 = ali3_cubic_value(t, x0, &slope0, NULL), y1 = ali3_cubic_value(t, x1, &slope1, NULL),
-               largest = fmax(least, fmax(fabs(y0), fabs(y1)));
-  for (; k < t->n && t->x[k] < high; k++) {
+  const double low = fmin(x0, x1), high = fmax(x0, x1), way = x1 - x0;
+  const int32_t first = piece_number(t, low);
+  int32_t last = first;
+  while (last < t->n && t->x[last] < high) last++;
+  if (last == first) return 1.0;
+  const piece p0 = piece_of(t, way > 0.0 ? first : last), p1 = piece_of(t, way > 0.0 ? last : first);
+  const double y0 = value_at(&p0, x0), y1 = value_at(&p1, x1), largest = fmax(least, fmax(fabs(y0), fabs(y1)));
+  const double rise0 = way * slope_at(&p0, x0), rise1 = way * slope_at(&p1, x1);
+  double most = 0.0, fraction = 1.0;
+  for (int32_t k = first; k < last; k++) {
     const double u = (t->x[k] - x0) / way, v = 1.0 - u;
-    const double cubic =
-        v * v * (y0 * (1.0 + 2.0 * u) + slope0 * way * u) + u * u * (y1 * (1.0 + 2.0 * v) - slope1 * way * v);
+    const double cubic = v * v * (y0 * (1.0 + 2.0 * u) + rise0 * u) + u * u * (y1 * (1.0 + 2.0 * v) - rise1 * v);
     const double departure = fabs(t->y[k] - cubic);
     if (!(u > NEAR && v > NEAR && departure > most && departure > share * fmax(largest, fabs(t->y[k])))) continue;
     most = departure;
