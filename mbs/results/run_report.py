@@ -63,10 +63,10 @@ class Report:
         Largest depth of a rim in a road beyond the limit of its wheel, m, 0: none; its time, s, and position, m.
     divisions : int
         Steps or parts of steps that were halved because a force of a contact or a stop changed abruptly in them, and
-        parts of steps that ended at a jump or peak of an input.
+        parts of steps that ended at a jump or peak of an input or at a row of a force by table.
     abrupt_steps : int
         Steps in which such a force changed by more than a tenth of the largest one; without roads, the force of a
-        spring beyond its stop.
+        spring beyond its stop; steps that ended at a row of a force by table.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float
