@@ -4,7 +4,7 @@ from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried_parts import Spin
 from mbs.model.records import Role
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.port_inputs import new_port
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.tyres import Tyre
 
 INPUT_RANGES = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}

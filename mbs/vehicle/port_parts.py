@@ -20,7 +20,7 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
 from mbs.vehicle.drives import Drive
-from mbs.vehicle.port_inputs import new_port
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")

@@ -18,10 +18,9 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.corner import Corner
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.linkages.pose_grid import PoseGrid, depends_on_second, pose_grid
-from mbs.vehicle.side import Point, Side, sides
+from mbs.vehicle.side import Corner, Point, Side, sides
 
 Array = NDArray[np.float64]
 Brakes = Callable[[CarBuilder, Corner, Spin, float], None]

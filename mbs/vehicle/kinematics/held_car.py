@@ -17,7 +17,7 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
 from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.fidelity import Fidelity
-from mbs.vehicle.linkages.standing_model import StandingModel
+from mbs.vehicle.linkages.standing_model import Linear, StandingModel, rotation_rate
 from mbs.vehicle.side import Point, Side, sides
 
 Array = NDArray[np.float64]
@@ -161,11 +161,11 @@ class HeldCar(StandingModel):
                 return
         raise ModelError("The frame of the held car finds no equilibrium with its springs.")
 
-    def _wheel(self, down: Array, parts: list[tuple[Array, Array]]) -> HeldWheel:
+    def _wheel(self, down: Array, parts: list[Linear]) -> HeldWheel:
         """Small motions of a wheel. `down`: vector from its centre to the contact, m; `parts`: linear centre and
         axes."""
         centre, *axes = parts
-        rotation = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
+        rotation = rotation_rate(axes, self.q, np.eye(len(self.q)))
         contact = centre[0] + np.cross(rotation, down, axisa=0).T
         return HeldWheel(float(np.linalg.norm(down)), centre[0], axes[1][0], rotation, contact)
 

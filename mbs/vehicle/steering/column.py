@@ -15,7 +15,7 @@ from mbs.model.model import Model
 from mbs.model.records import Guide, Input
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.port_inputs import new_port
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.quantities import (
     AssistanceFactor,
     AssistanceTorque,

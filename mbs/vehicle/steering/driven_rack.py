@@ -7,7 +7,7 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
 from mbs.model.records import Guide
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.port_inputs import new_port
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.steering.steering_interface import RACK
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
 

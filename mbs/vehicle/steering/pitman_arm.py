@@ -14,7 +14,6 @@ from mbs.model.model import Model
 from mbs.model.records import Guide
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.quantities import (
     ArmAngle,
     Frequency,
@@ -24,7 +23,7 @@ from mbs.vehicle.quantities import (
     SteeringBox,
 )
 from mbs.vehicle.side import Point as Coordinates
-from mbs.vehicle.side import Side
+from mbs.vehicle.side import Side, TieRodEnd
 from mbs.vehicle.steering.driven_rack import column_friction
 from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.four_bar import FourBar

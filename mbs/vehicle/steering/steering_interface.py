@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mbs.model.coordinate import Coordinate
-from mbs.vehicle.corner import TieRodEnd
+from mbs.vehicle.side import TieRodEnd
 
 RACK = "rack travel"
 """Name of the coordinate of the rack, and of its drive."""

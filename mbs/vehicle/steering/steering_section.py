@@ -6,8 +6,8 @@ from typing import ClassVar
 
 from mbs.model.records import Guide
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.section import Section
+from mbs.vehicle.side import TieRodEnd
 
 COLUMN_STICK = 200.0, 5.0  # N m/rad, N m s/rad of a sticking column: 1 N m turns it by 5 mrad
 

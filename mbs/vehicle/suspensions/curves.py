@@ -12,13 +12,12 @@ from mbs.common.affine import Affine
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.names import Name
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Length, Point
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import Side, sides
-from mbs.vehicle.springs import AxleSprings, Stops, spring_of_length
+from mbs.vehicle.side import Corner, Side, TieRodEnd, sides
+from mbs.vehicle.springs import AxleSprings, Stops, line_of_length
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.suspensions.anti_roll_bar import LINK, RollStiffness
 from mbs.vehicle.suspensions.curve_compliance import Compliance
@@ -229,7 +228,7 @@ class Curves(SuspensionSection):
             travel_length = travel.affine * -1.0 + self.spring_length, self.spring_length
             spring = _tabled_length(b, curves, variables, "spring_length", f"length of spring {w}") or travel_length
             damper = _tabled_length(b, curves, variables, "damper_length", f"length of damper {w}")
-            spring_of_length(b, w, spring, damper, springs)
+            springs.build(b, w, line_of_length(*spring), None if damper is None else line_of_length(*damper))
             lever = _tabled_length(b, curves, variables, "anti_roll_bar_angle", f"{LINK}{w}", "rad")
             if self.bar is not None:
                 levers.append(lever[0] if lever is not None else travel.affine * (1.0 / (self.bar.lever or 1.0)))
