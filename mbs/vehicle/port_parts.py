@@ -114,8 +114,9 @@ def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
     m.sense_element(f"wheel_{w}.My", tyre, "rolling_moment")
 
 
-def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
+def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
     """Add the outputs for co-simulation through ports. `spins`: spins of the wheels by name."""
+    m = b.m
     for channel in b.port_inputs:
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
     reference = b.chassis.frame.point(car.vehicle.reference_point)

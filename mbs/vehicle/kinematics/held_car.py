@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from mbs.common.errors import ModelError
 from mbs.elements.road import PlaneRoad
 from mbs.model.body import Body
-from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT
 from mbs.vehicle.builder import CarBuilder
@@ -18,7 +17,7 @@ from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
 from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.linkages.standing_model import Linear, StandingModel, rotation_rate
-from mbs.vehicle.side import Point, Side, sides
+from mbs.vehicle.side import Point, sides
 
 Array = NDArray[np.float64]
 
@@ -54,13 +53,9 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
         b.chassis = rigid_chassis(m, car.chassis)
     else:
         b.chassis = flexible_chassis(m, car.chassis, car.flexible_frame, fidelity)
-
-    def chassis_end(side: Side, point: Point) -> End:
-        return b.chassis.body, point
-
     carriers: dict[str, tuple[Body, Point]] = {}
     for axle, data in car.linked_axles.items():
-        tie_rod_end = car.steering.build(b, car.rack_direction).tie_rod if axle == "front" else chassis_end
+        tie_rod_end = car.steering.build(b, car.rack_direction).tie_rod if axle == "front" else b.chassis.fixed_end
         corners = data.corners(b, axle, tie_rod_end)
         carriers |= {c.side.wheel: (c.carrier, c.side.point(data.wheel.centre)) for c in corners}
     return m, b, carriers

@@ -143,11 +143,13 @@ class Linkage(StandingModel):
         `start`: initial coordinates, shape (nq,); `travel`: travel of the left and the right wheel, m, shape (2,);
         `rack`: travel of the rack, m. Raises `NotReachedError` if the iteration does not converge.
         """
-        heights = self._drawn_heights + travel - [centre[1][2] for centre in self._centres]
+        offset, heights = [centre[1][2] for centre in self._centres], self._drawn_heights + travel
+
+        def equations(q: Array) -> tuple[Array, Array]:
+            return self._heights @ q + offset - heights, self._heights
+
         what = f"travels of {travel[0]:g} and {travel[1]:g} m"
-        q, rows, rack_derivative = self.converged(
-            start, rack, lambda q: (self._heights @ q - heights, self._heights), what
-        )
+        q, rows, rack_derivative = self.converged(start, rack, equations, what)
         right_sides = np.zeros((len(rows), 3))
         right_sides[-2, 0] = right_sides[-1, 1] = 1.0
         right_sides[:-2, 2] = -rack_derivative
@@ -162,11 +164,11 @@ class Linkage(StandingModel):
         `compression`: compression of the left and the right spring from the drawing, m; `rack`: m. Raises
         `NotReachedError` if the iteration does not converge.
         """
-        lengths = [self.length(spring, self.drawn.q)[0] for spring in self.springs] - np.array(compression)
+        drawn_lengths = [self.length(spring, self.drawn.q)[0] for spring in self.springs]
 
         def equations(q: Array) -> tuple[Array, Array]:
             values, rows = zip(*(self.length(spring, q) for spring in self.springs), strict=True)
-            return np.array(values) - lengths, np.array(rows)
+            return np.array(values) - drawn_lengths + compression, np.array(rows)
 
         what = f"springs compressed by {compression[0]:g} and {compression[1]:g} m"
         return self.converged(start, rack, equations, what)[0]

@@ -12,9 +12,10 @@ from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changed_content import changed_content, value_at
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of_mass, weighed_points
-from mbs.vehicle.checks.places import chassis_points, drawn_points, mass_centres, rigid_parts
+from mbs.vehicle.checks.places import chassis_points, contact_points, drawn_points, mass_centres, rigid_parts
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.kinematics.axle_measures import brake_fraction
 from mbs.vehicle.plausibility.axle_values import CAR, DEG, axle_rates, axle_values
 from mbs.vehicle.tyres.magic_formula import MagicFormula
 
@@ -96,11 +97,9 @@ def _dimension_values(car: CarContent) -> Iterator[Value]:
     yield Value(CAR["length"], body.length / car.wheelbase, {body.key("length"): body.length, **centres})
     yield Value(CAR["width"], body.width / max(tracks), {body.key("width"): body.width, **centres})
     yield from _point_values(car)
-    contact = car.chassis.ground_contact
-    points = [p for p in (contact.points if contact else ()) if not isinstance(p, str)]
-    if contact and points:
-        lowest = min(points, key=lambda p: p[2])
-        yield Value(CAR["clearance"], lowest[2], {contact.key("points"): list(lowest)})
+    if points := contact_points(car):
+        key, lowest = min(points.items(), key=lambda item: item[1][2])
+        yield Value(CAR["clearance"], lowest[2], {key.rsplit(".", 1)[0]: list(lowest)})
 
 
 def _point_values(car: CarContent) -> Iterator[Value]:
@@ -199,7 +198,7 @@ def _driving_values(car: CarContent, rest: Rest) -> Iterator[Value]:
     brakes, weight = car.brakes, _mass(car) * GRAVITY
     front, rear = brakes.balance / car.front.wheel.centre[2], (1.0 - brakes.balance) / car.rear.wheel.centre[2]
     yield Value(CAR["braking"], 2.0 * brakes.torque * (front + rear) / weight, {brakes.key("torque"): brakes.torque})
-    yield Value(CAR["balance"], front / (front + rear), {brakes.key("balance"): brakes.balance})
+    yield Value(CAR["balance"], brake_fraction(car, "front"), {brakes.key("balance"): brakes.balance})
 
 
 Correction: TypeAlias = Callable[..., Sequence[Any]]

@@ -82,6 +82,11 @@ class CurveTable:
         return self.columns.get(name) if values is None and side == "left" else values
 
     @property
+    def drawn(self) -> tuple[int, int]:
+        """Indices of the drawing in both variables."""
+        return int(np.argmin(np.abs(self.travel))), int(np.argmin(np.abs(self.second)))
+
+    @property
     def has_right_wheel(self) -> bool:
         """Whether the right wheel has columns of its own."""
         return any(name.endswith("_right") for name in self.columns)

@@ -133,7 +133,7 @@ class Curves(SuspensionSection):
         lengths = self.of(Side("front", "left", 1.0)).lengths.get("spring_length")
         if lengths is None:
             return float(self.table.travel[0]), float(self.table.travel[-1])
-        i, k = (int(np.argmin(np.abs(axis))) for axis in (self.table.travel, self.table.second))
+        i, k = self.table.drawn
         least, largest = lengths[i, k] - lengths[[0, -1]]
         return float(np.max(least)), float(np.min(largest))
 
@@ -261,7 +261,7 @@ class Curves(SuspensionSection):
 
     def _steer_curve(self, curves: WheelCurves) -> tuple[Array, Array]:
         """Travels of the rack, m, and steer angles of a wheel at the drawn height, rad."""
-        rotations = curves.rotations[int(np.argmin(np.abs(self.table.travel)))]
+        rotations = curves.rotations[self.table.drawn[0]]
         return curves.second, np.arctan2(-rotations[:, 0, 1], rotations[:, 1, 1])
 
 
