@@ -1,5 +1,7 @@
 """Port for forces and moments of another program on the hub of a wheel, instead of its tyre."""
 
+from typing import Any
+
 from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried_parts import Spin
 from mbs.model.records import Role
@@ -20,16 +22,15 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
     slip_stiffness, stiffness, settling, fading = tyre.carcass
     inverse_inertia = tyre.radius**2 / inertia
     figures = (settling, fading, 1.0 / (slip_stiffness * inverse_inertia), stiffness * inverse_inertia)
+    near = f"wheel_{wheel}.earth_vx"
     channels: list[int] = []
     for letter, (unit, largest, quantity) in INPUT_RANGES.items():
         for c in "xyz":
             text = f"{quantity} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
-            name = f"wheel_{wheel}.hub_{letter}{c}"
-            role_and_sensor = () if channels else (Role.HUB, f"wheel_{wheel}.earth_vx")
-            channel = new_port(
-                b, name, -largest, largest, unit, text, *role_and_sensor, figures=() if channels else figures
-            )
-            channels.append(channel.index)
+            # the first input carries the check of all six
+            check: dict[str, Any] = {} if channels else {"role": Role.HUB, "near": near, "figures": figures}
+            port = new_port(b, f"wheel_{wheel}.hub_{letter}{c}", -largest, largest, unit, text, **check)
+            channels.append(port.index)
     b.m.add(HubWrench(channels).record(f"port hub {wheel}", spin.centre, spin.axis, spin.coordinate))
 
     def outputs() -> None:

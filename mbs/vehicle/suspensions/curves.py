@@ -152,7 +152,7 @@ class Curves(SuspensionSection):
                 f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {presence}; give one of them."
             )
         if self.compliance is not None:
-            yield from self.compliance.fits(self.table.second_name)
+            yield from self.compliance.table_faults(self.table.second_name)
 
     def stop_faults(self, stops: Stops) -> Iterator[str]:
         """Yield a sentence for each stop whose end the table does not reach."""
@@ -211,7 +211,7 @@ class Curves(SuspensionSection):
             centre = np.array(side.point(self.hub.centre))
             base, fraction = b.chassis.frame, 1.0
             if self.compliance is not None:
-                base, fraction = self.compliance.base(b, side, self.hub.centre, part)
+                base, fraction = self.compliance.add_base(b, side, self.hub.centre, part)
             carrier = b.m.tabled_body(
                 f"carrier {w}",
                 base=base,
@@ -246,13 +246,13 @@ class Curves(SuspensionSection):
             assert b.rack is not None, "the front axle steers"
             rack = b.rack
             if self.compliance is not None:
-                rack = self.compliance.rack_end(b, side, rack, self._steer_rate(curves))
+                rack = self.compliance.add_rack_end(b, side, rack, self._steer_rate(curves))
             return [travel, rack], curves
         if self.table.second_name == OTHER_TRAVEL:
             return [travel, travels["right" if side.name == "left" else "left"]], curves
         if self.compliance is not None:
-            turn = self.compliance.turn(b, side)
-            return [travel, turn], self.compliance.turned(curves, side)
+            turn = self.compliance.add_turn(b, side)
+            return [travel, turn], self.compliance.turn_curves(curves, side)
         return [travel], curves
 
     def _steer_rate(self, curves: WheelCurves) -> float:

@@ -14,7 +14,7 @@ from mbs.flexible.nastran import read_nastran
 from mbs.flexible.sparse_matrices import Sparse
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.chassis.gauges.matrix_gauges import MatrixGauge
-from mbs.vehicle.chassis.gauges.reading import in_order
+from mbs.vehicle.chassis.gauges.reading import sort_readings
 from mbs.vehicle.names import Name
 from mbs.vehicle.table import car_file_path, read_table
 
@@ -46,7 +46,7 @@ class MatrixFrame(FrameSection):
         """Read the matrices and the gauges, each of which must be on their nodes."""
         model = self.finite_elements(folder)
         readings = [r for name, gauge in self.gauges.items() for r in gauge.readings(name, model, folder)]
-        return Structure(model, in_order(readings), dict(zip(model.names, model.positions, strict=True)))
+        return Structure(model, sort_readings(readings), dict(zip(model.names, model.positions, strict=True)))
 
 
 class CalculixFrame(MatrixFrame):

@@ -19,7 +19,7 @@ from mbs.flexible.recovery import StrainGauge
 from mbs.flexible.section import Section as CrossSection
 from mbs.flexible.section import tube
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
-from mbs.vehicle.chassis.gauges.reading import in_order
+from mbs.vehicle.chassis.gauges.reading import sort_readings
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
 from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import Length, MaterialDensity, PoissonsRatio, Thickness, YieldStrength, YoungsModulus
@@ -83,8 +83,8 @@ class TubesFrame(FrameSection):
         tubular = self.tubular(folder)
         frame, tubes = tubular.frame()
         gauges = tubular.strain_gauges(tubes)
-        readings = [r for gauge in gauges for r in self.gauges[gauge.name].readings(gauge, frame)]
-        return Structure(_assemble(pickle.dumps(frame)), in_order(readings), tubular.joint_places(), tubular.riding())
+        readings = sort_readings(r for gauge in gauges for r in self.gauges[gauge.name].readings(gauge, frame))
+        return Structure(_assemble(pickle.dumps(frame)), readings, tubular.joint_places(), tubular.riding())
 
     def check(self, folder: Path) -> None:
         """Read the tables and the places of the gauges, each of which must be on a tube."""
