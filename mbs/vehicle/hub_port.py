@@ -35,10 +35,8 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
 
     def outputs() -> None:
         """Add the outputs for the other program."""
-        for k, c in enumerate("xyz"):
-            text = f"rate of the spin axis along the earth's {c} axis"
-            name = f"wheel_{wheel}.axis_rate_{c}"
-            b.m.sense_coordinate(name, spin.axis[k], order=1, unit="1/s", description=text)
+        text = "rate of the spin axis along the earth's {} axis"
+        b.sense_components(f"wheel_{wheel}.axis_rate_{{}}", spin.axis, "1/s", text, order=1)
         b.m.sense_element(f"wheel_{wheel}.hub_power", f"port hub {wheel}", "power")
 
     b.port_senses.append(outputs)

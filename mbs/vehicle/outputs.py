@@ -132,12 +132,9 @@ def _add_wheel(b: CarBuilder, spin: Spin, w: str) -> None:
 def _add_wheel_pose(b: CarBuilder, spin: Spin, w: str) -> None:
     """Add outputs of the pose of one wheel and its carrier, and of its contact point."""
     m = b.m
-    for k, c in enumerate("xyz"):
-        text = f"{c} of the centre of the wheel, earth"
-        m.sense_coordinate(f"wheel_{w}.{c}", spin.centre[k], unit="m", description=text)
-    for k, c in enumerate("xyz"):
-        text = f"{c} of the spin axis, earth; the unit vector points to the left"
-        m.sense_coordinate(f"wheel_{w}.axis_{c}", spin.axis[k], unit="1", description=text)
+    b.sense_components(f"wheel_{w}.{{}}", spin.centre, "m", "{} of the centre of the wheel, earth")
+    text = "{} of the spin axis, earth; the unit vector points to the left"
+    b.sense_components(f"wheel_{w}.axis_{{}}", spin.axis, "1", text)
     text = "angle by which the wheel has turned on its carrier since the start, about its axis, so positive forward; "
     m.sense_angle(f"wheel_{w}.angle", spin, description=f"{text}not wrapped")
     for c in "wxyz":

@@ -66,12 +66,10 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
         m.add(BodyForce(channels[:3]).record(f"port force {name}", point, frame))
         torque = BodyTorque(channels[3:], "earth" if axes == "earth" else "body")
         m.add(torque.record(f"port torque {name}", b.chassis.contact_frame[1]))
-        for order, prefix, kind in ((0, "", "place"), (1, "v", "velocity")):
-            for k, c in enumerate("xyz"):
-                text = f"{kind} of the point '{name}' of the chassis along the earth's {c} axis"
-                unit = "m/s" if order else "m"
-                sense = partial(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k])
-                b.port_senses.append(partial(sense, order=order, unit=unit, description=text))
+        for order, prefix, unit, kind in ((0, "", "m", "place"), (1, "v", "m/s", "velocity")):
+            text = f"{kind} of the point '{name}' of the chassis along the earth's {{}} axis"
+            column = f"point_{name}.{prefix}{{}}"
+            b.port_senses.append(partial(b.sense_components, column, point, unit, text, order=order))
 
 
 def wind_port(b: CarBuilder) -> Wind | None:
@@ -120,9 +118,8 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
     for channel in b.port_inputs:
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
     reference = b.chassis.frame.point(car.vehicle.reference_point)
-    for k, c in enumerate("xyz"):
-        text = f"velocity of the reference point along the earth's {c} axis"
-        m.sense_coordinate(f"chassis.earth_v{c}", reference[k], order=1, unit="m/s", description=text)
+    text = "velocity of the reference point along the earth's {} axis"
+    b.sense_components("chassis.earth_v{}", reference, "m/s", text, order=1)
     named = {element.name: element for element in m.elements}
     for w, spin in spins.items():
         if car.ports.torque is None and w[0].lower() == car.drive.wheels[0]:
@@ -136,9 +133,8 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         m.sense_element(f"wheel_{w}.brake_power", f"brake {w}", "power")
         if car.ports.tyre is None:
             tyre_outputs(m, w, named[f"tyre {w}"])
-        for k, c in enumerate("xyz"):
-            text = f"velocity of the centre of the wheel along the earth's {c} axis"
-            m.sense_coordinate(f"wheel_{w}.earth_v{c}", spin.centre[k], order=1, unit="m/s", description=text)
+        text = "velocity of the centre of the wheel along the earth's {} axis"
+        b.sense_components(f"wheel_{w}.earth_v{{}}", spin.centre, "m/s", text, order=1)
         for c in "xy" if car.ports.road is not None else "":
             text = f"{c} of the contact point ports.road_lead steps of communication later, if they are like the last"
             position_name, rate_name = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"
