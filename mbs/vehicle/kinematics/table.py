@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from ali3.columns import in_columns
 from mbs.vehicle.kinematics.axle_compliance import DIRECTIONS, LOADS, Compliance
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
-from mbs.vehicle.kinematics.quantities import BY_NAME, Quantity
+from mbs.vehicle.kinematics.quantities import BY_NAME
 
 TITLED = {
     "right_toe_angle": ("toe_angle", "toe angle, right wheel"),
@@ -53,13 +53,6 @@ _ANGLES = (
 )
 
 
-def quantity_and_title(name: str) -> tuple[Quantity, str]:
-    """Quantity and title of a value of `Kinematics.drawn` by its name."""
-    base, title = TITLED.get(name, (name, ""))
-    quantity = BY_NAME[base]
-    return quantity, title or quantity.title
-
-
 def rows(kinematics: Kinematics) -> list[tuple[str, str, str, str, str]]:
     """Title, value at the front axle, value at the rear axle, unit and meaning; a title alone is a heading."""
     drawn = {axle: kinematics.drawn(axle) for axle in ("front", "rear")}
@@ -70,9 +63,10 @@ def rows(kinematics: Kinematics) -> list[tuple[str, str, str, str, str]]:
             values = [drawn[axle].get(name, math.nan) for axle in drawn]
             if all(math.isnan(v) for v in values):
                 continue
-            quantity, title = quantity_and_title(name)
+            base, title = TITLED.get(name, (name, ""))
+            quantity = BY_NAME[base]
             front, rear = (number_text(v * quantity.factor) for v in values)
-            section_lines.append((title, front, rear, quantity.shown, quantity.meaning))
+            section_lines.append((title or quantity.title, front, rear, quantity.shown, quantity.meaning))
         if section_lines:
             lines += [(heading, "", "", "", ""), *section_lines]
     return lines

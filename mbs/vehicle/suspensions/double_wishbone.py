@@ -122,23 +122,8 @@ class DoubleWishbone(IndependentSuspension):
             m.spherical(f"{part} ball joint {w}", wishbone, upright, point=p[f"{part}_ball_joint"])
         m.distance(f"tie rod {w}", (upright, p["tie_rod_outer"]), tie_rod(side, p["tie_rod_inner"]))
         springs.build(b, w, line_between((lower, p["spring_lower"]), (chassis, p["spring_upper"])))
-        if self.steering_stop is not None:
-            m.spring_damper(
-                f"steering stop {w}",
-                (upright, p["tie_rod_outer"]),
-                (lower, p["lower_pivot_front"]),
-                stiffness=0.0,
-                stops=_end_stop(self.steering_stop),
-            )
+        if (stop := self.steering_stop) is not None:
+            ends = (upright, p["tie_rod_outer"]), (lower, p["lower_pivot_front"])
+            bump = {f"bump_{name}": getattr(stop, name) for name in ("length", "stiffness", "travel", "loss")}
+            m.spring_damper(f"steering stop {w}", *ends, stiffness=0.0, stops=stop.element(EndStops, **bump))
         return Corner(side, upright, {"lower_wishbone": lower, "upper_wishbone": upper, "upright": upright})
-
-
-def _end_stop(stop: SteeringStop) -> EndStops:
-    """Make the end stop of a spring element."""
-    return stop.element(
-        EndStops,
-        bump_length=stop.length,
-        bump_stiffness=stop.stiffness,
-        bump_travel=stop.travel,
-        bump_loss=stop.loss,
-    )
