@@ -9,10 +9,10 @@ from pydantic import Field
 from mbs.model.carried_parts import Spin
 from mbs.vehicle.alignment import Alignment
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.hub_port import hub_port
 from mbs.vehicle.quantities import PartMass, Point, WheelInertia
 from mbs.vehicle.section import Section
+from mbs.vehicle.side import Corner, TieRodEnd
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
 from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar

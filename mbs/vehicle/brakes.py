@@ -5,10 +5,10 @@ import math
 from mbs.elements.brake import Brake
 from mbs.model.carried_parts import Spin
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner
-from mbs.vehicle.port_inputs import brake_port
+from mbs.vehicle.inputs import brake_port
 from mbs.vehicle.quantities import Balance, BrakeSide, BrakeTorque, HandBrakeTorque, StickStiffness
 from mbs.vehicle.section import Section
+from mbs.vehicle.side import Corner
 
 
 class AxleBrakes(Section, of=Brake):

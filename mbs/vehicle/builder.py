@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from mbs.common.affine import AffineVector
 from mbs.elements.record import ElementRecord
 from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
@@ -116,6 +117,15 @@ class CarBuilder:
             quantity = section.quantity(name) if name in type(section).model_fields else None
             if quantity is not None and quantity.change is not None:
                 self.tie(section, name, element, name, value=value)
+
+    def sense_components(self, name: str, vector: AffineVector, unit: str, text: str, *, order: int = 0) -> None:
+        """Add outputs of the components of a point or vector along the axes of the earth.
+
+        `name`, `text`: name and description, with {} for the axis; `order`: of the derivative with respect to time.
+        """
+        for k, c in enumerate("xyz"):
+            component = vector[k]
+            self.m.sense_coordinate(name.format(c), component, order=order, unit=unit, description=text.format(c))
 
     def parameters(self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]]) -> None:
         """Add the tied numbers to the model as parameters.

@@ -16,7 +16,6 @@ from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.elements.road import Road, RoadOfFile
 from mbs.model.carried_parts import Spin
-from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -28,22 +27,18 @@ from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import Rest, find_equilibrium, rest_outputs
 from mbs.vehicle.checks.working_ranges import working_ranges
-from mbs.vehicle.corner import TieRodEnd
-from mbs.vehicle.driver_inputs import driver_inputs
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
+from mbs.vehicle.inputs import driver_inputs
 from mbs.vehicle.names import NAME_WORDS, PATTERN_WORDS
 from mbs.vehicle.outputs import car_outputs
 from mbs.vehicle.plausibility.car_plausibility import car_plausibility
 from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
-from mbs.vehicle.road import level_within
+from mbs.vehicle.road import level_within, warn_of_steep_face
 from mbs.vehicle.schema_version import check_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
-from mbs.vehicle.side import Point as Coordinates
-from mbs.vehicle.side import Side
-from mbs.vehicle.steep_road import warn_of_steep_face
-from mbs.vehicle.steering.steering_interface import Steered
+from mbs.vehicle.steering.steering_section import Steered
 from mbs.vehicle.tabled_axle import tabled_axle
 
 MAX_FAULTS = 8
@@ -93,7 +88,7 @@ class BuiltCar(Summarised, CarContent):
         car = self
         if self.ports.tyre is not None:
             car = checked_car(type(self), _without_tyre_port(self._data), self.folder, self.name, at_rest=False)
-        return find_equilibrium(car.build(car.empty(), rest_outputs).m, car)
+        return find_equilibrium(car.build(car.empty(), outputs=rest_outputs).m, car)
 
     @property
     def has_frame(self) -> bool:
@@ -103,15 +98,16 @@ class BuiltCar(Summarised, CarContent):
     def build(
         self,
         m: Model,
-        outputs: Outputs,
         road: Road | RoadOfFile | None = None,
         fidelity: Fidelity = Fidelity.RIGID,
         drive: Callable[[Affine], object] | None = None,
+        *,
+        outputs: Outputs | None = None,
     ) -> CarBuilder:
         """Add the car to a model from `empty`; `road`, `fidelity`: as in `Car.model`.
 
-        `outputs`: adds the outputs of the car; `drive`: prescribes the x coordinate of the chassis' reference point, m;
-        the selector is then in neutral.
+        `drive`: prescribes the x coordinate of the chassis' reference point, m; the selector is then in neutral;
+        `outputs`: adds the outputs of the car, by default all those of its FMU.
         """
         if not fidelity.rigid and not self.steering.on_flexible_chassis:
             raise ModelError(
@@ -121,23 +117,40 @@ class BuiltCar(Summarised, CarContent):
         if not fidelity.rigid and self.misfit:
             raise ModelError(f"The car '{self.name}' has fidelity 0 only: its frame does not fit it. {self.misfit}")
         flexible = None if fidelity.rigid else self.flexible_frame
+        outputs = outputs or partial(car_outputs, self, self.flexible_frame if self.has_frame else None)
         b = self._builder(m, road)
         if road is not None:
             warn_of_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         with m.together():
-            self._build(b, outputs, road, flexible, fidelity, drive)
+            if flexible is None:
+                b.chassis = rigid_chassis(m, self.chassis)
+            else:
+                b.chassis = flexible_chassis(m, self.chassis, flexible, fidelity)
+            write_inertia(b, self.chassis)
+            for name, payload in self.payload.items():
+                payload.build(b, name)
+            (steered, front), (_, rear) = self.tabled(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
+            spins = front | rear
+            if self.ports.torque is None:
+                self.drive.build(b, spins, neutral=drive is not None)
+            else:
+                torque_ports(b, spins, self.drive, self.ports.torque)
+            if self.ports.forces is not None:
+                force_ports(b, self, self.ports.forces)
+            self.aerodynamics.build(b, self.vehicle.reference_point, self.axles, wind_port(b))
+            if self.chassis.ground_contact is not None:
+                mass = self.vehicle.mass
+                ground_contact(b, self.chassis.ground_contact, mass, lambda: self.flexible_frame.structure.joints)
+            outputs(b, steered, spins)
+            works = working_ranges(self)
+            b.parameters(self.order, works)
+            if self.ports.road is None:
+                frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in self.axles.items())
+                self.road.parameters(m, road, b.road, ", ".join(frictions), works)
+            if drive is not None:
+                drive(b.chassis.frame.point(b.chassis.origin)[0])
+            m.put_off(partial(car_shapes, b, self, spins, links=fidelity is not Fidelity.TABLE))
         return b
-
-    def reported(
-        self,
-        m: Model,
-        road: Road | RoadOfFile | None = None,
-        fidelity: Fidelity = Fidelity.RIGID,
-        drive: Callable[[Affine], object] | None = None,
-    ) -> CarBuilder:
-        """`build` with all outputs of an FMU of the car."""
-        frame = self.flexible_frame if self.has_frame else None
-        return self.build(m, partial(car_outputs, m, self, frame, fidelity), road, fidelity, drive)
 
     @property
     def offered(self) -> tuple[Fidelity, ...]:
@@ -150,50 +163,6 @@ class BuiltCar(Summarised, CarContent):
         if frame is None or not (self.has_frame and self.steering.on_flexible_chassis):
             return OFFERED[:1]
         return tuple(f for f in OFFERED if f is not Fidelity.LOAD_PATHS or frame.loads is not None)
-
-    def _build(
-        self,
-        b: CarBuilder,
-        outputs: Outputs,
-        road: Road | RoadOfFile | None,
-        flexible: FlexibleFrame | None,
-        fidelity: Fidelity,
-        drive: Callable[[Affine], object] | None,
-    ) -> None:
-        """Add all parts of the car to an empty model."""
-        m = b.m
-        if flexible is None:
-            b.chassis = rigid_chassis(m, self.chassis)
-        else:
-            b.chassis = flexible_chassis(m, self.chassis, flexible, fidelity)
-        write_inertia(b, self.chassis)
-        for name, payload in self.payload.items():
-            payload.build(b, name, fidelity)
-        (steered, front), (_, rear) = self.tabled(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
-        spins = front | rear
-        if self.ports.torque is None:
-            self.drive.build(b, spins, neutral=drive is not None)
-        else:
-            torque_ports(b, spins, self.drive, self.ports.torque)
-        if self.ports.forces is not None:
-            force_ports(b, self, self.ports.forces)
-        self.aerodynamics.build(b, self.vehicle.reference_point, self.axles, wind_port(b))
-        if self.chassis.ground_contact is not None:
-            mass = self.vehicle.mass
-            ground_contact(b, self.chassis.ground_contact, mass, lambda: self.flexible_frame.structure.joints)
-        outputs(b, steered, spins)
-        works = working_ranges(self)
-        b.parameters(self.order, works)
-        if self.ports.road is None:
-            frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in self.axles.items())
-            self.road.parameters(m, road, b.road, ", ".join(frictions), works)
-        if drive is not None:
-            drive(b.chassis.frame.point(b.chassis.origin)[0])
-        m.put_off(partial(self._draw, b, spins, fidelity))
-
-    def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
-        """Add all shapes."""
-        car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
     def plausibility(self, what: str = "") -> list[Plausibility]:
         """Plausibility of the car, then of the tyres of each axle, then of its flexible frame.
@@ -238,7 +207,7 @@ class BuiltCar(Summarised, CarContent):
         if not self.front.suspension.linked and steered.travel is not None:
             b.rack = steered.travel()
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
-        yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
+        yield steered, self.rear.build(b, "rear", b.chassis.fixed_end, self.brakes.build)
 
     def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add the steering, and both axles with tables instead of links."""
@@ -255,15 +224,6 @@ class BuiltCar(Summarised, CarContent):
                 yield steered, tabled_axle(b, self, name, b.rack if name == "front" else None, self.brakes.build)
             else:
                 yield steered, axle.build(b, name, steered.tie_rod, self.brakes.build)
-
-    @staticmethod
-    def _fixed_end(b: CarBuilder) -> TieRodEnd:
-        """Inner ends of tie rods on the chassis."""
-
-        def end(side: Side, point: Coordinates) -> End:
-            return b.chassis.body, point
-
-        return end
 
 
 @plausibility_of.register
@@ -300,7 +260,7 @@ def checked_car(
             axle.open(folder)
     except CarFileError as error:
         raise CarFileError(_fault_text(what, [str(error)])) from None
-    faults = car_faults(car)
+    faults = list(car_faults(car))
     if faults:
         raise CarFileError(_fault_text(what, faults))
     if not at_rest:
@@ -325,7 +285,7 @@ def _check_at_rest(car: BuiltCar, what: str) -> Rest:
             raise CarFileError(_fault_text(what, [str(error)])) from error
     try:
         model = car.empty()
-        car.reported(model)
+        car.build(model)
         model.look()
         return find_equilibrium(model, car)
     except ValueError as error:

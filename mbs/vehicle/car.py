@@ -61,7 +61,7 @@ class Car(BuiltCar):
         fidelity = Fidelity.of(fidelity)
         m = self.empty()
         drive = None if guide is None else lambda travel: m.drive("guided way", travel, guide(m))
-        b = self.reported(m, road, fidelity, drive)
+        b = self.build(m, road, fidelity, drive)
         if Fidelity.DYNAMIC in self.offered:
             m.more_poses.append(partial(self._frame_poses, m, b))
         if fidelity is Fidelity.RIGID and Fidelity.QUASI_STATIC in self.offered:

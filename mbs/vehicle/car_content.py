@@ -17,7 +17,7 @@ from mbs.vehicle.drives import Drive
 from mbs.vehicle.names import CarName, Name, Text
 from mbs.vehicle.payload import Payload
 from mbs.vehicle.ports import Ports
-from mbs.vehicle.quantities import Length, Mass, Point
+from mbs.vehicle.quantities import Length, Mass, Point, Quantity
 from mbs.vehicle.road import RoadSection
 from mbs.vehicle.section import Section, sections_of
 from mbs.vehicle.side import Point as Coordinates
@@ -134,15 +134,17 @@ class CarContent(Section):
         if port_of_rack is not None:
             yield from self.steering.port_faults()
 
-    def values(self) -> dict[str, float]:
-        """Parameters of an FMU of the car by key path, SI units."""
-        values: dict[str, float] = {}
+    def parameters(self) -> Iterator[tuple[Quantity, str, float]]:
+        """Yield quantity, key path and value of each parameter of an FMU of the car, SI units."""
         for section in sections_of(self):
             for field in type(section).model_fields:
-                quantity, value = section.quantity(field), getattr(section, field)
-                if quantity is not None and quantity.change is not None and value is not None:
-                    values |= section.numbers(field)
-        return values
+                quantity = section.quantity(field)
+                if quantity is not None and quantity.change is not None and getattr(section, field) is not None:
+                    yield from ((quantity, path, value) for path, value in section.numbers(field).items())
+
+    def values(self) -> dict[str, float]:
+        """Parameters of an FMU of the car by key path, SI units."""
+        return {path: value for _, path, value in self.parameters()}
 
     def order(self, path: str) -> int:
         """Index of the key path of a number in the type of the file."""

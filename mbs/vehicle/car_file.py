@@ -29,4 +29,4 @@ def load(car: str | Path) -> Car:
     CarWarning
         The car has unusual properties, such as an equilibrium that differs from the drawing.
     """
-    return read_car(Car, car)
+    return read_car(car)

@@ -45,6 +45,14 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
     return content
 
 
+def value_at(data: Mapping[str, Any], path: str) -> Any:
+    """Value at a key path of the content of a car file. Raises `KeyError` if there is none."""
+    value: Any = data
+    for key in path.split("."):
+        value = value[int(key)] if isinstance(value, list) else value[key]
+    return value
+
+
 def _index(table: list[Any], key: str, tables: list[str], what: str) -> int:
     """Index of an element of a list by its number or by the name of a parameter."""
     key = INDICES.get(key, key)

@@ -5,14 +5,19 @@ drawn. With --cheapest: measures error and cost of each fidelity and step, and n
 """
 
 import argparse
+import sys
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.columns import in_columns
 from ali3.command_run import run_command
 from ali3.errors import UserError
+from ali3.extras import command_needs
+from ali3.files import atomic_file, write_json
 from ali3.options import Parser, add_option, name_and_text, options_given
 from ali3.units import quantity
+from mbs.common.errors import ModelError
 
 _KINEMATICS_OPTIONS = ("travel", "fidelity", "points", "out")
 
@@ -50,7 +55,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
     if not options.list and options.car is None:
         parser.error("a CAR is needed, or --list")
     if options.kinematics and not options.list:
-        return _kinematics(options, parser)
+        command_needs("hosts")
+        return run_command(lambda: _kinematics(options, parser), (ModelError,))
     if options.cheapest is not None and not options.list:
         return run_command(lambda: _cheapest(options, parser), (ValueError, RuntimeError))
     return run_command(lambda: _run(options, parser), (ValueError,))
@@ -74,69 +80,52 @@ def _check_unused(options: Sequence[str], requirement: str) -> None:
 
 def _kinematics(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     """Draw the kinematics of a car; returns the exit code."""
-    from ali3.extras import command_needs
-    from mbs.common.errors import ModelError
+    from mbs.vehicle.kinematics.report import report
 
-    command_needs("hosts")
-
-    def run() -> int:
-        from mbs.vehicle.kinematics.report import report
-
-        if options.folder is not None:
-            raise UserError("A car is copied to a FOLDER, or its curves are drawn by --kinematics; give one of them.")
-        _check_unused(options_given(parser, options, ("cheapest",)), "a call without --kinematics")
-        return report(options)
-
-    return run_command(run, (ModelError,))
+    if options.folder is not None:
+        raise UserError("A car is copied to a FOLDER, or its curves are drawn by --kinematics; give one of them.")
+    _check_unused(options_given(parser, options, ("cheapest",)), "a call without --kinematics")
+    return report(options)
 
 
 def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     """List, copy or check cars; returns the exit code."""
-    from mbs.vehicle.built_car import BuiltCar
+    from mbs.vehicle.copy_car import copy_car
     from mbs.vehicle.read_car import car_names, read_car
 
     _check_unused(options_given(parser, options, _KINEMATICS_OPTIONS), "--kinematics")
-    if options.list or options.folder is not None:
-        _check_unused(options_given(parser, options, ("json", "picture")), "a CAR alone, --kinematics or --cheapest")
+    if not options.list and options.folder is None:
+        return _check(options)
+    _check_unused(options_given(parser, options, ("json", "picture")), "a CAR alone, --kinematics or --cheapest")
     if options.list:
-        print("\n".join(in_columns([(name, read_car(BuiltCar, name).description) for name in car_names()])))
+        print("\n".join(in_columns([(name, read_car(name).description) for name in car_names()])))
         return 0
-    if options.folder is not None:
-        from mbs.vehicle.copy_car import copy_car
-
-        for file in copy_car(options.car, options.folder):
-            print(file)
-        return 0
-    return _check(options.car, options.show_parameters, options.json, options.picture)
+    for file in copy_car(options.car, options.folder):
+        print(file)
+    return 0
 
 
-def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | None) -> int:
+def _check(options: argparse.Namespace) -> int:
     """Check a car and print its summary; returns the exit code."""
-    import sys
-    import warnings
-
-    from ali3.files import atomic_file, write_json
     from ali3.plausibility import summary_of, tables_of
-    from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
+    from mbs.vehicle.picture import draw_car
     from mbs.vehicle.read_car import read_car
     from mbs.vehicle.summary import parameter_table, summary
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
-        loaded = read_car(BuiltCar, car)
-    plausibilities = loaded.plausibility()
-    print(f"{summary(loaded)}\n\n{summary_of(plausibilities)}")
-    if json_file is not None:
-        write_json(json_file, tables_of(plausibilities))
-    if picture is not None:
-        from mbs.vehicle.picture import draw_car
-
-        with atomic_file(picture) as target:
-            draw_car(loaded, target)
-        print(f"written: {picture}")
-    if parameters:
-        print("\n" + parameter_table(loaded))
+        car = read_car(options.car)
+    plausibilities = car.plausibility()
+    print(f"{summary(car)}\n\n{summary_of(plausibilities)}")
+    if options.json is not None:
+        write_json(options.json, tables_of(plausibilities))
+    if options.picture is not None:
+        with atomic_file(options.picture) as target:
+            draw_car(car, target)
+        print(f"written: {options.picture}")
+    if options.show_parameters:
+        print("\n" + parameter_table(car))
     for warning in caught:
         print(f"warning: {warning.message}", file=sys.stderr)
     return 0

@@ -1,10 +1,12 @@
 """Port for forces and moments of another program on the hub of a wheel, instead of its tyre."""
 
+from typing import Any
+
 from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried_parts import Spin
 from mbs.model.records import Role
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.port_inputs import new_port
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.tyres import Tyre
 
 INPUT_RANGES = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
@@ -20,24 +22,21 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
     slip_stiffness, stiffness, settling, fading = tyre.carcass
     inverse_inertia = tyre.radius**2 / inertia
     figures = (settling, fading, 1.0 / (slip_stiffness * inverse_inertia), stiffness * inverse_inertia)
+    near = f"wheel_{wheel}.earth_vx"
     channels: list[int] = []
     for letter, (unit, largest, quantity) in INPUT_RANGES.items():
         for c in "xyz":
             text = f"{quantity} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
-            name = f"wheel_{wheel}.hub_{letter}{c}"
-            role_and_sensor = () if channels else (Role.HUB, f"wheel_{wheel}.earth_vx")
-            channel = new_port(
-                b, name, -largest, largest, unit, text, *role_and_sensor, figures=() if channels else figures
-            )
-            channels.append(channel.index)
+            # the first input carries the check of all six
+            check: dict[str, Any] = {} if channels else {"role": Role.HUB, "near": near, "figures": figures}
+            port = new_port(b, f"wheel_{wheel}.hub_{letter}{c}", -largest, largest, unit, text, **check)
+            channels.append(port.index)
     b.m.add(HubWrench(channels).record(f"port hub {wheel}", spin.centre, spin.axis, spin.coordinate))
 
     def outputs() -> None:
         """Add the outputs for the other program."""
-        for k, c in enumerate("xyz"):
-            text = f"rate of the spin axis along the earth's {c} axis"
-            name = f"wheel_{wheel}.axis_rate_{c}"
-            b.m.sense_coordinate(name, spin.axis[k], order=1, unit="1/s", description=text)
+        text = "rate of the spin axis along the earth's {} axis"
+        b.sense_components(f"wheel_{wheel}.axis_rate_{{}}", spin.axis, "1/s", text, order=1)
         b.m.sense_element(f"wheel_{wheel}.hub_power", f"port hub {wheel}", "power")
 
     b.port_senses.append(outputs)

@@ -20,7 +20,7 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
 from mbs.vehicle.drives import Drive
-from mbs.vehicle.port_inputs import new_port
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -66,12 +66,10 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
         m.add(BodyForce(channels[:3]).record(f"port force {name}", point, frame))
         torque = BodyTorque(channels[3:], "earth" if axes == "earth" else "body")
         m.add(torque.record(f"port torque {name}", b.chassis.contact_frame[1]))
-        for order, prefix, kind in ((0, "", "place"), (1, "v", "velocity")):
-            for k, c in enumerate("xyz"):
-                text = f"{kind} of the point '{name}' of the chassis along the earth's {c} axis"
-                unit = "m/s" if order else "m"
-                sense = partial(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k])
-                b.port_senses.append(partial(sense, order=order, unit=unit, description=text))
+        for order, prefix, unit, kind in ((0, "", "m", "place"), (1, "v", "m/s", "velocity")):
+            text = f"{kind} of the point '{name}' of the chassis along the earth's {{}} axis"
+            column = f"point_{name}.{prefix}{{}}"
+            b.port_senses.append(partial(b.sense_components, column, point, unit, text, order=order))
 
 
 def wind_port(b: CarBuilder) -> Wind | None:
@@ -114,14 +112,14 @@ def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
     m.sense_element(f"wheel_{w}.My", tyre, "rolling_moment")
 
 
-def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
+def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
     """Add the outputs for co-simulation through ports. `spins`: spins of the wheels by name."""
+    m = b.m
     for channel in b.port_inputs:
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
     reference = b.chassis.frame.point(car.vehicle.reference_point)
-    for k, c in enumerate("xyz"):
-        text = f"velocity of the reference point along the earth's {c} axis"
-        m.sense_coordinate(f"chassis.earth_v{c}", reference[k], order=1, unit="m/s", description=text)
+    text = "velocity of the reference point along the earth's {} axis"
+    b.sense_components("chassis.earth_v{}", reference, "m/s", text, order=1)
     named = {element.name: element for element in m.elements}
     for w, spin in spins.items():
         if car.ports.torque is None and w[0].lower() == car.drive.wheels[0]:
@@ -135,9 +133,8 @@ def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, S
         m.sense_element(f"wheel_{w}.brake_power", f"brake {w}", "power")
         if car.ports.tyre is None:
             tyre_outputs(m, w, named[f"tyre {w}"])
-        for k, c in enumerate("xyz"):
-            text = f"velocity of the centre of the wheel along the earth's {c} axis"
-            m.sense_coordinate(f"wheel_{w}.earth_v{c}", spin.centre[k], order=1, unit="m/s", description=text)
+        text = "velocity of the centre of the wheel along the earth's {} axis"
+        b.sense_components(f"wheel_{w}.earth_v{{}}", spin.centre, "m/s", text, order=1)
         for c in "xy" if car.ports.road is not None else "":
             text = f"{c} of the contact point ports.road_lead steps of communication later, if they are like the last"
             position_name, rate_name = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"

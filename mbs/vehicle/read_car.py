@@ -7,7 +7,8 @@ from pathlib import Path
 from ali3.near_names import did_you_mean
 from ali3.reading import read_toml
 from mbs.common.checks import shown
-from mbs.vehicle.built_car import C, checked_car
+from mbs.vehicle.built_car import checked_car
+from mbs.vehicle.car import Car
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.linkages.free_travel import notes_without_stops
 
@@ -20,17 +21,16 @@ def car_names() -> list[str]:
     return sorted(file.parent.name for file in CARS.glob(f"*/{FILE}"))
 
 
-def read_car(kind: type[C], car: str | Path) -> C:
-    """Read a car of any class; see `mbs.vehicle.load`."""
+def read_car(car: str | Path) -> Car:
+    """Read a car; see `mbs.vehicle.load`."""
     if isinstance(car, str) and car in car_names():
-        package_car: C = _package_car(kind, car)
-        return package_car
+        return _package_car(car)
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = find_car_file(car)
     if path.suffix.lower() == ".fmu":
         raise CarFileError(f"{path} is an FMU; a car is the name of one, a folder with a file {FILE}, or such a file.")
-    loaded_car = checked_car(kind, read_toml(path, CarFileError), path.parent, str(path), warn=True)
+    loaded_car = checked_car(Car, read_toml(path, CarFileError), path.parent, str(path), warn=True)
     if loaded_car.front.suspension.stop_left_out or None in (loaded_car.front.stops, loaded_car.rear.stops):
         for sentence in notes_without_stops(loaded_car):
             warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=3)
@@ -55,10 +55,8 @@ def find_car_file(car: str | Path) -> Path:
 
 
 @cache
-def _package_car(kind: type[C], name: str) -> C:
+def _package_car(name: str) -> Car:
     """Read a car of the package, cached."""
     path = CARS / name / FILE
-    content = read_toml(path, CarFileError)
     # the equilibrium is checked by a test
-    car: C = checked_car(kind, content, path.parent, str(path), at_rest=False)
-    return car
+    return checked_car(Car, read_toml(path, CarFileError), path.parent, str(path), at_rest=False)

@@ -1,9 +1,11 @@
 """Left and right side of an axle: a file has the left side, y of the right one is mirrored."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from mbs.model.body import Body
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.vehicle.part import Part
 
@@ -38,3 +40,19 @@ class Side:
 def sides(axle: str) -> tuple[Side, Side]:
     """Left and right side of an axle. `axle`: "front" or "rear"."""
     return Side(axle, "left", 1.0), Side(axle, "right", -1.0)
+
+
+TieRodEnd: TypeAlias = Callable[[Side, Point], End]
+"""Returns the owner of the inner end of a tie rod from its side and the end as drawn, m."""
+
+
+@dataclass(frozen=True)
+class Corner:
+    """The side of a suspension at one wheel."""
+
+    side: Side
+    """Axle, and left or right."""
+    carrier: Body
+    """Body that carries the wheel."""
+    parts: Mapping[str, Body]
+    """Bodies by their names in the file, to which anti-roll bars can be joined."""

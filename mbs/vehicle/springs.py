@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 from pydantic import Field
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.elements.record import ElementRecord
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.spring_damper_table import SpringDamperTable
 from mbs.model.body import Body
@@ -34,7 +33,8 @@ from mbs.vehicle.quantities import (
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Point
 
-Rows: TypeAlias = "tuple[tuple[float, float], ...]"
+Line: TypeAlias = "tuple[AffineVector, float]"
+"""Vector between the ends of a spring or damper, and its length as drawn, m."""
 
 
 @dataclass(frozen=True)
@@ -49,65 +49,59 @@ class _PlausibleRange:
     """Units of the first column and of the slopes."""
 
 
-SPRING_TABLE = _PlausibleRange(0.01, (200.0, 2e6), ("m", "N/m"))
-DAMPER_TABLE = _PlausibleRange(0.1, (20.0, 1e5), ("m/s", "N.s/m"))
+class ForceLaw(Section):
+    """A force that is given by a coefficient or by a table."""
 
+    coefficient: ClassVar[str]
+    """Key of the coefficient."""
+    plausible: ClassVar[_PlausibleRange]
+    """Plausible range of the table."""
 
-def law_faults(
-    section: Section, name: str, number: float | None, table: Rows | None, plausible: _PlausibleRange
-) -> Iterator[str]:
-    """Yield a sentence if a force is not given by either a number or a plausible table.
+    @property
+    def given(self) -> dict[str, Any]:
+        """The coefficient or the table, whichever is there, by key path."""
+        values = {name: getattr(self, name) for name in (self.coefficient, "table")}
+        return {self.key(name): value for name, value in values.items() if value is not None}
 
-    Parameters
-    ----------
-    section : Section
-        Spring or damper.
-    name : str
-        Key of the number.
-    number : float or None
-        Stiffness or damping coefficient.
-    table : rows of (float, float) or None
-        Table given instead of the number.
-    plausible : _Plausible
-        Plausible range of the table.
-    """
-    if number is None and table is None:
-        yield f"{section.key(name)} is missing; give it or {section.key('table')}, rows of two numbers."
-    if number is not None and table is not None:
-        yield f"{section.key(name)} is {number:g}, and there is {section.key('table')} too; give one of them."
-    if table is not None and len(table) < 2:
-        yield f"{section.key('table')} has {len(table)} rows; it must have two or more."
-        return
-    if table is not None and table[-1][0] - table[0][0] < plausible.span:
-        yield (
-            f"{section.key('table')} goes from {table[0][0]:g} to {table[-1][0]:g} {plausible.units[0]}; it must span "
-            f"{plausible.span:g} {plausible.units[0]} or more."
-        )
-        return
-    if table is not None and (0.0, 0.0) not in table:
-        yield (
-            f"{section.key('table')} has no row [0, 0]: a spring has no force at its free length, a damper none "
-            "at rest."
-        )
-        return
-    for k, (first, second) in enumerate(pairwise(table or ())):
-        if second[0] <= first[0] or second[1] < first[1]:
-            yield (
-                f"{section.key('table')}.{k + 1} is {list(second)} after {list(first)}; both columns must rise "
-                "from row to row."
-            )
+    def faults(self) -> Iterator[str]:
+        """Yield a sentence if the force is not given by either a coefficient or a plausible table."""
+        name, key, (unit, slope_unit) = self.key(self.coefficient), self.key("table"), self.plausible.units
+        number, table = (getattr(self, field) for field in (self.coefficient, "table"))
+        if table is None:
+            if number is None:
+                yield f"{name} is missing; give it or {key}, rows of two numbers."
             return
-        slope, (low, high) = (second[1] - first[1]) / (second[0] - first[0]), plausible.slopes
-        if not low <= slope <= high:
+        if number is not None:
+            yield f"{name} is {number:g}, and there is {key} too; give one of them."
+        if len(table) < 2:
+            yield f"{key} has {len(table)} rows; it must have two or more."
+        elif table[-1][0] - table[0][0] < self.plausible.span:
             yield (
-                f"{section.key('table')}.{k + 1} is {list(second)} after {list(first)}, a slope of {slope:.3g} "
-                f"{plausible.units[1]}; it must be between {low:g} and {high:g} {plausible.units[1]}."
+                f"{key} goes from {table[0][0]:g} to {table[-1][0]:g} {unit}; it must span "
+                f"{self.plausible.span:g} {unit} or more."
             )
-            return
+        elif (0.0, 0.0) not in table:
+            yield f"{key} has no row [0, 0]: a spring has no force at its free length, a damper none at rest."
+        else:
+            for k, (first, second) in enumerate(pairwise(table), 1):
+                rows, (low, high) = f"{key}.{k} is {list(second)} after {list(first)}", self.plausible.slopes
+                if second[0] <= first[0] or second[1] < first[1]:
+                    yield f"{rows}; both columns must rise from row to row."
+                    return
+                slope = (second[1] - first[1]) / (second[0] - first[0])
+                if not low <= slope <= high:
+                    yield (
+                        f"{rows}, a slope of {slope:.3g} {slope_unit}; it must be between {low:g} and {high:g} "
+                        f"{slope_unit}."
+                    )
+                    return
 
 
-class Spring(Section, of=SpringDamper):
+class Spring(ForceLaw, of=SpringDamper):
     """Spring of one wheel."""
+
+    coefficient: ClassVar[str] = "stiffness"
+    plausible: ClassVar[_PlausibleRange] = _PlausibleRange(0.01, (200.0, 2e6), ("m", "N/m"))
 
     stiffness: Stiffness | None = Field(None, description="Spring rate; or there is a table.")
     table: tuple[tuple[Compression, SpringForce], ...] | None = None
@@ -115,16 +109,6 @@ class Spring(Section, of=SpringDamper):
     free_length: FreeLength = Field(description="Length without force, between the points that the suspension names.")
     factor: Factor = 1.0
     """Factor on the force of the spring."""
-
-    def faults(self) -> Iterator[str]:
-        """Fault of a force that has neither or both of a number and a table."""
-        yield from law_faults(self, "stiffness", self.stiffness, self.table, SPRING_TABLE)
-
-    @property
-    def given(self) -> dict[str, Any]:
-        """Stiffness or damping as a number or a table, by key path."""
-        name = "stiffness" if self.table is None else "table"
-        return {self.key(name): getattr(self, name)}
 
     @property
     def law(self) -> float | list[tuple[float, float]]:
@@ -135,24 +119,17 @@ class Spring(Section, of=SpringDamper):
         return [(-x, -force) for x, force in reversed(self.table)]
 
 
-class Damper(Section, of=SpringDamper):
+class Damper(ForceLaw, of=SpringDamper):
     """Damper of one wheel, along the spring if the suspension has no points of its own for it."""
+
+    coefficient: ClassVar[str] = "damping"
+    plausible: ClassVar[_PlausibleRange] = _PlausibleRange(0.1, (20.0, 1e5), ("m/s", "N.s/m"))
 
     damping: Damping | None = Field(None, description="Damping coefficient; or there is a table.")
     table: tuple[tuple[DamperSpeed, DamperForce], ...] | None = None
     """Rows of speed and force, both positive in rebound and rising, through (0, 0), a monotone cubic between them."""
     factor: Factor = 1.0
     """Factor on the force of the damper."""
-
-    def faults(self) -> Iterator[str]:
-        """Fault of a force that has neither or both of a number and a table."""
-        yield from law_faults(self, "damping", self.damping, self.table, DAMPER_TABLE)
-
-    @property
-    def given(self) -> dict[str, Any]:
-        """Stiffness or damping as a number or a table, by key path."""
-        name = "damping" if self.table is None else "table"
-        return {self.key(name): getattr(self, name)}
 
     @property
     def law(self) -> float | list[tuple[float, float]]:
@@ -200,65 +177,36 @@ class Stops(Section, of=EndStops):
 
 @dataclass(frozen=True)
 class AxleSprings:
-    """Spring, damper and stops along one line at each wheel of an axle; None if they are elsewhere."""
+    """Springs, dampers and stops of the wheels of an axle."""
 
-    spring: Spring | None
-    damper: Damper | None
+    spring: Spring
+    damper: Damper
     stops: Stops | None
 
-    @property
-    def beside_damper(self) -> tuple[AxleSprings, AxleSprings]:
-        """The spring with its stops alone, and the damper alone."""
-        return replace(self, damper=None), AxleSprings(None, self.damper, None)
+    def build(self, b: CarBuilder, wheel: str, spring: Line, damper: Line | None = None) -> None:
+        """Add the spring of a wheel with its stops, and its damper, by default along the same line."""
+        if damper is None:
+            _add(b, f"spring {wheel}", spring, self.spring, self.damper, self.stops)
+        else:
+            _add(b, f"spring {wheel}", spring, self.spring, None, self.stops)
+            _add(b, f"damper {wheel}", damper, None, self.damper, None)
 
 
-def spring_and_damper(
-    b: CarBuilder, name: str, lower: tuple[Body, Point], upper: tuple[Body, Point], springs: AxleSprings
-) -> ElementRecord:
-    """Add the spring of a wheel with its damper and stops between two ends, with the numbers of the file as parameters.
-
-    `lower`, `upper`: the ends as drawn, m.
-    """
-    difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
-    return _add_along_line(b, name, difference, math.dist(lower[1], upper[1]), springs)
+def line_between(lower: tuple[Body, Point], upper: tuple[Body, Point]) -> Line:
+    """Line of a spring or damper between two ends: bodies, and positions as drawn, m."""
+    return upper[0].point(upper[1]) - lower[0].point(lower[1]), math.dist(lower[1], upper[1])
 
 
-def spring_beside_damper(
-    b: CarBuilder,
-    wheel: str,
-    spring: tuple[tuple[Body, Point], tuple[Body, Point]],
-    damper: tuple[tuple[Body, Point], tuple[Body, Point]],
-    springs: AxleSprings,
+def line_of_length(length: Affine, drawn: float) -> Line:
+    """Line of a spring or damper by its length, and its length as drawn, m, instead of its ends."""
+    return AffineVector((Affine(), Affine(), length)), drawn
+
+
+def _add(
+    b: CarBuilder, name: str, line: Line, spring: Spring | None, damper: Damper | None, stops: Stops | None
 ) -> None:
-    """Add the spring of a wheel with its stops, and its damper at other points.
-
-    `spring`, `damper`: lower and upper end as drawn, m.
-    """
-    for name, ends, alone in zip(("spring", "damper"), (spring, damper), springs.beside_damper, strict=True):
-        spring_and_damper(b, f"{name} {wheel}", *ends, alone)
-
-
-def spring_of_length(
-    b: CarBuilder,
-    wheel: str,
-    spring: tuple[Affine, float],
-    damper: tuple[Affine, float] | None,
-    springs: AxleSprings,
-) -> None:
-    """Add the spring of a wheel with damper and stops by their lengths instead of their ends.
-
-    `spring`, `damper`: length, and length as drawn, m; `damper`: None if it acts along the spring.
-    """
-    pairs = ((spring, springs),) if damper is None else zip((spring, damper), springs.beside_damper, strict=True)
-    for name, ((length, drawn), alone) in zip(("spring", "damper"), pairs, strict=False):
-        _add_along_line(b, f"{name} {wheel}", AffineVector((Affine(), Affine(), length)), drawn, alone)
-
-
-def _add_along_line(
-    b: CarBuilder, name: str, difference: AffineVector, drawn: float, springs: AxleSprings
-) -> ElementRecord:
-    """Add spring, damper and stops along a line between two ends. `drawn`: its length in the drawing, m."""
-    spring, damper, stops = springs.spring, springs.damper, springs.stops
+    """Add spring, damper and stops along a line, with the numbers of the file as parameters."""
+    difference, drawn = line
     stiffness, damping = 0.0 if spring is None else spring.law, 0.0 if damper is None else damper.law
     factors = 1.0 if spring is None else spring.factor, 1.0 if damper is None else damper.factor
     end_stops = None if stops is None else stops.around(drawn)
@@ -269,10 +217,7 @@ def _add_along_line(
     else:
         law = SpringDamperTable(stiffness, damping, length, end_stops, *factors)
     element = b.m.add(law.record(name, difference))
-    if spring is not None:
-        b.tie_numbers(spring, element)
-        b.tie(spring, "factor", element, "stiffness_factor")
-    if damper is not None:
-        b.tie_numbers(damper, element)
-        b.tie(damper, "factor", element, "damping_factor")
-    return element
+    for part, factor in ((spring, "stiffness_factor"), (damper, "damping_factor")):
+        if part is not None:
+            b.tie_numbers(part, element)
+            b.tie(part, "factor", element, factor)

@@ -2,7 +2,6 @@
 
 from ali3.columns import in_columns
 from mbs.vehicle.built_car import BuiltCar
-from mbs.vehicle.section import sections_of
 
 
 def summary(car: BuiltCar) -> str:
@@ -54,13 +53,7 @@ def grip_row(car: BuiltCar, axle: str) -> tuple[str, str]:
 def parameter_table(car: BuiltCar) -> str:
     """Key path, value, unit and range of each number that the FMU has as a parameter."""
     rows = [("parameter", "value", "unit", "least", "most", "may change")]
-    values = car.values()
-    for section in sections_of(car):
-        for field in type(section).model_fields:
-            quantity = section.quantity(field)
-            if quantity is None or quantity.change is None or getattr(section, field) is None:
-                continue
-            when = "while driving" if quantity.change == "tunable" else "before the start"
-            limits = f"{quantity.least:g}", f"{quantity.high:g}"
-            rows += [(path, f"{values[path]:g}", quantity.unit, *limits, when) for path in section.numbers(field)]
+    for quantity, path, value in car.parameters():
+        when = "while driving" if quantity.change == "tunable" else "before the start"
+        rows.append((path, f"{value:g}", quantity.unit, f"{quantity.least:g}", f"{quantity.high:g}", when))
     return "\n".join(in_columns(rows))

@@ -18,10 +18,9 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.corner import Corner
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.linkages.pose_grid import PoseGrid, depends_on_second, pose_grid
-from mbs.vehicle.side import Point, Side, sides
+from mbs.vehicle.side import Corner, sides
 
 Array = NDArray[np.float64]
 Brakes = Callable[[CarBuilder, Corner, Spin, float], None]
@@ -128,9 +127,6 @@ def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | No
         )
     compressions = {s.wheel: b.m.travel(f"spring compression {s.wheel}") for s in sides(axle)}
     parts: Any = TabledParts(b.m, b.chassis.frame, grid, compressions, rack)
-
-    def rod(side: Side, point: Point) -> Any:
-        return None
-
-    spins: dict[str, Spin] = data.build(replace(b, m=parts), axle, rod, brakes)
+    # without joints a tie rod needs no inner end
+    spins: dict[str, Spin] = data.build(replace(b, m=parts), axle, lambda side, point: None, brakes)
     return spins

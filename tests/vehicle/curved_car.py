@@ -9,7 +9,7 @@ from typing import Any
 from mbs import Pose, Simulation, compile
 from mbs.vehicle import Car, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.linkages.curve_grid import write_curve_table
+from mbs.vehicle.kinematics.curve_grid import write_curve_table
 from mbs.vehicle.linkages.linkage import Linkage
 
 CARRIERS = ("upright", "half")

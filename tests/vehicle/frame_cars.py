@@ -12,10 +12,9 @@ import scipy.sparse as sp
 from mbs.vehicle import Car, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
-from mbs.vehicle.chassis.frames.tubes import TubesFrame
+from mbs.vehicle.chassis.frames.tubes import TubesFrame, TubularFrame
+from mbs.vehicle.chassis.gauges.matrix_gauges import AXES
 from mbs.vehicle.chassis.gauges.reading import Reading
-from mbs.vehicle.chassis.gauges.recovery_rows import AXES
-from mbs.vehicle.chassis.tubular_frame import TubularFrame
 from mbs.vehicle.read_car import CARS
 
 PROTOTYPE = load("prototype")

@@ -10,9 +10,8 @@ from mbs.vehicle import load
 from mbs.vehicle.car import Car
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.kinematics import kinematics
-from mbs.vehicle.kinematics.compliance_table import number_text
 from mbs.vehicle.kinematics.held_car import HeldCar
-from mbs.vehicle.kinematics.table import rows
+from mbs.vehicle.kinematics.table import number_text, rows
 
 ANGLES = {
     "front.alignment.toe_left": 0.004,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mbs import Pose, compile
+from mbs import Pose
 from tests.vehicle.hatchback import WHEELS, car, drive, mirrored
 
 STOP = {"brake": ([0.0, 0.4, 1.2], [0.0, 0.3, 0.3]), "throttle": 0.0}
@@ -29,12 +29,6 @@ def test_the_parameter_moves_torque_from_one_side_to_the_other(to_the_left):
 def test_braking_turns_the_car_to_the_stronger_side(to_the_left):
     assert to_the_left["chassis.yaw"][-1] > 1e-3
     mirrored(to_the_left, stop(-0.1), 1e-7)
-
-
-def test_file_and_parameter_have_the_same_effect(to_the_left):
-    system = compile(car().changed({"brakes.side": 0.1}).model())
-    run = drive(1.2, inputs=STOP, pose=Pose(speed=25.0), of=system)
-    assert np.array_equal(run["chassis.yaw"], to_the_left["chassis.yaw"])
 
 
 def test_torques_of_a_port_are_as_they_are_set_and_pressures_are_not():

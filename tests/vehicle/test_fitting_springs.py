@@ -51,7 +51,7 @@ def test_with_the_free_length_that_is_given_the_car_stands_as_drawn(case: str) -
     assert "equilibrium" not in again
     assert result is not None
     model = result.empty()
-    result.reported(model)
+    result.build(model)
     model.look()
     at_rest = StandingSystem(compiled(model)).sensors
     for axle in changes:
@@ -63,7 +63,7 @@ def test_with_the_free_length_that_is_given_the_car_stands_as_drawn(case: str) -
 def test_a_parameter_of_a_standing_system_is_in_its_range() -> None:
     car = load("saloon")
     model = car.empty()
-    car.reported(model)
+    car.build(model)
     model.look()
     with pytest.raises(ValueError, match=r"'front\.spring\.free_length' cannot be 99: "):
         StandingSystem(compiled(model), {"front.spring.free_length": 99.0})

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mbs import Pose, compile, simulate
+from mbs.kernel.header.enumerations import ParameterTarget
 from mbs.vehicle import car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
@@ -94,6 +95,20 @@ def test_every_number_that_may_change_is_tied_to_the_model(name):
         assert (p.value, p.min, p.max, p.unit) == (value, q.least, q.high, q.unit)
         assert p.tunable == (q.change == "tunable"), path
         assert len(p.description) > 3
+
+
+@pytest.mark.parametrize("name", car_names())
+def test_the_elements_of_a_file_have_the_numbers_that_its_parameters_write(name):
+    """In a run a parameter writes its number over that of the file. What is 0 in the file has another value here."""
+    car, left_out = load(name), without_assistance(load(name))
+    zeros = [p for p, v in car.values().items() if v == 0.0 and p not in left_out and not of_the_body(p)]
+    content = changed_content(car._data, {path: other(name, path) for path in zeros}, "x")
+    built = car_from(content, car.folder, "x", at_rest=False).model()
+    for p in built.parameters:
+        for kind, index, number, scale, offset, inverse in p.targets:
+            if kind == ParameterTarget.ELEMENT:
+                expected = (scale / p.value if inverse else scale * p.value) + offset
+                assert built.elements[index].real[number] == pytest.approx(expected, rel=1e-12, abs=1e-12), p.name
 
 
 def rebuilt(name, values):

@@ -177,14 +177,6 @@ def test_the_ratio_of_the_box_as_a_parameter_is_that_of_the_file():
 
 
 @pytest.mark.slow
-def test_friction_is_at_the_steering_wheel():
-    inputs = {"steering_wheel_angle_demand": lambda t: 2.0 * t}
-    smooth, rough = run(TRAPEZOID, inputs), run(CAR.changed({"steering": ARM | {"friction": 0.8}}), inputs)
-    assert rough["steering_wheel_torque"][-1] - smooth["steering_wheel_torque"][-1] == pytest.approx(0.8, rel=1e-6)
-    np.testing.assert_allclose(rough["chassis.y"], smooth["chassis.y"], rtol=0, atol=1e-9)
-
-
-@pytest.mark.slow
 def test_an_arm_that_points_ahead_or_sits_on_the_right_steers_to_the_same_side():
     ahead = {"arm_pivot": [-0.28, 0.40, 0.25], "arm_joint": [-0.125, 0.36, 0.232]}
     right = {key: [x, -y, z] for key, (x, y, z) in ((k, ARM[k]) for k in ("arm_pivot", "arm_joint"))}

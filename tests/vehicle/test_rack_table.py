@@ -1,4 +1,4 @@
-"""A steering whose ratio varies: from the file by drawing, kinematics, run, lanes and torque, and what is refused."""
+"""A steering whose ratio varies: from the file by drawing, kinematics, run and torque, and what is refused."""
 
 import math
 
@@ -7,7 +7,6 @@ import pytest
 from pydantic import ValidationError
 from scipy.interpolate import PchipInterpolator
 
-import mbs
 from mbs import Simulation, compile
 from mbs.vehicle import load
 from mbs.vehicle.errors import CarFileError
@@ -81,16 +80,6 @@ def test_power_of_the_hands_is_power_of_the_rack(tabled):
     np.testing.assert_allclose(hands, rack, rtol=0, atol=1e-9 * np.ptp(hands))
 
 
-@pytest.mark.slow
-def test_friction_is_at_the_steering_wheel():
-    """Turned at a constant rate, the hands need it besides; the car does not notice."""
-    inputs = {"steering_wheel_angle_demand": lambda t: 2.0 * t}
-    smooth, rough = run(TABLED, inputs), run(TABLED.changed({"steering.friction": 0.8}), inputs)
-    more = rough["steering_wheel_torque"] - smooth["steering_wheel_torque"]
-    assert more[-1] == pytest.approx(0.8, rel=1e-6)
-    np.testing.assert_allclose(rough["chassis.y"], smooth["chassis.y"], rtol=0, atol=1e-9)
-
-
 def test_full_lock_is_that_of_the_rack():
     t = run(TABLED, {"steering": 0.9, "steering_wheel_angle_demand": 3.0})
     largest = TABLED.steering.wheel_angle_max
@@ -127,23 +116,6 @@ def test_an_axle_by_tables_has_it_too():
     np.testing.assert_allclose(
         power, -t["steering_rack_force"] * slope * t["steering_wheel_speed"], rtol=0, atol=1e-9 * np.ptp(power)
     )
-
-
-def test_lanes_have_it_too():
-    """Two cars that advance together, steered to both sides, as each does alone."""
-    system = compile(TABLED.model())
-    turns = [{"throttle": 0.3, "steering": ([0.0, 0.4], [0.0, side * 0.7])} for side in (1.0, -0.6)]
-    variants = [mbs.Variant(inputs=inputs) for inputs in turns]
-    together = mbs.simulate_many(system, variants, 0.5, 0.005, lanes=2, progress=False)
-    alone = [Simulation(system).run(0.5, 0.005, inputs=inputs, estimate_error=False) for inputs in turns]
-    assert not together.failures
-    assert sum(together.alone) < 20
-    for a, b in zip(together.trajectories, alone, strict=True):
-        for name in ("steering_rack", "steering_wheel_angle", "steering_wheel_torque"):
-            np.testing.assert_allclose(a[name], b[name], rtol=0, atol=1e-9 * np.ptp(b[name]), err_msg=name)
-        assert np.ptp(a["steering_wheel_angle"]) > 2.0
-        rack = CAR.rack_direction * a["steering_rack"]
-        np.testing.assert_allclose(rack, CURVE(a["steering_wheel_angle"]), rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize(

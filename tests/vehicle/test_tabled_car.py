@@ -13,7 +13,6 @@ from mbs.common.errors import ModelError
 from mbs.model.table_bodies import TabledBody
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.linkages.linkage import Linkage
-from mbs.vehicle.linkages.pose_grid import at_springs
 from tests.vehicle.column_car import column_car
 from tests.viewer.poses import FramePoses
 
@@ -53,7 +52,7 @@ def _off(name: str, axle: str) -> tuple[float, float]:
     for _ in range(25):
         left, right = rng.uniform(-0.06, 0.06, 2)
         rack = rng.uniform(-0.05, 0.05) if axle == "front" else 0.0
-        q = at_springs(linkage, linkage.drawn.q, (left, right), rack)
+        q = linkage.at_springs(linkage.drawn.q, (left, right), rack)
         values = {f"spring compression {axle[0].upper()}L": left, f"spring compression {axle[0].upper()}R": right}
         for part in linkage.model.bodies:
             (tabled,) = (t for t in m.tabled if isinstance(t, TabledBody) and t.name == part.name)

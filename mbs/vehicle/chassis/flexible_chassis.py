@@ -1,10 +1,11 @@
 """Adds a flexible chassis to a car, and outputs of stresses and amplitudes that are the same at every fidelity."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
 from mbs.common.affine import AffineVector
+from mbs.flexible.relief_matrices import InertiaRelief
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
@@ -85,24 +86,17 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
     return combination(np.append(origin, 1.0)), axes, origin
 
 
-def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
+def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
     """Add moments and stresses at the gauges; zero on a rigid chassis, where the output `COMPUTED_OUTPUT` is 0."""
-    note = f"; zero where {COMPUTED_OUTPUT} is 0"
-    for k, reading in enumerate(flexible.structure.readings):
-        name, unit, text = reading.name, reading.unit, reading.description
-        if fidelity.rigid:
-            m.sense_constant(name, 0.0, unit=unit, description=text + note, computed=False)
-        elif isinstance(mount.body, PortedBody):
-            m.sense_quasi_static(
-                name, mount.body, flexible.quasi_static, k, mount.origin, unit=unit, description=text + note
-            )
-        else:
-            body = mount.body
-            assert isinstance(body, FlexibleBody)
-            row = body.reduced.recovery(flexible.gauge_rows[k : k + 1])[0]
-            m.sense_coordinate(name, body.combination(row), unit=unit, description=text + note)
-    text = "1 where moments and stresses are computed; 0: they read zero"
-    computed = not fidelity.rigid
+    readings, rows = flexible.structure.readings, flexible.gauge_rows
+    _frame_outputs(
+        m,
+        mount,
+        [(reading.name, reading.unit, reading.description) for reading in readings],
+        lambda body: [body.reduced.recovery(rows[k : k + 1])[0] for k in range(len(rows))],
+        lambda: flexible.quasi_static,
+    )
+    text, computed = "1 where moments and stresses are computed; 0: they read zero", not mount.rigid
     m.sense_constant(COMPUTED_OUTPUT, float(computed), unit="1", description=text, whole=True, computed=computed)
 
 
@@ -117,17 +111,38 @@ def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
     For a flexible chassis with other modes they are the nearest ones in the energy norm, for a quasi-static chassis
     as of the static deformation, for a rigid chassis 0.
     """
-    drawn, body = flexible.drawn, mount.body
-    rows = flexible.drawn_amplitudes(body.reduced) if isinstance(body, FlexibleBody) else None
-    for k, (name, mode) in enumerate(zip(amplitude_names(flexible), drawn.mode_names, strict=True)):
-        unit = "m" if k < drawn.n_static else "1"
-        text = f"amplitude of mode '{mode}' of the chassis, for pictures; zero where {COMPUTED_OUTPUT} is 0"
+    drawn = flexible.drawn
+    _frame_outputs(
+        m,
+        mount,
+        [
+            (name, "m" if k < drawn.n_static else "1", f"amplitude of mode '{mode}' of the chassis, for pictures")
+            for k, (name, mode) in enumerate(zip(amplitude_names(flexible), drawn.mode_names, strict=True))
+        ],
+        lambda body: flexible.drawn_amplitudes(body.reduced),
+        lambda: flexible.quasi_static_amplitudes,
+    )
+
+
+def _frame_outputs(
+    m: Model,
+    mount: Mount,
+    outputs: Sequence[tuple[str, str, str]],
+    rows: Callable[[FlexibleBody], Sequence[np.ndarray] | np.ndarray],
+    relief: Callable[[], InertiaRelief],
+) -> None:
+    """Add outputs that are linear in the deformation of the frame; zero on a rigid chassis.
+
+    `outputs`: name, unit and description of each; `rows`: their rows by the amplitudes of a flexible chassis; `relief`:
+    their matrices from the loads on a quasi-static one.
+    """
+    body = mount.body
+    amplitude_rows = rows(body) if isinstance(body, FlexibleBody) else ()
+    for k, (name, unit, text) in enumerate(outputs):
+        text = f"{text}; zero where {COMPUTED_OUTPUT} is 0"
         if isinstance(body, FlexibleBody):
-            assert rows is not None
-            m.sense_coordinate(name, body.combination(rows[k]), unit=unit, description=text)
+            m.sense_coordinate(name, body.combination(amplitude_rows[k]), unit=unit, description=text)
         elif isinstance(body, PortedBody):
-            m.sense_quasi_static(
-                name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
-            )
+            m.sense_quasi_static(name, body, relief(), k, mount.origin, unit=unit, description=text)
         else:
             m.sense_constant(name, 0.0, unit=unit, description=text, computed=False)

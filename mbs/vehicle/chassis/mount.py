@@ -8,8 +8,10 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import AffineVector
 from mbs.common.checks import vector
 from mbs.model.body import Body
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.vehicle.chassis.section import Chassis
+from mbs.vehicle.side import Point, Side
 
 
 class LeverCarrier(Body):
@@ -61,10 +63,19 @@ class Mount:
         x, y, z = (float(v) for v in np.subtract(vector(point, 3, "a point of the chassis"), position))
         return origin + axes[0] * x + axes[1] * y + axes[2] * z
 
+    def fixed_end(self, side: Side, point: Point) -> End:
+        """End of a rod on the chassis, as `TieRodEnd` gives it."""
+        return self.body, point
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the chassis is one rigid body without ports."""
+        return self.body is self.frame
+
     @property
     def lever_carrier(self) -> Body:
         """Body on which levers of anti-roll bars turn."""
-        return self.body if self.body is self.frame else LeverCarrier(self.body, self.contact_frame[1])
+        return self.body if self.rigid else LeverCarrier(self.body, self.contact_frame[1])
 
 
 def rigid_chassis(m: Model, data: Chassis) -> Mount:

@@ -11,13 +11,8 @@ from mbs.vehicle.checks.places import place_faults, place_oddities
 from mbs.vehicle.section import sections_of
 
 
-def car_faults(car: CarContent) -> list[str]:
-    """Sentences on the faults of a car; `settled` tests the equilibrium."""
-    return list(_faults(car))
-
-
-def _faults(car: CarContent) -> Iterator[str]:
-    """Yield a sentence for each fault."""
+def car_faults(car: CarContent) -> Iterator[str]:
+    """Yield a sentence for each fault of a car, without its equilibrium."""
     for section in sections_of(car):
         yield from section.faults()
     yield from _dimension_faults(car)

@@ -15,7 +15,7 @@ from mbs.system.compiled_model import CompiledModel
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.steering.steering_interface import Steered
+from mbs.vehicle.steering.steering_section import Steered
 
 MAX_TRAVEL = 0.02  # m, of a wheel from the drawing to rest
 MAX_DEFLECTION_ERROR = 0.005  # m, of a tyre at rest against the drawing

@@ -7,9 +7,9 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.part import Part
 from mbs.vehicle.section import Section, sections_of
+from mbs.vehicle.side import Point
 
 TYRE_HALF_WIDTH = 0.05  # m, of a narrow tyre
-Point = tuple[float, float, float]
 
 
 def place_faults(car: CarContent) -> Iterator[str]:

@@ -8,7 +8,7 @@ from pydantic import Field
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.model.carried_parts import Spin
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.port_inputs import clutch_port, gear_port
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.quantities import (
     AngularSpeed,
     CreepTorque,
@@ -78,12 +78,13 @@ class Automatic(Section, of=AutomaticDrive):
         left, right = (spins[self.wheels[0].upper() + side].coordinate for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
         inputs = b.inputs["throttle"].index, 1, b.inputs["selector"].index
-        request = None
+        request = clutch = None
         if b.ports.gear is not None:
-            request = gear_port(b, len(self.ratios))
-        clutch = None
+            text = "forward gear that is asked for; 0: as the drive shifts by itself"
+            request = new_port(b, "gear_request", 0.0, float(len(self.ratios)), "1", text, whole=True).index
         if b.ports.clutch is not None:
-            clutch = clutch_port(b)
+            text = "clutch pedal: 0 released, 1 pressed, where nothing of the drive's torque is left"
+            clutch = new_port(b, "clutch", 0.0, 1.0, "1", text).index
         element = b.m.add(drive.record("drive", left, right, z, x, *inputs, request, clutch))
         b.tie_numbers(self, element)
         for k, ratio in enumerate(self.ratios):

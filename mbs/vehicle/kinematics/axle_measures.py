@@ -14,7 +14,6 @@ the torque.
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.common.affine import AffineVector
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.kinematics.wheel_loads import SINGLE, wheel_loads
 from mbs.vehicle.kinematics.wheel_motion import WheelMotion, steering_axis, wheel_motion
@@ -51,8 +50,8 @@ def wheel_measures(linkage: Linkage, position: Position) -> dict[str, float]:
                 values[f"kingpin_offset_at_{name}"] = kingpin
         values |= {f"contact_centre_{c}": float(v) for c, v in zip("xyz", w.contact, strict=True)}
         values |= {f"wheel_centre_{c}": float(v) for c, v in zip("xy", w.centre, strict=False)}
-        values["spring_length"] = length(linkage, linkage.springs[k], position)
-        values["damper_length"] = length(linkage, linkage.dampers[k], position)
+        values["spring_length"] = linkage.length(linkage.springs[k], position.q)[0]
+        values["damper_length"] = linkage.length(linkage.dampers[k], position.q)[0]
         measures |= {f"{name}_{side}": value for name, value in values.items()}
     return measures
 
@@ -71,8 +70,8 @@ def travel_measures(linkage: Linkage, position: Position, direction: Array) -> d
         values = {
             "toe_gradient": -w.side * float(w.steer_rate @ scaled),
             "camber_gradient": -w.side * float(w.inclination_rate @ scaled),
-            "spring_ratio": -stretch(linkage, linkage.springs[k], position, scaled),
-            "damper_ratio": -stretch(linkage, linkage.dampers[k], position, scaled),
+            "spring_ratio": -float(linkage.length(linkage.springs[k], position.q)[1] @ position.tangent @ scaled),
+            "damper_ratio": -float(linkage.length(linkage.dampers[k], position.q)[1] @ position.tangent @ scaled),
             "spring_load": float(loads[k]),
         }
         if direction[k]:
@@ -136,22 +135,6 @@ def brake_fraction(car: CarContent, axle: str) -> float:
     front = car.brakes.balance / car.front.wheel.centre[2]
     rear = (1.0 - car.brakes.balance) / car.rear.wheel.centre[2]
     return (front if axle == "front" else rear) / (front + rear)
-
-
-def length(linkage: Linkage, line: AffineVector, position: Position) -> float:
-    """Length of a spring or damper, m."""
-    D, d = linkage.linear(line)
-    return float(np.linalg.norm(D @ position.q + d))
-
-
-def stretch(linkage: Linkage, line: AffineVector, position: Position, direction: Array) -> float:
-    """Rate of the length of a spring or damper along a direction of wheel travel, m per m of travel.
-
-    `direction`: rates of the travels of the left and the right wheel, and of the rack, shape (3,).
-    """
-    D, d = linkage.linear(line)
-    line_vector = D @ position.q + d
-    return float(line_vector @ (D @ (position.tangent @ direction)) / np.linalg.norm(line_vector))
 
 
 def _heave_rates(wheels: list[WheelMotion]) -> tuple[list[Array], list[Array]]:

@@ -1,6 +1,7 @@
 """Kinematic curves of an axle in CSV files, with names and SI units in the headings."""
 
 import csv
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
@@ -27,10 +28,15 @@ def write_curve(curve: Curve, file: str | PathLike[str]) -> None:
     OSError
         It cannot be written.
     """
+    write_columns(file, curve.columns, curve.units)
+
+
+def write_columns(file: str | PathLike[str], columns: Mapping[str, np.ndarray], units: Mapping[str, str]) -> None:
+    """Write columns with their units in the headings, completely or not at all."""
     with atomic_file(file) as target, target.open("w", newline="", encoding="utf-8") as out:
         writer = csv.writer(out, lineterminator="\n")
-        writer.writerow([f"{name} [{unit}]" for name, unit in curve.units.items()])
-        writer.writerows(np.column_stack(list(curve.columns.values())).tolist())
+        writer.writerow([f"{name} [{unit}]" for name, unit in units.items()])
+        writer.writerows(np.column_stack(list(columns.values())).tolist())
 
 
 def read_curve(file: str | PathLike[str]) -> Curve:

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from mbs.common.errors import ModelError
 from mbs.elements.road import PlaneRoad
 from mbs.model.body import Body
-from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT
 from mbs.vehicle.builder import CarBuilder
@@ -17,8 +16,8 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
 from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.fidelity import Fidelity
-from mbs.vehicle.linkages.standing_model import StandingModel
-from mbs.vehicle.side import Point, Side, sides
+from mbs.vehicle.linkages.standing_model import Linear, StandingModel, rotation_rate
+from mbs.vehicle.side import Point, sides
 
 Array = NDArray[np.float64]
 
@@ -54,13 +53,9 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
         b.chassis = rigid_chassis(m, car.chassis)
     else:
         b.chassis = flexible_chassis(m, car.chassis, car.flexible_frame, fidelity)
-
-    def chassis_end(side: Side, point: Point) -> End:
-        return b.chassis.body, point
-
     carriers: dict[str, tuple[Body, Point]] = {}
     for axle, data in car.linked_axles.items():
-        tie_rod_end = car.steering.build(b, car.rack_direction).tie_rod if axle == "front" else chassis_end
+        tie_rod_end = car.steering.build(b, car.rack_direction).tie_rod if axle == "front" else b.chassis.fixed_end
         corners = data.corners(b, axle, tie_rod_end)
         carriers |= {c.side.wheel: (c.carrier, c.side.point(data.wheel.centre)) for c in corners}
     return m, b, carriers
@@ -161,11 +156,11 @@ class HeldCar(StandingModel):
                 return
         raise ModelError("The frame of the held car finds no equilibrium with its springs.")
 
-    def _wheel(self, down: Array, parts: list[tuple[Array, Array]]) -> HeldWheel:
+    def _wheel(self, down: Array, parts: list[Linear]) -> HeldWheel:
         """Small motions of a wheel. `down`: vector from its centre to the contact, m; `parts`: linear centre and
         axes."""
         centre, *axes = parts
-        rotation = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
+        rotation = rotation_rate(axes, self.q, np.eye(len(self.q)))
         contact = centre[0] + np.cross(rotation, down, axisa=0).T
         return HeldWheel(float(np.linalg.norm(down)), centre[0], axes[1][0], rotation, contact)
 

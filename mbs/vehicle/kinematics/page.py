@@ -4,9 +4,8 @@ from ali3.charts import drawing
 from ali3.html_elements import document, element, picture, table
 from mbs.vehicle.kinematics.axle_compliance import Compliance
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
-from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
 from mbs.vehicle.kinematics.plots import steer_figure, travel_figure
-from mbs.vehicle.kinematics.table import rows
+from mbs.vehicle.kinematics.table import compliance_rows, rows
 
 
 def page(kinematics: Kinematics, compliance: Compliance) -> str:

@@ -13,10 +13,9 @@ from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
 from mbs.vehicle.kinematics.axle_compliance import compliance, compliance_fidelity
 from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, checked_travel, kinematics
-from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
 from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
-from mbs.vehicle.kinematics.table import rows, text
-from mbs.vehicle.linkages.curve_grid import write_curve_table
+from mbs.vehicle.kinematics.curve_grid import write_curve_table
+from mbs.vehicle.kinematics.table import compliance_rows, rows, text
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.suspensions.curve_table import RACK
 

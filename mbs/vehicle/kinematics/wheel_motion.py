@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mbs.vehicle.axes import UP
 from mbs.vehicle.linkages.linkage import Linkage, Position
+from mbs.vehicle.linkages.standing_model import rotation_rate
 
 Array = NDArray[np.float64]
 Z = np.array(UP)
@@ -79,12 +80,6 @@ class SteeringAxis:
     """Unit vector, upwards, shape (3,)."""
     point: Array
     """Point of the axis, m, shape (3,)."""
-    pitch: float
-    """Displacement along the axis per angle, m/rad: of a screw; 0 for ball joints."""
-
-    def at_height(self, z: float) -> Array:
-        """Point of the axis at a height, m, shape (3,). `z`: height, m."""
-        return np.asarray(self.point + self.direction * (z - self.point[2]) / self.direction[2])
 
     @property
     def caster(self) -> float:
@@ -101,7 +96,8 @@ class SteeringAxis:
         `wheel`: its steer angle and side determine the directions; `centre`: the point, m, shape (3,). Both distances
         are positive if the axis is ahead of the point and inboard of it.
         """
-        gap, steer = self.at_height(centre[2]) - centre, wheel.steer
+        at_height = self.point + self.direction * (centre[2] - self.point[2]) / self.direction[2]
+        gap, steer = at_height - centre, wheel.steer
         ahead, left = gap @ [np.cos(steer), np.sin(steer), 0.0], gap @ [-np.sin(steer), np.cos(steer), 0.0]
         return float(ahead), float(-wheel.side * left)
 
@@ -110,17 +106,15 @@ def wheel_motion(linkage: Linkage, position: Position, side: int) -> WheelMotion
     """Motion of a wheel at a position. `side`: 0 left, 1 right."""
     C, c = linkage.centre(side)
     axes = linkage.triad(side)
-    turn = 0.5 * np.sum([np.cross(A @ position.q + a, (A @ position.tangent).T).T for A, a in axes], axis=0)
     A, a = axes[1]
-    radius = linkage.loaded_radius(side)
     return WheelMotion(
         (1.0, -1.0)[side],
-        radius,
+        linkage.loaded_radius(side),
         C @ position.q + c,
         A @ position.q + a,
         C @ position.tangent,
         A @ position.tangent,
-        np.asarray(turn),
+        rotation_rate(axes, position.q, position.tangent),
     )
 
 
@@ -133,8 +127,7 @@ def steering_axis(linkage: Linkage, position: Position, side: int) -> SteeringAx
         return None
     rate = linkage.steering_motion(position)
     C, c = linkage.centre(side)
-    turn = 0.5 * np.sum([np.cross(A @ position.q + a, A @ rate) for A, a in linkage.triad(side)], axis=0)
-    speed, size = C @ rate, float(np.linalg.norm(turn))
-    direction = np.asarray(turn) / size * (1.0 if turn[2] >= 0.0 else -1.0)
-    point = C @ position.q + c + np.cross(turn, speed) / size**2
-    return SteeringAxis(direction, np.asarray(point), float(turn @ speed) / size**2)
+    turn = rotation_rate(linkage.triad(side), position.q, rate)
+    size = float(np.linalg.norm(turn))
+    direction = turn / size * (1.0 if turn[2] >= 0.0 else -1.0)
+    return SteeringAxis(direction, np.asarray(C @ position.q + c + np.cross(turn, C @ rate) / size**2))

@@ -10,7 +10,7 @@ rows are allowed. The tangent of the position follows from the same matrix, and 
 d(Phi_q)/dt qd, without finite differences.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +25,7 @@ from mbs.simulation.evaluator import RANK_TOLERANCE
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.mount import Mount
-from mbs.vehicle.linkages.standing_model import StandingModel
+from mbs.vehicle.linkages.standing_model import Linear, StandingModel
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.rack_section import rack_ends
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
@@ -114,19 +114,12 @@ class Linkage(StandingModel):
         self._drawn_heights = self._heights @ start + [centre[1][2] for centre in self._centres]
         self.drawn = self.solve(start, np.zeros(2), 0.0)
 
-    def constraints(self, q: Array, qd: Array, rack: float) -> tuple[Array, Array, Array]:
-        """Constraint equations at a travel of the rack, m, their Jacobian, and their derivative by the travel.
-
-        `q`, `qd`: coordinates and rates, shape (nq,).
-        """
-        return self.evaluator.constraints(q, qd, rack)
-
-    def centre(self, side: int) -> tuple[Array, Array]:
-        """Matrix (3, nq) and constant (3,) of a wheel centre. `side`: 0 left, 1 right."""
+    def centre(self, side: int) -> Linear:
+        """A wheel centre. `side`: 0 left, 1 right."""
         return self._centres[side]
 
-    def triad(self, side: int) -> list[tuple[Array, Array]]:
-        """Matrices and constants of unit vectors of a wheel carrier: forward, along the wheel axis, up in its plane."""
+    def triad(self, side: int) -> list[Linear]:
+        """Unit vectors of a wheel carrier: forward, along the wheel axis, up in its plane."""
         return self._triads[side]
 
     def loaded_radius(self, side: int) -> float:
@@ -134,31 +127,73 @@ class Linkage(StandingModel):
         *_, up = self.data.alignment.axes(self._corners[side].side)
         return float(self.data.wheel.centre[2] / up[2])
 
+    def length(self, line: AffineVector, q: Array) -> tuple[float, Array]:
+        """Length of a spring or damper, m, and its derivatives with respect to the coordinates, shape (nq,).
+
+        `q`: coordinates, shape (nq,).
+        """
+        D, d = self.linear(line)
+        line_vector = D @ q + d
+        length = float(np.linalg.norm(line_vector))
+        return length, line_vector @ D / length
+
     def solve(self, start: Array, travel: Array, rack: float) -> Position:
         """Find a position by Newton's method.
 
         `start`: initial coordinates, shape (nq,); `travel`: travel of the left and the right wheel, m, shape (2,);
         `rack`: travel of the rack, m. Raises `NotReachedError` if the iteration does not converge.
         """
-        q, zero_rates, heights = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
-        offset = np.array([centre[1][2] for centre in self._centres])
+        offset, heights = [centre[1][2] for centre in self._centres], self._drawn_heights + travel
+
+        def equations(q: Array) -> tuple[Array, Array]:
+            return self._heights @ q + offset - heights, self._heights
+
+        what = f"travels of {travel[0]:g} and {travel[1]:g} m"
+        q, rows, rack_derivative = self.converged(start, rack, equations, what)
+        right_sides = np.zeros((len(rows), 3))
+        right_sides[-2, 0] = right_sides[-1, 1] = 1.0
+        right_sides[:-2, 2] = -rack_derivative
+        tangent = np.linalg.lstsq(rows, right_sides, rcond=RANK_TOLERANCE)[0]
+        if np.abs(rows @ tangent - right_sides).max() > 1e-6:  # at a dead point there is no tangent
+            raise NotReachedError(_not_reached(what, rack))
+        return Position(travel, rack, q, np.asarray(tangent, float))
+
+    def at_springs(self, start: Array, compression: tuple[float, float], rack: float) -> Array:
+        """Coordinates (nq,) at compressions of both springs and a travel of the rack, by Newton's method from `start`.
+
+        `compression`: compression of the left and the right spring from the drawing, m; `rack`: m. Raises
+        `NotReachedError` if the iteration does not converge.
+        """
+        drawn_lengths = [self.length(spring, self.drawn.q)[0] for spring in self.springs]
+
+        def equations(q: Array) -> tuple[Array, Array]:
+            values, rows = zip(*(self.length(spring, q) for spring in self.springs), strict=True)
+            return np.array(values) - drawn_lengths + compression, np.array(rows)
+
+        what = f"springs compressed by {compression[0]:g} and {compression[1]:g} m"
+        return self.converged(start, rack, equations, what)[0]
+
+    def converged(
+        self, start: Array, rack: float, equations: Callable[[Array], tuple[Array, Array]], what: str
+    ) -> tuple[Array, Array, Array]:
+        """Coordinates (nq,) that satisfy the joints and further equations, by the Gauss-Newton method.
+
+        `equations`: residuals, shape (m,), and rows, shape (m, nq), of the further equations at coordinates; `what`:
+        what they prescribe, for the message. Also returns the rows of all equations, and the derivatives of those of
+        the joints by the travel of the rack. Raises `NotReachedError` if the iteration does not converge.
+        """
+        q, zero_rates = start, np.zeros(len(start))
         for _ in range(MAX_ITERATIONS):
             phi, jacobian, rack_derivative = self.evaluator.constraints(q, zero_rates, rack)
-            rows = np.vstack([jacobian, self._heights])
-            residuals = np.concatenate([phi, self._heights @ q + offset - heights])
+            further, further_rows = equations(q)
+            rows, residuals = np.vstack([jacobian, further_rows]), np.concatenate([phi, further])
             step = np.linalg.lstsq(rows, residuals, rcond=RANK_TOLERANCE)[0]
             q = q - step
             if not np.abs(step).max() < 0.5:
                 break
             if np.abs(step).max() < CORRECTION_TOLERANCE and np.abs(residuals).max() < RESIDUAL_TOLERANCE:
-                right_sides = np.zeros((len(residuals), 3))
-                right_sides[-2, 0] = right_sides[-1, 1] = 1.0
-                right_sides[: len(phi), 2] = -rack_derivative
-                tangent = np.linalg.lstsq(rows, right_sides, rcond=RANK_TOLERANCE)[0]
-                if np.abs(rows @ tangent - right_sides).max() > 1e-6:
-                    break  # at a dead point there is no tangent
-                return Position(travel, rack, q, tangent)
-        raise NotReachedError(f"no position with travels of {travel[0]:g} and {travel[1]:g} m and a rack at {rack:g} m")
+                return np.asarray(q), rows, rack_derivative
+        raise NotReachedError(_not_reached(what, rack))
 
     def second_derivatives(self, position: Position, directions: Array) -> Array:
         """Second derivatives of the coordinates along directions, shape (nq, n).
@@ -187,13 +222,14 @@ class Linkage(StandingModel):
         """
         zero_rates = np.zeros(len(position.q))
         _, jacobian, rack_derivative = self.evaluator.constraints(position.q, zero_rates, position.rack)
-        rows = [jacobian]
-        for spring in self.springs:
-            D, d = self.linear(spring)
-            line_vector = D @ position.q + d
-            rows.append((line_vector @ D / np.linalg.norm(line_vector))[None])
+        rows = np.vstack([jacobian, *(self.length(spring, position.q)[1] for spring in self.springs)])
         right_side = np.concatenate([-rack_derivative, np.zeros(2)])
-        return np.asarray(np.linalg.lstsq(np.vstack(rows), right_side, rcond=RANK_TOLERANCE)[0])
+        return np.asarray(np.linalg.lstsq(rows, right_side, rcond=RANK_TOLERANCE)[0])
+
+
+def _not_reached(what: str, rack: float) -> str:
+    """Clause on a position that is not reached."""
+    return f"no position with {what} and a rack at {rack:g} m"
 
 
 def _fixed_chassis(m: Model, car: CarContent) -> Mount:

@@ -8,15 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.simulation.evaluator import RANK_TOLERANCE
-from mbs.vehicle.linkages.linkage import (
-    CORRECTION_TOLERANCE,
-    MAX_ITERATIONS,
-    RESIDUAL_TOLERANCE,
-    Array,
-    Linkage,
-    NotReachedError,
-)
+from mbs.vehicle.linkages.linkage import Array, Linkage
 
 SPACING = 0.012, 0.006
 """Largest spacing of points along compression and rack, m: poses are accurate to 2e-7 m and 3e-6 rad."""
@@ -93,7 +85,7 @@ def _follow(
     if first is None:
         first = int(np.argmin([abs(c[0]) + abs(u) for c, u in points]))
     coordinates = np.zeros((len(points), len(start)))
-    coordinates[first] = at_springs(linkage, start, *points[first])
+    coordinates[first] = linkage.at_springs(start, *points[first])
     for direction, end in ((1, len(points)), (-1, -1)):
         for k in range(first + direction, end, direction):
             previous = coordinates[k - direction]
@@ -102,42 +94,14 @@ def _follow(
                 if 0 <= k - 2 * direction < len(points) and k != first + direction
                 else previous
             )
-            coordinates[k] = at_springs(linkage, guess, *points[k])
+            coordinates[k] = linkage.at_springs(guess, *points[k])
     return coordinates
-
-
-def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float], rack: float) -> Array:
-    """Coordinates (nq,) at compressions of both springs and a travel of the rack, by Newton's method from `start`.
-
-    `compression`: compression of the left and the right spring from the drawing, m; `rack`: m. Raises `NotReachedError`
-    if the iteration does not converge.
-    """
-    q, zero_rates = start.copy(), np.zeros(len(start))
-    lines = [linkage.linear(spring) for spring in linkage.springs]
-    drawn_lengths = [float(np.linalg.norm(D @ linkage.drawn.q + d)) for D, d in lines]
-    for _ in range(MAX_ITERATIONS):
-        phi, jacobian, _ = linkage.constraints(q, zero_rates, rack)
-        vectors = [D @ q + d for D, d in lines]
-        lengths = np.array([np.linalg.norm(vector) for vector in vectors])
-        rows = np.vstack(
-            [jacobian, *(vector @ D / size for (D, _), vector, size in zip(lines, vectors, lengths, strict=True))]
-        )
-        residuals = np.concatenate([phi, lengths - drawn_lengths + compression])
-        step = np.linalg.lstsq(rows, residuals, rcond=RANK_TOLERANCE)[0]
-        q = q - step
-        if not np.abs(step).max() < 0.5:
-            break
-        if np.abs(step).max() < CORRECTION_TOLERANCE and np.abs(residuals).max() < RESIDUAL_TOLERANCE:
-            return np.asarray(q)
-    raise NotReachedError(
-        f"no position with springs compressed by {compression[0]:g} and {compression[1]:g} m and a rack at {rack:g} m"
-    )
 
 
 def is_coupled(linkage: Linkage) -> bool:
     """Whether the compression of the right spring moves the left wheel."""
     C, _ = linkage.centre(0)
-    displaced = at_springs(linkage, linkage.drawn.q, (0.0, 0.01), 0.0)
+    displaced = linkage.at_springs(linkage.drawn.q, (0.0, 0.01), 0.0)
     return bool(np.max(np.abs(C @ (displaced - linkage.drawn.q))) > POSE_TOLERANCE)
 
 

@@ -1,5 +1,8 @@
 """Compiled model whose constraints, forces and points are evaluated at positions near its start."""
 
+from collections.abc import Sequence
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +15,8 @@ from mbs.simulation.system_instance import SystemInstance
 from mbs.simulation.unstepped_system import start
 
 Array = NDArray[np.float64]
+Linear: TypeAlias = "tuple[Array, Array]"
+"""Matrix (n, nq) and constant (n,) of a point or vector as a function of the coordinates."""
 
 
 class StandingModel:
@@ -31,8 +36,8 @@ class StandingModel:
         start(system_instance.instance, system.meta)
         self.evaluator = Evaluator(system_instance)
 
-    def linear(self, v: AffineVector) -> tuple[Array, Array]:
-        """Matrix (n, nq) and constant (n,) of a point or vector as a function of the coordinates."""
+    def linear(self, v: AffineVector) -> Linear:
+        """A point or vector as a function of the coordinates."""
         full = np.zeros((len(v), len(self._constant)))
         for row, component in zip(full, v.components, strict=True):
             for k, c in component.terms.items():
@@ -46,3 +51,11 @@ class StandingModel:
     def force(self, q: Array) -> Array:
         """Generalised forces Q (nq,) of all elements at rest. `q`: coordinates, shape (nq,)."""
         return self.evaluator.forces(q)
+
+
+def rotation_rate(triad: Sequence[Linear], q: Array, rates: Array) -> Array:
+    """Angular velocity of a body by its unit vectors, shape (3,), or (3, n) of the columns of `rates`.
+
+    `triad`: unit vectors of the body; `q`: coordinates, shape (nq,); `rates`: of the coordinates, (nq,) or (nq, n).
+    """
+    return np.asarray(0.5 * np.sum([np.cross(A @ q + a, (A @ rates).T).T for A, a in triad], axis=0))

@@ -166,7 +166,7 @@ def damping_at(damper: Damper, speed: float) -> float:
 def _curve_values(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:
     """Values of the table of an axle given by curves."""
     table, key = curves.table, {curves.key("file"): curves.file}
-    i, k = (int(np.argmin(np.abs(axis))) for axis in (table.travel, table.second))
+    i, k = table.drawn
     (wheel,) = centre.values()
     for column in ("wheel_centre_y", "contact_centre_y"):
         values = table.of(column, "left")

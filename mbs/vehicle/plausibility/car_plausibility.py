@@ -1,22 +1,21 @@
 """Plausibility of a car file."""
 
-import copy
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any, TypeAlias
-
-import numpy as np
 
 from ali3.plausibility import Mistake, Plausibility, Value
 from mbs.tyre_files.tyre_plausibility import cornering_stiffness_at, magic_plausibility, tmeasy_plausibility
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.changed_content import changed_content, value_at
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of_mass, weighed_points
-from mbs.vehicle.checks.places import chassis_points, drawn_points, mass_centres, rigid_parts
+from mbs.vehicle.checks.places import chassis_points, contact_points, drawn_points, mass_centres, rigid_parts
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.kinematics.axle_measures import brake_fraction
 from mbs.vehicle.plausibility.axle_values import CAR, DEG, axle_rates, axle_values
 from mbs.vehicle.tyres.magic_formula import MagicFormula
 
@@ -39,8 +38,8 @@ def car_plausibility(what: str, car: CarContent, rest: Rest, data: Data, remake:
     """
     kind = car.vehicle.category or ""
     mistakes = [
-        Mistake(words, frozenset(keys), partial(_altered_values, undo, data, remake))
-        for words, keys, undo in _mistakes(car)
+        Mistake(words, frozenset(keys), partial(_altered_values, paths, correct, data, remake))
+        for words, keys, paths, correct in _mistakes(car)
     ]
     plausibility = Plausibility(what, car_values(car, rest), mistakes, kind, columns=tuple(car.axles))
     return [plausibility, *(tyre_plausibility(what, a, kind) for a in car.axles.values())]
@@ -98,11 +97,9 @@ def _dimension_values(car: CarContent) -> Iterator[Value]:
     yield Value(CAR["length"], body.length / car.wheelbase, {body.key("length"): body.length, **centres})
     yield Value(CAR["width"], body.width / max(tracks), {body.key("width"): body.width, **centres})
     yield from _point_values(car)
-    contact = car.chassis.ground_contact
-    points = [p for p in (contact.points if contact else ()) if not isinstance(p, str)]
-    if contact and points:
-        lowest = min(points, key=lambda p: p[2])
-        yield Value(CAR["clearance"], lowest[2], {contact.key("points"): list(lowest)})
+    if points := contact_points(car):
+        key, lowest = min(points.items(), key=lambda item: item[1][2])
+        yield Value(CAR["clearance"], lowest[2], {key.rsplit(".", 1)[0]: list(lowest)})
 
 
 def _point_values(car: CarContent) -> Iterator[Value]:
@@ -201,47 +198,49 @@ def _driving_values(car: CarContent, rest: Rest) -> Iterator[Value]:
     brakes, weight = car.brakes, _mass(car) * GRAVITY
     front, rear = brakes.balance / car.front.wheel.centre[2], (1.0 - brakes.balance) / car.rear.wheel.centre[2]
     yield Value(CAR["braking"], 2.0 * brakes.torque * (front + rear) / weight, {brakes.key("torque"): brakes.torque})
-    yield Value(CAR["balance"], front / (front + rear), {brakes.key("balance"): brakes.balance})
+    yield Value(CAR["balance"], brake_fraction(car, "front"), {brakes.key("balance"): brakes.balance})
 
 
-Undo: TypeAlias = Callable[[Data], None]
+Correction: TypeAlias = Callable[..., Sequence[Any]]
+"""Function of the values at key paths that returns the values without a mistake."""
 
 
-def _altered_values(undo: Undo, data: Data, remake: Remake) -> list[Value] | None:
-    """Values of the car without a mistake; None if it is not a car."""
-    altered = copy.deepcopy(data)
+def _altered_values(paths: Sequence[str], correct: Correction, data: Data, remake: Remake) -> list[Value] | None:
+    """Values of the car without a mistake at key paths; None if it is not a car."""
     try:
-        undo(altered)
+        values = correct(*(value_at(data, path) for path in paths))
     except (KeyError, TypeError):
         return None  # the keys are missing
-    altered_car = remake(altered)
+    altered_car = remake(changed_content(data, dict(zip(paths, values, strict=True)), "the car"))
     return None if altered_car is None else car_values(*altered_car)
 
 
-def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
-    """Yield words, keys and the correction of the content of the file of common mistakes, the commonest first."""
+def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Sequence[str], Correction]]:
+    """Yield words, keys, changed key paths and correction of common mistakes, the commonest first."""
     for name, axle in car.axles.items():
         centre, alignment = axle.wheel.key("centre"), axle.alignment
-        yield f"half the track less half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 2.0)
-        yield f"the track instead of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
+        y = [f"{name}.wheel.centre.1"]
+        yield f"half the track less half of it in {centre}", {centre}, y, _scale(2.0)
+        yield f"the track instead of half of it in {centre}", {centre}, y, _scale(0.5)
         for angle in ("toe", "camber"):
             keys = [alignment.key(f"{angle}_{side}") for side in ("left", "right")]
             present = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
-            yield f"degrees instead of radians in {' and '.join(present)}", set(keys), _scale(present, 1.0 / DEG)
+            both = " and ".join(present)
+            yield f"degrees instead of radians in {both}", set(keys), present, _scale(1.0 / DEG)
             for key in present if angle == "camber" else ():
-                yield f"the sign of {key}", {key}, _scale(key, -1.0)
-            yield f"the signs of {' and '.join(present)}", set(keys), _scale(present, -1.0)
+                yield f"the sign of {key}", {key}, [key], _scale(-1.0)
+            yield f"the signs of {both}", set(keys), present, _scale(-1.0)
         damper, spring = axle.damper, axle.spring
         if damper.table is not None:
             key = damper.key("table")
-            yield f"bump and rebound exchanged in {key}", {key}, partial(_mirror, key)
+            yield f"bump and rebound exchanged in {key}", {key}, [key], _mirror
         for key, parts in zip((*spring.given, *damper.given), ("springs", "dampers"), strict=True):
             yield from _scales(key, (f"both {parts} of the axle instead of one", 0.5))
             yield from _scales(key, (f"half of one of the {parts}", 2.0), *POUNDS, KILOGRAMS)
         key = axle.wheel.key("spin_inertia")
         yield from _scales(key, ("both wheels instead of one", 0.5), ("half of the wheel", 2.0))
-        other_key = axle.wheel.key("diametral_inertia")
-        yield f"{key} and {other_key} exchanged", {key, other_key}, partial(_exchange, key, other_key)
+        pair = [key, axle.wheel.key("diametral_inertia")]
+        yield f"{' and '.join(pair)} exchanged", set(pair), pair, lambda spin, diametral: (diametral, spin)
     chassis, drive, steering = car.chassis, car.drive, car.steering
     gears, limit = drive.key("ratios" if isinstance(drive, Automatic) else "ratio"), drive.key("limit_speed")
     yield from _scales(gears, (f"ratios without a final drive, of about {FINAL_DRIVE:g},", FINAL_DRIVE))
@@ -253,74 +252,34 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
     inertia, balance = chassis.key("inertia"), car.brakes.key("balance")
     for a, b in ((0, 2), (0, 1)):
         words = f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}"
-        yield words, {inertia}, partial(_swap, inertia, a, b)
+        pair = [f"{inertia}.{a}", f"{inertia}.{b}"]
+        yield words, {inertia}, pair, lambda first, second: (second, first)
     yield from _scales(inertia, ("half of the moments", 2.0), ("pounds and feet instead of kg and m", 0.04214))
-    yield f"the share of the rear wheels in {balance}", {balance}, partial(_complement, balance)
+    words = f"the share of the rear wheels in {balance}"
+    yield words, {balance}, [balance], lambda share: [1.0 - share]
     sides = (("the torque of one wheel instead of a side", 2.0), ("the torque of all wheels instead of a side", 0.5))
     yield from _scales(car.brakes.key("torque"), KILOGRAMS, *sides)
     angle = steering.key("front_wheel_angle_max")
     yield from _scales(angle, ("the angle from lock to lock instead of one side", 0.5))
 
 
-def _scales(key: str, *mistakes: tuple[str, float]) -> Iterator[tuple[str, set[str], Undo]]:
-    """Mistakes in one number, each with its words and the factor that undoes it."""
+def _scales(key: str, *mistakes: tuple[str, float]) -> Iterator[tuple[str, set[str], Sequence[str], Correction]]:
+    """Mistakes in one number, each with its words and the factor that corrects it."""
     for words, factor in mistakes:
-        yield f"{words} in {key}", {key}, _scale(key, factor)
+        yield f"{words} in {key}", {key}, [key], _scale(factor)
 
 
-def _scale(keys: str | list[str], factor: float) -> Undo:
-    """Correction by a factor on numbers at key paths; in tables of rows on the last number of each row."""
+def _scale(factor: float) -> Correction:
+    """Correction by a factor on numbers, lists of numbers, and the last column of tables."""
 
-    def undo(data: Data) -> None:
-        for key in [keys] if isinstance(keys, str) else keys:
-            holder, last = _container(data, key)
-            holder[last] = _scaled(holder[last], factor)
+    def scaled(value: Any) -> Any:
+        if not isinstance(value, list):
+            return value * factor
+        return [[*item[:-1], item[-1] * factor] if isinstance(item, list) else item * factor for item in value]
 
-    return undo
-
-
-def _scaled(value: Any, factor: float) -> Any:
-    """A number times a factor, or all numbers of a list; of a table, its last column."""
-    if isinstance(value, list):
-        if value and isinstance(value[0], list):
-            return [[*row[:-1], row[-1] * factor] for row in value]
-        return [v * factor for v in value]
-    return value * factor
+    return lambda *values: [scaled(value) for value in values]
 
 
-def _container(data: Data, key: str) -> tuple[Any, Any]:
-    """Table or list that contains the value of a key path, and its last key or index."""
-    *path, last = key.split(".")
-    holder: Any = data
-    for name in path:
-        holder = holder[name]
-    if isinstance(holder, Mapping):
-        holder[last]  # raises `KeyError` if the key is missing
-        return holder, last
-    return holder, int(last)
-
-
-def _mirror(key: str, data: Data) -> None:
+def _mirror(table: list[list[float]]) -> Sequence[Any]:
     """Exchange bump and rebound of the table of a damper."""
-    holder, last = _container(data, key)
-    holder[last] = [[-v, -force] for v, force in reversed(holder[last])]
-
-
-def _swap(key: str, a: int, b: int, data: Data) -> None:
-    """Exchange two elements of a list."""
-    holder, last = _container(data, key)
-    values = list(holder[last])
-    values[a], values[b] = values[b], values[a]
-    holder[last] = list(np.array(values, float))
-
-
-def _exchange(key: str, other: str, data: Data) -> None:
-    """Exchange the values of two key paths."""
-    (one, a), (two, b) = _container(data, key), _container(data, other)
-    one[a], two[b] = two[b], one[a]
-
-
-def _complement(key: str, data: Data) -> None:
-    """Replace a fraction by its complement to 1."""
-    holder, last = _container(data, key)
-    holder[last] = 1.0 - holder[last]
+    return [[[-v, -force] for v, force in reversed(table)]]

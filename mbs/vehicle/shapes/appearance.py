@@ -1,7 +1,7 @@
 """Common data for the shapes of a car: bodies by name, tube radius, paints."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -43,7 +43,6 @@ class Looks:
     """Wheels by name."""
     rack: Owner
     """Owner of the inner ends of the tie rods of the steered axle."""
-    steered: tuple[str, ...] = field(default=("front",))
 
     @property
     def m(self) -> Model:
@@ -64,10 +63,6 @@ class Looks:
         """A body by its name in the model."""
         return next(body for body in self.m.bodies if body.name == name)
 
-    def rod_end(self, axle: str) -> Owner:
-        """Owner of the inner end of a tie rod or toe link of an axle."""
-        return self.rack if axle in self.steered else self.chassis
-
     def shape(self, of: Owner, kind: Kind, **fields: Any) -> None:
         """Add a shape; `fields`: as in `Model.shape`."""
         self.m.shape(of, kind, **fields)
@@ -80,7 +75,8 @@ class Looks:
 
     def rod(self, name: str, axle: str, outer: Anchor, inner: Sequence[float]) -> None:
         """Add a tie rod or toe link of an axle, from its outer end on the carrier; `name`: name of its joint."""
-        self.tube(outer, (self.rod_end(axle), inner), radius=0.009, name=name, **CAST_STEEL)
+        owner = self.rack if axle == "front" else self.chassis
+        self.tube(outer, (owner, inner), radius=0.009, name=name, **CAST_STEEL)
 
     def ball(self, of: Anchor, radius: float, **looks: Any) -> None:
         """Add the sphere of a joint; `radius`: radius on a small car, m."""

@@ -1,11 +1,26 @@
-"""Shapes of axles: suspensions by kind, anti-roll bars and wheels."""
+"""Shapes of axles: suspensions by kind, wheel carriers, springs and dampers, anti-roll bars and wheels."""
 
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from mbs.model.body import Body
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.axle import Axle
-from mbs.vehicle.shapes.appearance import BARE_STEEL, CAST_STEEL, Looks, between, fraction_along
-from mbs.vehicle.shapes.knuckle import draw_knuckle
-from mbs.vehicle.shapes.springs import draw_coil, draw_damper, draw_spring_and_damper
-from mbs.vehicle.side import sides
+from mbs.vehicle.shapes.appearance import (
+    BARE_STEEL,
+    CAST_STEEL,
+    CHROME,
+    SPRING_PAINT,
+    Anchor,
+    Looks,
+    between,
+    fraction_along,
+    inboard,
+)
+from mbs.vehicle.side import Side, sides
+from mbs.vehicle.suspensions.strut import StrutSuspension
 from mbs.vehicle.tyres import Tyre
 
 MODEL_NAMES = {"half": "half axle"}  # parts of a suspension whose bodies have another name in the model
@@ -14,34 +29,33 @@ RIM_CLEARANCE = 0.010  # m between rim and road when the tyre bottoms
 MIN_RIM_RATIO, MAX_WIDTH_RATIO = 0.5, 1.2
 # width, m, at a nominal load, N, and its exponent: a tyre of 145 mm, of 185 mm at twice the load
 REFERENCE_WIDTH, REFERENCE_LOAD, WIDTH_EXPONENT = 0.145, 1500.0, 0.35
+HUB_SIZE = 0.055, 0.030  # m: length and radius of the hub of a small car
+BEARING_LENGTH = 0.02  # m: length of the hub that is drawn beside the wheel centre
+ARM_RADIUS, STEERING_ARM_RADIUS = 0.020, 0.013  # m
+COIL_RADIUS, WIRE_DIAMETER, DAMPER_RADIUS = 0.046, 0.011, 0.020  # m, of a small car
+COIL_PITCH = 0.038  # m from coil to coil
+MAX_SPRING_LENGTH = 0.42  # m: a longer distance is drawn with a spring seat on the tube of the damper
 
 
-def lower_arm_strut_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw both sides of a suspension whose strut stands on the ball joint and which a toe link steers."""
-    _strut_shapes(looks, name, axle, "lower_ball_joint", "toe_link")
-
-
-def macpherson_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw both sides of a MacPherson suspension."""
-    _strut_shapes(looks, name, axle, "strut_lower", "tie_rod")
-
-
-def _strut_shapes(looks: Looks, name: str, axle: Axle, foot: str, rod: str) -> None:
-    """Draw both sides. `foot`: name of the lower point of the strut; `rod`: name of the rod that steers the upright."""
+def strut_shapes(looks: Looks, name: str, axle: Axle) -> None:
+    """Draw both sides of a suspension by a lower arm, a strut and a rod that steers the upright."""
+    suspension = axle.suspension
+    assert isinstance(suspension, StrutSuspension), "by its kind"
     for side in sides(name):
         w = side.wheel
-        p = {key: side.point(point) for key, point in axle.suspension.points}
+        p = {key: side.point(point) for key, point in suspension.points}
         arm, upright = looks.body(f"lower arm {w}"), looks.body(f"upright {w}")
-        ball, bottom, top = p["lower_ball_joint"], p[foot], p["strut_top"]
+        ball, bottom, top = p["lower_ball_joint"], p[suspension.foot], p["strut_top"]
         looks.tube((arm, p["lower_pivot_front"]), (arm, ball), (arm, p["lower_pivot_rear"]), radius=0.015)
         for pivot in ("lower_pivot_front", "lower_pivot_rear", "lower_ball_joint"):
             looks.ball((arm, p[pivot]), 0.023)
         # the tube of the strut stands in the upright above the wheel's height
         fraction = max(fraction_along(bottom, top, side.point(axle.wheel.centre)), 0.0)
         clamp = between(bottom, top, min(fraction + 0.05, 0.5))
-        draw_knuckle(looks, side, upright, [(upright, ball), (upright, clamp)], (upright, p[f"{rod}_outer"]))
+        inner, outer = side.point(suspension.rod_point("inner")), side.point(suspension.rod_point("outer"))
+        draw_knuckle(looks, side, upright, [(upright, ball), (upright, clamp)], (upright, outer))
         looks.tube((upright, bottom), (upright, clamp), radius=0.024, **CAST_STEEL)
-        looks.rod(f"{rod.replace('_', ' ')} {w}", name, (upright, p[f"{rod}_outer"]), p[f"{rod}_inner"])
+        looks.rod(f"{suspension.rod} {w}", name, (upright, outer), inner)
         draw_spring_and_damper(looks, f"spring {w}", (upright, bottom), (looks.chassis, top))
 
 
@@ -126,3 +140,50 @@ def wheel_shapes(looks: Looks, name: str, axle: Axle) -> None:
     sizes = {"radius": axle.tyre.radius, "width": tyre_width(axle.tyre), "rim": rim_radius(axle.tyre)}
     for side in sides(name):
         looks.shape(looks.spins[side.wheel], "wheel", **sizes, name=f"wheel {side.wheel}")
+
+
+def draw_knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], arm: Anchor | None) -> None:
+    """Draw hub and arms on the carrier; the shape of the wheel includes the brake disc.
+
+    `joints`: joints of the carrier, from the lowest to the highest; `arm`: outer end of the rod that steers it.
+    """
+    axle = getattr(looks.car, side.axle)
+    centre = side.point(axle.wheel.centre)
+    length, radius = (looks.scale * size for size in HUB_SIZE)
+    hub = inboard(centre, length)
+    below = [joint for joint in joints if joint[1][2] <= hub[2]]
+    above = [joint for joint in joints if joint[1][2] > hub[2]]
+    # one tube from the lowest joint through the hub to the highest one
+    looks.tube(*below, (carrier, hub), *above, radius=ARM_RADIUS, **CAST_STEEL)
+    looks.cylinder(carrier, (inboard(hub, BEARING_LENGTH), centre), radius)
+    if arm is not None:
+        looks.tube((carrier, hub), arm, radius=STEERING_ARM_RADIUS, **CAST_STEEL)
+
+
+def draw_spring_and_damper(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> None:
+    """Draw a coil spring around its damper. `lower`, `upper`: its ends."""
+    draw_damper(looks, lower, upper)
+    length = math.dist(lower[1], upper[1])
+    draw_coil(looks, name, lower, upper, seat=max(length - MAX_SPRING_LENGTH, 0.0))
+
+
+def draw_coil(looks: Looks, name: str, lower: Anchor, upper: Anchor, seat: float = 0.0) -> None:
+    """Draw a coil spring whose coil begins at a distance `seat`, m, from its lower end."""
+    scale = looks.scale
+    coils = max(3, round((math.dist(lower[1], upper[1]) - seat) / (scale * COIL_PITCH)))
+    looks.shape(
+        lower[0],
+        "spring",
+        ends=(lower, upper),
+        radius=scale * COIL_RADIUS,
+        wire=scale * WIRE_DIAMETER,
+        coils=coils,
+        seat=seat or None,
+        name=name,
+        **SPRING_PAINT,
+    )
+
+
+def draw_damper(looks: Looks, lower: Anchor, upper: Anchor) -> None:
+    """Draw a telescopic damper."""
+    looks.shape(lower[0], "damper", ends=(lower, upper), radius=looks.scale * DAMPER_RADIUS, **CHROME)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.checks.places import contact_points
 from mbs.vehicle.shapes.appearance import BODY_PAINT, DARK_PLASTIC, SILL_HEIGHT, Looks, Paint
 from mbs.vehicle.shapes.loft import interpolate_columns, loft
 from mbs.vehicle.shapes.occupants import steering_wheel_place
@@ -98,8 +99,8 @@ class BodyShell:
     def height(self) -> float:
         """Height of the roof, m: of the highest ground contact point if it is on the roof, otherwise estimated."""
         contact = self.car.chassis.ground_contact
-        points = [] if contact is None else [p for p in contact.points if not isinstance(p, str)]
-        highest = max((p[2] + contact.radius for p in points), default=0.0) if contact is not None else 0.0
+        radius = 0.0 if contact is None else contact.radius
+        highest = max((z + radius for _, _, z in contact_points(self.car).values()), default=0.0)
         estimate = min(HEIGHT_OVER_LENGTH * self.car.vehicle.length, HEIGHT_OVER_TYRE * self.car.front.tyre.radius)
         estimate = max(estimate, self.car.vehicle.reference_point[2] / MASS_HEIGHT)
         return highest if highest > 0.25 * self.car.vehicle.length else estimate

@@ -14,8 +14,7 @@ from mbs.vehicle.shapes.appearance import Looks
 from mbs.vehicle.shapes.axles import (
     anti_roll_bar_shapes,
     double_wishbone_shapes,
-    lower_arm_strut_shapes,
-    macpherson_shapes,
+    strut_shapes,
     twist_beam_shapes,
     wheel_shapes,
 )
@@ -27,8 +26,8 @@ from mbs.vehicle.shapes.tube_frame import tube_frame_shapes
 
 SUSPENSIONS: Mapping[str, Callable[[Looks, str, Axle], None]] = {
     "double_wishbone": double_wishbone_shapes,
-    "lower_arm_strut": lower_arm_strut_shapes,
-    "macpherson": macpherson_shapes,
+    "lower_arm_strut": strut_shapes,
+    "macpherson": strut_shapes,
     "twist_beam": twist_beam_shapes,
 }
 """Functions that draw suspensions, by kind of suspension."""

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from mbs.vehicle.chassis.tubular_frame import TubularFrame
+from mbs.vehicle.chassis.frames.tubes import TubularFrame
 from mbs.vehicle.shapes.appearance import BARE_STEEL, CAST_STEEL, FRAME_PAINT, Looks
 
 FRAME_TUBE = "frame tube"

@@ -15,7 +15,7 @@ from mbs.model.model import Model
 from mbs.model.records import Guide, Input
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.port_inputs import new_port
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.quantities import (
     AssistanceFactor,
     AssistanceTorque,
@@ -29,11 +29,9 @@ from mbs.vehicle.quantities import (
     SteeringWheelInertia,
 )
 from mbs.vehicle.side import Point, Side
-from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.rack_section import RackSection
-from mbs.vehicle.steering.steering_interface import Steered
-from mbs.vehicle.steering.steering_outputs import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, demand_outputs
-from mbs.vehicle.steering.steering_section import COLUMN_STICK
+from mbs.vehicle.steering.steering_outputs import RACK_FORCE, WHEEL_ANGLE, WHEEL_SPEED, WHEEL_TORQUE, demand_outputs
+from mbs.vehicle.steering.steering_section import COLUMN_STICK, Steered
 
 MAX_HAND_TORQUE = 100.0  # N m, of the driver
 MAX_ACTUATOR_FORCE = 3e4  # N, on the rack
@@ -90,7 +88,7 @@ class Column(RackSection, of=TorsionBar):
     def build(self, b: CarBuilder, way: float) -> Steered:
         """Add column and steering wheel; the rack is added with its first end. `way`: as in `signed`."""
         m, per_radian = b.m, way * self.rack_per_turn / (2.0 * math.pi)
-        demand = angle_demand(m, self.wheel_angle_max)
+        demand = self.angle_demand(m)
         torque = m.input(
             "steering_torque",
             min=-MAX_HAND_TORQUE,
@@ -98,10 +96,7 @@ class Column(RackSection, of=TorsionBar):
             unit="N.m",
             description="torque of the driver's hands where steering.by_torque is 1, positive to the left",
         )
-        wheel, pinion = (
-            m.shaft("steering wheel", inertia=self.wheel_inertia),
-            m.shaft("pinion"),
-        )
+        wheel, pinion = m.shaft("steering wheel", inertia=self.wheel_inertia), m.shaft("pinion")
         guide = self._add_hands(b, wheel, demand, torque)
         self._add_torsion_bar(b, wheel, pinion)
         if b.ports.steering is not None:
@@ -174,9 +169,8 @@ class Column(RackSection, of=TorsionBar):
 
     def _add_outputs(self, m: Model, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
         """Add the travel of the rack and the angle of the steering wheel."""
-        sense_coordinate = m.sense_coordinate
-        sense_coordinate("steering_rack", pinion, scale=per_radian, unit="m", description=self.travel_text(way))
-        sense_coordinate("steering_wheel_angle", wheel, description="angle of the steering wheel, positive to the left")
+        m.sense_coordinate("steering_rack", pinion, scale=per_radian, unit="m", description=self.travel_text(way))
+        m.sense_coordinate("steering_wheel_angle", wheel, description=WHEEL_ANGLE)
 
     def _torque_outputs(
         self, m: Model, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, guide: Guide

@@ -14,7 +14,6 @@ from mbs.model.model import Model
 from mbs.model.records import Guide
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.quantities import (
     ArmAngle,
     Frequency,
@@ -24,13 +23,10 @@ from mbs.vehicle.quantities import (
     SteeringBox,
 )
 from mbs.vehicle.side import Point as Coordinates
-from mbs.vehicle.side import Side
-from mbs.vehicle.steering.driven_rack import column_friction
-from mbs.vehicle.steering.driver import angle_demand
+from mbs.vehicle.side import Side, TieRodEnd
 from mbs.vehicle.steering.four_bar import FourBar
-from mbs.vehicle.steering.steering_interface import Steered
-from mbs.vehicle.steering.steering_outputs import WHEEL_SPEED, WHEEL_TORQUE, demand_outputs, tie_ratio
-from mbs.vehicle.steering.steering_section import SteeringSection
+from mbs.vehicle.steering.steering_outputs import WHEEL_ANGLE, demand_outputs, tie_ratio, wheel_outputs
+from mbs.vehicle.steering.steering_section import Steered, SteeringSection, column_friction
 
 MIN_ARM = 0.03  # m
 MIN_LINK = 0.1  # m
@@ -203,7 +199,7 @@ class PitmanArm(SteeringSection):
     def build(self, b: CarBuilder, way: float) -> Steered:
         """Add the steering box; the linkage is added with the tie rods. `way`: as in `signed`."""
         m, full = b.m, self.arm_angle_max
-        demand = angle_demand(m, self.wheel_angle_max)
+        demand = self.angle_demand(m)
         arm = m.guide_inputs(
             "steering arm",
             inputs=(b.inputs["steering"], demand),
@@ -220,14 +216,11 @@ class PitmanArm(SteeringSection):
         def outputs() -> None:
             text = "angle of the Pitman arm, positive if it steers to the left"
             sense_guide("steering_arm_angle", arm, description=text)
-            text = "angle of the steering wheel, positive to the left"
-            sense_guide("steering_wheel_angle", arm, scale=self.ratio, description=text)
+            sense_guide("steering_wheel_angle", arm, scale=self.ratio, description=WHEEL_ANGLE)
             self._link_outputs(m, arm, way)
 
         def torque_outputs() -> None:
-            per_arm = 1.0 / self.ratio
-            sense_guide("steering_wheel_torque", arm, "force", scale=per_arm, unit="N.m", description=WHEEL_TORQUE)
-            sense_guide("steering_wheel_speed", arm, order=1, scale=self.ratio, unit="rad/s", description=WHEEL_SPEED)
+            wheel_outputs(m, arm, 1.0 / self.ratio, self.ratio)
             text = "torque of the tie rods on the Pitman arm, positive if it would steer to the left"
             sense_guide("steering_arm_torque", arm, "force", joints=_rods(m), scale=-1.0, description=text)
             demand_outputs(m, demand, arm, self.ratio)

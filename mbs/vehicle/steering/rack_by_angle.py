@@ -3,20 +3,25 @@
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any, ClassVar, Literal
 
 from pydantic import ConfigDict, model_validator
 
-from mbs.model.records import Input
+from mbs.model.coordinate import Coordinate
+from mbs.model.joints.joint import Joint
+from mbs.model.model import Model
+from mbs.model.records import Guide, Input
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.inputs import new_port
 from mbs.vehicle.quantities import PrescribedFriction
-from mbs.vehicle.steering import driven_rack
-from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.rack_section import RackSection, rack_ends
 from mbs.vehicle.steering.rack_table import SLOPE_TOLERANCE, RackTable, Rows, table_faults
-from mbs.vehicle.steering.steering_interface import Steered
-from mbs.vehicle.steering.steering_outputs import rack_outputs, rack_torque_outputs, tie_ratio
+from mbs.vehicle.steering.steering_outputs import RACK_FORCE, WHEEL_ANGLE, demand_outputs, tie_ratio, wheel_outputs
+from mbs.vehicle.steering.steering_section import Steered, column_friction
+
+RACK = "rack travel"
+"""Name of the coordinate of the rack, and of its drive."""
 
 
 def _make_optional(schema: dict[str, Any]) -> None:
@@ -94,18 +99,20 @@ class RackByAngle(RackSection):
         """Add the rack. `way`: as in `signed`."""
         m, turn = b.m, way * 2.0 * math.pi
         per_radian = way * self.rack_per_turn / (2.0 * math.pi)
-        by_table = self.by_table
+        text, by_table = self.travel_text(way), self.by_table
         demand: Input | None = None
         if b.ports.steering is not None:
-            limit = self.rack_travel
-            rack = wheel_guide = driven_rack.by_port(b, limit, f"{self.travel_text(way)}, that is asked for")
+            port = new_port(
+                b, "steering_rack_demand", -self.rack_travel, self.rack_travel, "m", f"{text}, that is asked for"
+            )
+            rack = held = m.guide_input("rack", input=port, frequency=b.ports.rack_frequency, unit="m")
         else:
-            demand = angle_demand(m, self.wheel_angle_max)
+            demand = self.angle_demand(m)
             full, name, unit = way * self.rack_travel, "rack", "m"
             if by_table is not None:
                 per_radian, turn = by_table.factor, 2.0 * math.pi * by_table.slope
                 full, name, unit = by_table.angle(self.rack_travel), "steering wheel", "rad"
-            rack = wheel_guide = m.guide_inputs(
+            rack = held = m.guide_inputs(
                 name,
                 inputs=(b.inputs["steering"], demand),
                 gains=(full, per_radian),
@@ -114,14 +121,40 @@ class RackByAngle(RackSection):
                 unit=unit,
             )
             if by_table is not None:
-                rack = driven_rack.by_table(m, wheel_guide, by_table.rows * (1.0, way))
+                rack = m.guide_table("rack", held, by_table.rows * (1.0, way), unit="m")
         if self.friction > 0.0:
-            driven_rack.column_friction(m, wheel_guide, per_radian, self.friction)
+            column_friction(m, held, per_radian, self.friction)
+
+        def outputs() -> None:
+            m.sense_guide("steering_rack", rack, description=text)
+            scale = turn / self.rack_per_turn
+            m.sense_guide("steering_wheel_angle", held, scale=scale, unit="rad", description=WHEEL_ANGLE)
 
         def torque_outputs() -> None:
-            rack_torque_outputs(m, rack, wheel_guide, per_radian, demand)
+            wheel_outputs(m, held, per_radian, 1.0 / per_radian)
+            rods = _tie_rods(m, rack)
+            m.sense_guide("steering_rack_force", rack, "force", joints=rods, scale=-1.0, description=RACK_FORCE)
+            if demand is not None:
+                demand_outputs(m, demand, held, 1.0 / per_radian)
             if self.friction == 0.0:  # with friction the ratio is in an equation, which has no parameters
-                tie_ratio(b, self, "rack_per_turn", wheel_guide, turn, inverse=False)
+                tie_ratio(b, self, "rack_per_turn", held, turn, inverse=False)
 
-        outputs = partial(rack_outputs, m, rack, wheel_guide, turn / self.rack_per_turn, self.travel_text(way))
-        return Steered(rack_ends(b, rack), outputs, torque_outputs, partial(driven_rack.travel, m, rack))
+        def travel() -> Coordinate:
+            coordinate = m.travel(RACK)
+            m.drive(RACK, coordinate.affine, rack)
+            return coordinate
+
+        return Steered(rack_ends(b, rack), outputs, torque_outputs, travel)
+
+
+def _tie_rods(m: Model, guide: Guide) -> list[Joint]:
+    """Rods with an end moved by a guide, or the drive of the rack if it is a coordinate.
+
+    `m`: model with the suspension.
+    """
+    return [
+        joint
+        for joint in m.joints
+        if (joint.type == "distance" or joint.name == RACK)
+        and any(t.guide == guide.index for e in joint.equations for t in e.guides)
+    ]

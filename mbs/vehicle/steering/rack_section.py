@@ -6,9 +6,8 @@ from mbs.model.joint_ends import End
 from mbs.model.records import Guide
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.quantities import Frequency, RackPerTurn, RoadWheelAngle, Travel
-from mbs.vehicle.side import Point, Side
+from mbs.vehicle.side import Point, Side, TieRodEnd
 from mbs.vehicle.steering.steering_section import SteeringSection
 
 

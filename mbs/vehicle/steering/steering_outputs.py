@@ -1,12 +1,11 @@
-"""Outputs of steerings: outputs of every steering, and further ones of a rack."""
+"""Outputs of every steering."""
 
-from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.records import Guide, Input
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.steering.steering_interface import RACK
 from mbs.vehicle.steering.steering_section import SteeringSection
 
+WHEEL_ANGLE = "angle of the steering wheel, positive to the left"
 WHEEL_TORQUE = "torque of the driver's hands on the steering wheel, positive to the left"
 WHEEL_SPEED = "angular velocity of the steering wheel, positive to the left"
 RACK_FORCE = "force of the tie rods on the rack, positive to the left"
@@ -18,8 +17,8 @@ TORQUE_OUTPUT = "steering_wheel_torque"
 def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
     """Add the demand as used, and the part of both demands beyond full lock.
 
-    `demand`: result of `angle_demand`; `guide`: follows the demand; `scale`: radians of the steering wheel per unit of
-    the guide.
+    `demand`: result of `SteeringSection.angle_demand`; `guide`: follows the demand; `scale`: radians of the steering
+    wheel per unit of the guide.
     """
     m.sense_input(f"used.{demand.name}", demand, description=f"{demand.name} as used")
     excess = m.sense_guide(
@@ -33,39 +32,14 @@ def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
     m.notice(excess, "The demanded angle of the steering wheel is beyond full lock and held there")
 
 
-def rack_outputs(m: Model, rack: Guide, held: Guide, per_unit: float, text: str) -> None:
-    """Add the travel of the rack and the angle of the steering wheel.
+def wheel_outputs(m: Model, held: Guide, per_radian: float, per_unit: float) -> None:
+    """Add torque and speed of the steering wheel.
 
-    `held`: guide of the steering wheel; `per_unit`: radians of the steering wheel per unit of it; `text`: description
-    of the travel.
+    `held`: guide of the steering wheel; `per_radian`, `per_unit`: its unit per radian of the steering wheel, and the
+    reciprocal.
     """
-    sense_guide = m.sense_guide
-    sense_guide("steering_rack", rack, description=text)
-    angle = "angle of the steering wheel, positive to the left"
-    sense_guide("steering_wheel_angle", held, scale=per_unit, unit="rad", description=angle)
-
-
-def rack_torque_outputs(m: Model, rack: Guide, held: Guide, per_radian: float, demand: Input | None) -> None:
-    """Add torque and speed of the steering wheel and force of the rods. `per_radian`: unit of `held` per radian."""
-    sense_guide = m.sense_guide
-    sense_guide("steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
-    sense_guide("steering_wheel_speed", held, order=1, scale=1.0 / per_radian, unit="rad/s", description=WHEEL_SPEED)
-    sense_guide("steering_rack_force", rack, "force", joints=_tie_rods(m, rack), scale=-1.0, description=RACK_FORCE)
-    if demand is not None:
-        demand_outputs(m, demand, held, 1.0 / per_radian)
-
-
-def _tie_rods(m: Model, guide: Guide) -> list[Joint]:
-    """Rods with an end moved by a guide, or the drive of the rack if it is a coordinate.
-
-    `m`: model with the suspension.
-    """
-    return [
-        joint
-        for joint in m.joints
-        if (joint.type == "distance" or joint.name == RACK)
-        and any(t.guide == guide.index for e in joint.equations for t in e.guides)
-    ]
+    m.sense_guide("steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
+    m.sense_guide("steering_wheel_speed", held, order=1, scale=per_unit, unit="rad/s", description=WHEEL_SPEED)
 
 
 def tie_ratio(b: CarBuilder, data: SteeringSection, name: str, held: Guide, turn: float, *, inverse: bool) -> None:

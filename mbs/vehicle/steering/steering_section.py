@@ -1,15 +1,33 @@
-"""Base class of the sections of steerings in a car file."""
+"""Base class of the sections of steerings in a car file, and what a steering gives to other parts of the car."""
 
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import ClassVar
 
-from mbs.model.records import Guide
+from mbs.elements.coordinate_friction import CoordinateFriction
+from mbs.model.coordinate import Coordinate
+from mbs.model.model import Model
+from mbs.model.records import Guide, Input
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.section import Section
+from mbs.vehicle.side import TieRodEnd
 
 COLUMN_STICK = 200.0, 5.0  # N m/rad, N m s/rad of a sticking column: 1 N m turns it by 5 mrad
+
+
+@dataclass(frozen=True)
+class Steered:
+    """A steering in a model."""
+
+    tie_rod: TieRodEnd
+    """Returns the owner of the inner end of a tie rod."""
+    outputs: Callable[[], None]
+    """Adds the outputs of travel and angle."""
+    torque_outputs: Callable[[], None]
+    """Adds the outputs of speed, force and torque, after all other outputs."""
+    travel: Callable[[], Coordinate] | None = None
+    """Adds the travel of the rack, m, as a coordinate instead of its ends; None: there is none."""
 
 
 class SteeringSection(Section):
@@ -72,3 +90,20 @@ class SteeringSection(Section):
     def moving_mass(self) -> float:
         """Mass of the parts that are bodies, kg."""
         return 0.0
+
+    def angle_demand(self, m: Model) -> Input:
+        """Add the input of the demanded angle of the steering wheel, rad."""
+        return m.input(
+            "steering_wheel_angle_demand",
+            min=-self.wheel_angle_max,
+            max=self.wheel_angle_max,
+            unit="rad",
+            description="angle of the steering wheel, positive to the left; it is added to what steering asks for",
+        )
+
+
+def column_friction(m: Model, guide: Guide, per_radian: float, torque: float) -> None:
+    """Add friction of `torque`, N m, to a steering wheel. `guide`: `per_radian` times the angle of the wheel, rad."""
+    wheel = m.shaft("steering wheel")
+    m.drive("steering column", wheel.affine * per_radian, guide)
+    m.add(CoordinateFriction(torque, *COLUMN_STICK).record("steering friction", wheel.affine))

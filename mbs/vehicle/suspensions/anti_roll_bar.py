@@ -10,10 +10,10 @@ from collections.abc import Iterator, Sequence
 from mbs.elements.record import ElementRecord
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner
 from mbs.vehicle.geometry import MIN_LENGTH
 from mbs.vehicle.quantities import Factor, Point, TorsionalStiffness
 from mbs.vehicle.section import Section
+from mbs.vehicle.side import Corner
 
 LINK = "anti-roll link "
 """Prefix of the names of drop links and of the angles of their levers, before the name of the wheel."""

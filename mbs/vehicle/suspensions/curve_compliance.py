@@ -18,6 +18,7 @@ import numpy as np
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
+from mbs.vehicle.axes import FORWARD, LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import DisplacementPerForce, LossTime, SteerPerForce, SteerPerMoment
@@ -27,7 +28,6 @@ from mbs.vehicle.suspensions.curve_poses import WheelCurves
 from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK
 
 STEER_ANGLES = np.linspace(-0.06, 0.06, 7)  # rad, in the table
-FORWARD = (1.0, 0.0, 0.0)
 MIN_HEIGHT = 0.05  # m, of the longitudinal axis
 MAX_HEIGHT = 1.5  # m, of the longitudinal axis
 BASE_FRACTION = 1e-3  # mass of the base body, relative to the carrier
@@ -58,7 +58,7 @@ class Compliance(Section):
     loss_time: LossTime = 0.001
     """Damping over stiffness."""
 
-    def fits(self, second: str) -> Iterator[str]:
+    def table_faults(self, second: str) -> Iterator[str]:
         """Yield a sentence if the table has a second variable with which the compliance cannot be combined."""
         if second == OTHER_TRAVEL:
             yield (
@@ -83,7 +83,7 @@ class Compliance(Section):
                 f"or under the contact."
             )
 
-    def base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
+    def add_base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
         """Add the base body of the table of a wheel; return it with the fraction of the carrier's mass on the table.
 
         `centre`: centre of the left wheel, m.
@@ -101,7 +101,7 @@ class Compliance(Section):
         # springs of 1 m in the direction of the motion: lateral at the contact, longitudinal on the axis
         contact = (point[0], point[1], 0.0)
         for name, end_point, direction, compliance in (
-            ("lean", contact, (0.0, 1.0, 0.0), lateral),
+            ("lean", contact, LEFT, lateral),
             ("slide", point, FORWARD, slide),
         ):
             ends = (chassis, np.subtract(end_point, direction)), (base, end_point)
@@ -112,7 +112,7 @@ class Compliance(Section):
                 b.m.distance(f"rod against {name} {w}", *ends)
         return base, 1.0 - BASE_FRACTION
 
-    def rack_end(self, b: CarBuilder, side: Side, rack: Coordinate, steer_per_rack: float) -> Coordinate:
+    def add_rack_end(self, b: CarBuilder, side: Side, rack: Coordinate, steer_per_rack: float) -> Coordinate:
         """Add the travel of the end of the rack at a wheel, on a spring.
 
         `rack`: travel of the rack, m; `steer_per_rack`: rad/m.
@@ -123,14 +123,14 @@ class Compliance(Section):
         b.m.add(law.record(f"spring of compliance {side.wheel}", end.affine - rack.affine))
         return end
 
-    def turn(self, b: CarBuilder, side: Side) -> Coordinate:
+    def add_turn(self, b: CarBuilder, side: Side) -> Coordinate:
         """Add the rotation of a wheel on its spring, rad."""
         turn = b.m.travel(f"compliance steer {side.wheel}", unit="rad")
         law = ScalarSpringDamper(1.0 / self.per_moment, self.loss_time / self.per_moment)
         b.m.add(law.record(f"spring of compliance {side.wheel}", turn.affine))
         return turn
 
-    def turned(self, curves: WheelCurves, side: Side) -> WheelCurves:
+    def turn_curves(self, curves: WheelCurves, side: Side) -> WheelCurves:
         """Curves against travel and rotation from curves against travel alone, with one point of the second
         variable."""
         c, s = np.cos(STEER_ANGLES), np.sin(STEER_ANGLES)

@@ -100,8 +100,7 @@ def _centres_and_rotations(table: CurveTable, name: str, sign: float, hub: Hub) 
         assert angles is not None, "checked by the reader"
         return angles
 
-    i = int(np.argmin(np.abs(table.travel)))
-    k = int(np.argmin(np.abs(table.second)))
+    i, k = table.drawn
     steer, inclination = angle("toe_angle", "steer_angle"), angle("camber_angle", "inclination_angle")
     pitch = column_of("carrier_pitch_angle")
     if pitch is None:  # caster changes by the pitch of the carrier, not by the steer angle

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from ali3.tables import TextTable
 from mbs.model.smooth_table import MIN_POINTS, SPACING_TOLERANCE
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import car_file_path
+from mbs.vehicle.table import car_file_path
 
 Array = NDArray[np.float64]
 
@@ -80,6 +80,11 @@ class CurveTable:
         """Column of a wheel by its name with or, for the left wheel, without the side; None if there is none."""
         values = self.columns.get(f"{name}_{side}")
         return self.columns.get(name) if values is None and side == "left" else values
+
+    @property
+    def drawn(self) -> tuple[int, int]:
+        """Indices of the drawing in both variables."""
+        return int(np.argmin(np.abs(self.travel))), int(np.argmin(np.abs(self.second)))
 
     @property
     def has_right_wheel(self) -> bool:

@@ -12,13 +12,12 @@ from mbs.common.affine import Affine
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.names import Name
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Length, Point
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import Side, sides
-from mbs.vehicle.springs import AxleSprings, Stops, spring_of_length
+from mbs.vehicle.side import Corner, Side, TieRodEnd, sides
+from mbs.vehicle.springs import AxleSprings, Stops, line_of_length
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.suspensions.anti_roll_bar import LINK, RollStiffness
 from mbs.vehicle.suspensions.curve_compliance import Compliance
@@ -134,7 +133,7 @@ class Curves(SuspensionSection):
         lengths = self.of(Side("front", "left", 1.0)).lengths.get("spring_length")
         if lengths is None:
             return float(self.table.travel[0]), float(self.table.travel[-1])
-        i, k = (int(np.argmin(np.abs(axis))) for axis in (self.table.travel, self.table.second))
+        i, k = self.table.drawn
         least, largest = lengths[i, k] - lengths[[0, -1]]
         return float(np.max(least)), float(np.min(largest))
 
@@ -153,7 +152,7 @@ class Curves(SuspensionSection):
                 f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {presence}; give one of them."
             )
         if self.compliance is not None:
-            yield from self.compliance.fits(self.table.second_name)
+            yield from self.compliance.table_faults(self.table.second_name)
 
     def stop_faults(self, stops: Stops) -> Iterator[str]:
         """Yield a sentence for each stop whose end the table does not reach."""
@@ -212,7 +211,7 @@ class Curves(SuspensionSection):
             centre = np.array(side.point(self.hub.centre))
             base, fraction = b.chassis.frame, 1.0
             if self.compliance is not None:
-                base, fraction = self.compliance.base(b, side, self.hub.centre, part)
+                base, fraction = self.compliance.add_base(b, side, self.hub.centre, part)
             carrier = b.m.tabled_body(
                 f"carrier {w}",
                 base=base,
@@ -229,7 +228,7 @@ class Curves(SuspensionSection):
             travel_length = travel.affine * -1.0 + self.spring_length, self.spring_length
             spring = _tabled_length(b, curves, variables, "spring_length", f"length of spring {w}") or travel_length
             damper = _tabled_length(b, curves, variables, "damper_length", f"length of damper {w}")
-            spring_of_length(b, w, spring, damper, springs)
+            springs.build(b, w, line_of_length(*spring), None if damper is None else line_of_length(*damper))
             lever = _tabled_length(b, curves, variables, "anti_roll_bar_angle", f"{LINK}{w}", "rad")
             if self.bar is not None:
                 levers.append(lever[0] if lever is not None else travel.affine * (1.0 / (self.bar.lever or 1.0)))
@@ -247,13 +246,13 @@ class Curves(SuspensionSection):
             assert b.rack is not None, "the front axle steers"
             rack = b.rack
             if self.compliance is not None:
-                rack = self.compliance.rack_end(b, side, rack, self._steer_rate(curves))
+                rack = self.compliance.add_rack_end(b, side, rack, self._steer_rate(curves))
             return [travel, rack], curves
         if self.table.second_name == OTHER_TRAVEL:
             return [travel, travels["right" if side.name == "left" else "left"]], curves
         if self.compliance is not None:
-            turn = self.compliance.turn(b, side)
-            return [travel, turn], self.compliance.turned(curves, side)
+            turn = self.compliance.add_turn(b, side)
+            return [travel, turn], self.compliance.turn_curves(curves, side)
         return [travel], curves
 
     def _steer_rate(self, curves: WheelCurves) -> float:
@@ -262,7 +261,7 @@ class Curves(SuspensionSection):
 
     def _steer_curve(self, curves: WheelCurves) -> tuple[Array, Array]:
         """Travels of the rack, m, and steer angles of a wheel at the drawn height, rad."""
-        rotations = curves.rotations[int(np.argmin(np.abs(self.table.travel)))]
+        rotations = curves.rotations[self.table.drawn[0]]
         return curves.second, np.arctan2(-rotations[:, 0, 1], rotations[:, 1, 1])
 
 

@@ -6,13 +6,12 @@ from typing import ClassVar, Literal
 
 from mbs.elements.spring_damper import EndStops
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.geometry import apart, arm, farther, off_line, steering_rod
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import HysteresisLoss, Length, MetalStiffness, Point, SmallLength, StopStiffness
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import Side
-from mbs.vehicle.springs import AxleSprings, spring_and_damper
+from mbs.vehicle.side import Corner, Side, TieRodEnd
+from mbs.vehicle.springs import AxleSprings, line_between
 from mbs.vehicle.suspensions.independent import IndependentSuspension
 
 
@@ -122,24 +121,9 @@ class DoubleWishbone(IndependentSuspension):
                 m.spherical(f"{part} wishbone {w} {end} pivot", chassis, wishbone, point=p[f"{part}_pivot_{end}"])
             m.spherical(f"{part} ball joint {w}", wishbone, upright, point=p[f"{part}_ball_joint"])
         m.distance(f"tie rod {w}", (upright, p["tie_rod_outer"]), tie_rod(side, p["tie_rod_inner"]))
-        spring_and_damper(b, f"spring {w}", (lower, p["spring_lower"]), (chassis, p["spring_upper"]), springs)
-        if self.steering_stop is not None:
-            m.spring_damper(
-                f"steering stop {w}",
-                (upright, p["tie_rod_outer"]),
-                (lower, p["lower_pivot_front"]),
-                stiffness=0.0,
-                stops=_end_stop(self.steering_stop),
-            )
+        springs.build(b, w, line_between((lower, p["spring_lower"]), (chassis, p["spring_upper"])))
+        if (stop := self.steering_stop) is not None:
+            ends = (upright, p["tie_rod_outer"]), (lower, p["lower_pivot_front"])
+            bump = {f"bump_{name}": getattr(stop, name) for name in ("length", "stiffness", "travel", "loss")}
+            m.spring_damper(f"steering stop {w}", *ends, stiffness=0.0, stops=stop.element(EndStops, **bump))
         return Corner(side, upright, {"lower_wishbone": lower, "upper_wishbone": upper, "upright": upright})
-
-
-def _end_stop(stop: SteeringStop) -> EndStops:
-    """Make the end stop of a spring element."""
-    return stop.element(
-        EndStops,
-        bump_length=stop.length,
-        bump_stiffness=stop.stiffness,
-        bump_travel=stop.travel,
-        bump_loss=stop.loss,
-    )

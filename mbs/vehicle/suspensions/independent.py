@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.quantities import Point
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import Side, sides
+from mbs.vehicle.side import Corner, Side, TieRodEnd, sides
 from mbs.vehicle.springs import AxleSprings
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection

@@ -16,13 +16,12 @@ from typing import Literal
 
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.geometry import MIN_LENGTH, apart, farther
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point, TorsionalStiffness
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import sides
-from mbs.vehicle.springs import AxleSprings, spring_beside_damper
+from mbs.vehicle.side import Corner, TieRodEnd, sides
+from mbs.vehicle.springs import AxleSprings, line_between
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
@@ -95,13 +94,10 @@ class TwistBeam(SuspensionSection):
             half = side.body(m, "half axle", self.bodies.half)
             m.spherical(f"pivot {w}", half, chassis, point=p["pivot"])
             halves.append(half)
-            spring_beside_damper(
-                b,
-                w,
-                ((half, p["spring_lower"]), (chassis, p["spring_upper"])),
-                ((half, p["damper_lower"]), (chassis, p["damper_upper"])),
-                springs,
+            lines = (
+                line_between((half, p[f"{part}_lower"]), (chassis, p[f"{part}_upper"])) for part in ("spring", "damper")
             )
+            springs.build(b, w, *lines)
             yield Corner(side, half, {"half": half})
         left, right = halves
         x, _, z = self.points.cross_beam

@@ -14,10 +14,9 @@ from mbs.elements.magic_tyre import FACTORS, MagicTyre
 from mbs.elements.tyre_bore import TyreBore
 from mbs.tyre_files import TyreFileError, read_tyre
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import car_file_path
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
-from mbs.vehicle.tyres.bore_torque import Bore
-from mbs.vehicle.tyres.tyre_section import TyreSection
+from mbs.vehicle.table import car_file_path
+from mbs.vehicle.tyres.tyre_section import Bore, TyreSection
 
 if TYPE_CHECKING:
     from mbs.tyre_files import TyreFile

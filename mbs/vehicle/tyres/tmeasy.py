@@ -22,8 +22,7 @@ from mbs.vehicle.quantities import (
     TyreStiffness,
 )
 from mbs.vehicle.section import Section
-from mbs.vehicle.tyres.bore_torque import Bore
-from mbs.vehicle.tyres.tyre_section import TyreSection
+from mbs.vehicle.tyres.tyre_section import Bore, TyreSection
 
 
 class Curve(Section, of=TyreCurve):

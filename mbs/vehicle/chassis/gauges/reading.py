@@ -31,6 +31,6 @@ class Reading:
         return f"{self.quantity}.{self.gauge}"
 
 
-def in_order(readings: Iterable[Reading]) -> tuple[Reading, ...]:
+def sort_readings(readings: Iterable[Reading]) -> tuple[Reading, ...]:
     """Sort readings: forces and moments, then stresses, each in the order of the file."""
     return tuple(sorted(readings, key=lambda reading: reading.quantity == STRESS))

@@ -1,14 +1,16 @@
-"""Strain gauge by rows of recovery that another program has written."""
+"""Strain gauges of a frame that comes as matrices: between two nodes, or by rows of recovery of another program."""
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import Field
 
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.vehicle.chassis.gauges.reading import STRESS, Reading
+from mbs.vehicle.quantities import YoungsModulus
 from mbs.vehicle.section import Section
 from mbs.vehicle.table import Row, read_table
 
@@ -21,6 +23,47 @@ QUANTITIES = {
 }
 MAX_FACTOR = 1e18  # N, N m or Pa per m or rad
 RIGID = 1e-4  # of what a rigid motion would give if all factors had one sign: printed factors pass
+
+
+class NodePair(Section):
+    """Gauge that measures the strain between two nodes on a surface, such as neighbours of a mesh of solid elements."""
+
+    kind: Literal["node_pair"]
+    """Names this kind of gauge."""
+    nodes: tuple[str, str]
+    """Its ends; they should be so near that the stress hardly changes between them."""
+    opposite: tuple[str, str] | None = None
+    """Ends of a second gauge that is subtracted (half-bridge)."""
+    E: YoungsModulus
+    """Young's modulus: the stress is it times the strain."""
+
+    def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
+        """Stress that the gauge reports.
+
+        Raises `ModelError` if there is no such node, or both ends are at one place.
+        """
+        a, b = self.nodes
+        row, text = self._strain(model, "nodes"), f"E times the strain from node {a} to node {b} at gauge {name}"
+        if self.opposite is not None:
+            row = row - self._strain(model, "opposite")
+            text = f"half-bridge {name}, nodes {a} and {b} minus nodes {self.opposite[0]} and {self.opposite[1]}"
+        yield Reading(STRESS, name, "Pa", text, self.E * row, self.nodes)
+
+    def _strain(self, model: FiniteElementModel, field: str) -> np.ndarray:
+        """Row of the strain between the nodes of a field by nodal displacements, shape (n_dof,)."""
+        ends = getattr(self, field)
+        for node in ends:
+            if node not in model.names:
+                raise ModelError(f"{self.key(field)} names node {node!r}; the frame has no such node.")
+        a, b = (model.node(node) for node in ends)
+        vector = model.positions[b] - model.positions[a]
+        length = float(np.linalg.norm(vector))
+        if length == 0.0:
+            raise ModelError(f"{self.key(field)} is {list(ends)}; the two nodes are at one place.")
+        row = np.zeros(model.n_dof)
+        row[model.freedoms(b)] = vector / length**2
+        row[model.freedoms(a)] = -vector / length**2
+        return row
 
 
 class RecoveryRows(Section):
@@ -73,3 +116,7 @@ def _freedom(line: Row, model: FiniteElementModel) -> int:
     if number < 0:
         raise ModelError(f"{line.where}: node {node} has no freedom {axis}.")
     return number
+
+
+MatrixGauge = Annotated[NodePair | RecoveryRows, Field(discriminator="kind")]
+"""A gauge of a frame that comes as matrices."""

@@ -1,13 +1,32 @@
-"""Inputs at the ports of a car: demands that other programs set instead of the driver or of parts of the car."""
+"""Inputs of a car: of its driver, and at ports, where other programs take the place of driver or parts."""
 
 from mbs.model.inputs import new_input
+from mbs.model.model import Model
 from mbs.model.records import Input, Role
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.ports import Ports
 
 MAX_TORQUE = 1e4
 """End of the range of the torque demand of a brake, N m."""
 MAX_PRESSURE = 4e7
 """End of the range of the pressure of a brake, Pa."""
+
+
+def driver_inputs(m: Model, ports: Ports) -> dict[str, Input]:
+    """Add the inputs of the driver, except for parts that ports replace; return them by name."""
+    inputs = {}
+    if ports.steering != "rack_position":
+        inputs["steering"] = m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left")
+    if ports.torque is None:
+        inputs["throttle"] = m.input("throttle", min=0.0, max=1.0, description="throttle pedal")
+    if ports.brakes is None:
+        inputs["brake"] = m.input("brake", min=0.0, max=1.0, description="brake pedal")
+    text = "hand brake on the rear wheels"
+    inputs["hand_brake"] = m.input("hand_brake", min=0.0, max=1.0, description=text)
+    if ports.torque is None:
+        text = "selector: -1 reverse, 0 neutral, 1 drive"
+        inputs["selector"] = m.input("selector", start=1.0, min=-1.0, max=1.0, description=text, whole=True)
+    return inputs
 
 
 def new_port(
@@ -41,15 +60,3 @@ def brake_port(b: CarBuilder, wheel: str) -> Input:
         return new_port(b, f"wheel_{wheel}.brake_torque_demand", 0.0, MAX_TORQUE, "N.m", text)
     text = "pressure in the brake of the wheel"
     return new_port(b, f"wheel_{wheel}.brake_pressure", 0.0, MAX_PRESSURE, "Pa", text)
-
-
-def gear_port(b: CarBuilder, gears: int) -> int:
-    """Add the input of the forward gear and return its number. `gears`: count of forward gears."""
-    text = "forward gear that is asked for; 0: as the drive shifts by itself"
-    return new_port(b, "gear_request", 0.0, float(gears), "1", text, whole=True).index
-
-
-def clutch_port(b: CarBuilder) -> int:
-    """Add the input of the clutch and return its number."""
-    text = "clutch pedal: 0 released, 1 pressed, where nothing of the drive's torque is left"
-    return new_port(b, "clutch", 0.0, 1.0, "1", text).index
