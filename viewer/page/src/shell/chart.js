@@ -112,7 +112,7 @@ export class Chart {
 
   _legend() {
     const entries = this.curves.map((curve) => {
-      curve.output = el("output");
+      curve.output = el("output", { "aria-live": "off" }); // it changes in each picture
       const dashed = `repeating-linear-gradient(90deg, ${curve.colour} 0 4px, transparent 4px 6px)`;
       const style = `background:${curve.dash.length > 0 ? dashed : curve.colour}`;
       const swatch = el("span.a3-swatch", { style });
