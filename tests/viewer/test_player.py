@@ -303,6 +303,14 @@ def test_a_result_without_a_scene_has_its_diagrams_or_reports_that_there_are_non
     assert page.said == empty.said == []
 
 
+def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened: Callable[..., Opened]) -> None:
+    columns = {"strain": 1e-6 * np.sin(TIMES), "near one": 1.0 + 1e-5 * np.sin(TIMES)}
+    page = opened(Recording(None, TIMES, columns, {"strain": "m/m"}), plots=list(columns))
+    for ticks in page("player.plots.charts.map(({ plot }) => plot.axes[1]._values)"):
+        assert len(set(ticks)) == len(ticks) > 1
+    assert "1e-6" in page("player.plots.charts[0].plot.axes[1]._values")
+
+
 def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair: Opened) -> None:
     """Of another program: a flexible body without the numbers of its mode."""
     messages = pair(
