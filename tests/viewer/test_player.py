@@ -147,6 +147,17 @@ def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
     assert float(translation.removeprefix("translateX(").removesuffix("px)")) == pytest.approx(box["width"] / 2, abs=2)
     shown = pair("document.querySelector('.a3-legend output').textContent")
     assert float(shown.removesuffix(" rad")) == pytest.approx(2.0 * pair("player.time"), abs=1e-3)
+    assert pair("document.querySelector('.a3-legend output').ariaLive") == "off", "it changes in each picture"
+
+
+def test_a_slider_with_the_focus_follows_the_time_and_says_it(pair: Opened) -> None:
+    pair.seek(1.0)
+    slider = pair.page.locator(".a3-slide")
+    slider.focus()
+    pair.page.keyboard.press(".")
+    assert float(slider.input_value()) == pytest.approx(1.01)
+    assert slider.get_attribute("aria-valuetext") == "1.01 / 3.00 s"
+    pair("document.activeElement.blur()")
 
 
 def test_it_plays_in_time_and_stops_at_the_key(pair: Opened) -> None:
@@ -154,6 +165,7 @@ def test_it_plays_in_time_and_stops_at_the_key(pair: Opened) -> None:
     pair("player.speed(0.2)")
     pair.page.keyboard.press(" ")
     wait_until(pair.page, "player.time > 0.05")
+    assert pair("document.querySelector('[data-a3=toggle]').ariaPressed") == "true"
     pair.page.keyboard.press(" ")
     stands = pair("player.time")
     pair.page.wait_for_timeout(200)
@@ -192,6 +204,11 @@ def test_settings_and_signals_are_chosen_by_keys(opened: Callable[..., Opened]) 
     page.page.keyboard.press("G")
     page.page.locator(".a3-find input").focus()
     page.page.keyboard.press("Tab")  # the button that shows the list
+    page.page.keyboard.press(" ")
+    page.page.locator(".a3-find input").focus()
+    assert not page.page.locator(".a3-list").is_visible(), "the tabulator passes it"
+    page.page.keyboard.press("Tab")
+    page.page.keyboard.press(" ")
     page.page.keyboard.press("Tab")
     page.page.keyboard.press(" ")
     (first,) = page("player.plots.chosen")
@@ -284,6 +301,14 @@ def test_a_result_without_a_scene_has_its_diagrams_or_reports_that_there_are_non
     empty = opened(Recording(None, TIMES, {}, name="empty"))
     assert empty.page.inner_text(".a3-list") == "there are no signals"
     assert page.said == empty.said == []
+
+
+def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened: Callable[..., Opened]) -> None:
+    columns = {"strain": 1e-6 * np.sin(TIMES), "near one": 1.0 + 1e-5 * np.sin(TIMES)}
+    page = opened(Recording(None, TIMES, columns, {"strain": "m/m"}), plots=list(columns))
+    for ticks in page("player.plots.charts.map(({ plot }) => plot.axes[1]._values)"):
+        assert len(set(ticks)) == len(ticks) > 1
+    assert "1e-6" in page("player.plots.charts[0].plot.axes[1]._values")
 
 
 def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair: Opened) -> None:

@@ -244,6 +244,8 @@ def test_what_the_keyboard_opens_it_closes_and_the_focus_comes_back(shown: Any, 
     assert not settings.is_visible()
     assert focused(shown) == "settings"
     keys = opened("help", "h", "[data-a3='help list']")
+    press("g")
+    assert not shown.locator(".a3-side").is_visible(), "a key of the page behind the list"
     for _ in range(3):
         assert focused(shown) in ("help list", "BODY"), "behind the list of keys"
         press("Tab")
@@ -255,6 +257,19 @@ def test_what_the_keyboard_opens_it_closes_and_the_focus_comes_back(shown: Any, 
     press("g")
     assert not side.is_visible()
     assert focused(shown) == "panels"
+
+
+@pytest.mark.slow
+def test_arrows_open_a_list_and_choose_nothing_that_they_pass(shown: Any) -> None:
+    shell = "(player.cockpit ?? player)"
+    shown.evaluate(f"() => {{ {shell}.theme('auto'); {shell}.settings.toggle(true); }}")
+    shown.locator("[data-a3=theme]").focus()
+    names = []
+    for key in ("ArrowDown", "ArrowDown", "ArrowDown", "Enter"):
+        shown.keyboard.press(key)
+        names.append(shown.evaluate(f"{shell}.themeName"))
+    assert names == ["auto", "auto", "auto", "dark"]
+    shown.evaluate(f"() => {{ {shell}.theme('auto'); {shell}.settings.toggle(false); }}")
 
 
 @pytest.mark.slow
@@ -290,6 +305,8 @@ def test_the_tree_of_the_browser_names_every_control(shown: Any) -> None:
     controls = [(role, name) for role, name in results if role in ROLES]
     assert {role for role, _ in controls} >= {"button", "slider", "combobox"}
     assert [role for role, name in controls if not name] == []
+    sliders = shown.evaluate("[...document.querySelectorAll('input[type=range]')].map((one) => one.ariaValueText)")
+    assert all(sliders), "positions of sliders are no values"
 
 
 def test_what_happens_is_read_aloud_once_and_the_numbers_of_a_state_are_not(shown: Any) -> None:

@@ -194,16 +194,21 @@ def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_cha
 def test_everything_fits_on_the_screen_and_nothing_lies_on_another(
     chromium: Any, lane_change: Recording, sizes: list[tuple[int, int]]
 ) -> None:
-    """A tablet and a telephone have levers to touch, and are turned."""
+    """A tablet and a telephone have levers to touch, and are turned; a key shows and hides levers everywhere."""
     levers = [f"lever {name}" for name in ("steering", "brake", "throttle")]
     context = chromium.new_context(viewport={"width": sizes[0][0], "height": sizes[0][1]}, has_touch=len(sizes) > 1)
     program = Program(context.new_page(), lane_change, world=WORLD)
     program.open()
-    for turned, (width, height) in enumerate(sizes):
+    has_levers = len(sizes) > 1
+    for turned, (width, height) in enumerate([*sizes, sizes[0]]):
         program.page.set_viewport_size({"width": width, "height": height})
+        if turned == len(sizes):
+            program.page.keyboard.press("t")
+            has_levers = not has_levers
         shown(program, 2.0 + turned)
         boxes = program.page.evaluate(_BOXES, [*PARTS, *levers])
-        assert set(boxes) == {*PARTS, *(levers if len(sizes) > 1 else ())}
+        assert set(boxes) == {*PARTS, *(levers if has_levers else ())}
+        assert program.page.locator("[data-a3=levers]").get_attribute("aria-pressed") == str(has_levers).lower()
         for name, (left, top, right, bottom) in boxes.items():
             assert min(left, top) >= 0, name
             assert right <= width + 0.5, name

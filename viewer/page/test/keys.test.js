@@ -21,17 +21,18 @@ test("an element keeps the keys that it needs, a clicked one leaves them to the 
   assert.deepEqual(taken(input("range"), true), ["ArrowLeft", "Home"]);
   assert.deepEqual(taken(input("range"), false), []);
   assert.deepEqual(taken({ tagName: "DIALOG" }, true), ["ArrowLeft", "Home"]); // it scrolls
-  assert.deepEqual([input("search"), input("number"), { tagName: "SELECT" }].map((one) => needed(one, "Escape", true)), [true, false, false]);
+  const others = [input("search"), input("number"), { tagName: "SELECT" }];
+  assert.deepEqual([{ ...input("search"), value: "fx" }, ...others].map((one) => needed(one, "Escape", true)), [true, false, false, false]);
   assert.deepEqual(taken({ tagName: "CANVAS" }, true), []);
 });
 
 /** A page of which keys are pressed, with what was done. */
-function listening(first) {
+function listening(first, dialog) {
   const listeners = {};
   globalThis.window = /** @type {any} */ ({ addEventListener: (name, listener) => (listeners[name] = listener) });
   const done = [];
   const act = (name) => () => done.push(name);
-  keys({ acts: { loop: act("loop"), "camera driver": act("one"), before: act("before"), play: act("play") }, first, signal: new AbortController().signal });
+  keys({ acts: { loop: act("loop"), "camera driver": act("one"), before: act("before"), play: act("play"), close: act("close") }, first, dialog, signal: new AbortController().signal });
   const press = (key, code, more = {}) => {
     let prevented = false;
     const target = { tagName: "DIV", matches: () => true };
@@ -64,6 +65,18 @@ test("driving comes first, and a key is let go whatever has the focus", () => {
   assert.equal(press(" ", "Space", { target: button, type: "keyup" }), false);
   assert.deepEqual(seen, ["keydown", "keyup"]);
   assert.deepEqual(done, []);
+});
+
+test("while the list of keys is open only its own keys act, and keys of driving are let go", () => {
+  const seen = [];
+  const dialog = /** @type {any} */ ({ open: true });
+  const { done, press } = listening(({ code, type }) => code === "KeyW" && seen.push(type) > 0, dialog);
+  for (const type of ["keydown", "keyup"]) assert.equal(press("w", "KeyW", { type }), false);
+  assert.equal(press("e", "KeyE"), false);
+  press("Escape", "Escape");
+  dialog.open = false;
+  press("e", "KeyE");
+  assert.deepEqual([seen, done], [["keyup"], ["close", "loop"]]);
 });
 
 test("no letter or digit means two things, in whatever pages, and no page has a key twice", () => {

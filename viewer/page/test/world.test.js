@@ -38,7 +38,8 @@ test("pieces cover every cell once, at each coarseness, and face up", () => {
   let area = 0;
   for (const part of list) {
     const { positions, base, parts: [{ levels }] } = pieceParts([part], field); // prettier-ignore
-    for (const { triangles, error } of levels) {
+    for (const { triangles, count, error } of levels) {
+      assert.equal(count, triangles.length / 3);
       let sum = 0;
       for (let t = 0; t < triangles.length; t += 3) {
         const [a, b, c] = [0, 1, 2].map((k) => positions.subarray(3 * triangles[t + k], 3 * triangles[t + k] + 3));

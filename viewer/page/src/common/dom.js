@@ -54,6 +54,12 @@ export function select(data, title, options, action, value) {
     action(element.value);
     if (!element.matches(":focus-visible")) element.blur();
   });
+  // In a closed list these keys would choose each option that they pass; on macOS they open it too.
+  element.addEventListener("keydown", (event) => {
+    if (!/^(Arrow|Page|Home|End)/.test(event.key) || !element.showPicker) return;
+    event.preventDefault();
+    element.showPicker();
+  });
   return element;
 }
 

@@ -4,14 +4,17 @@ import { actOf } from "./key_table.js";
 /** Whether the focus was moved by the keyboard; a clicked check box does not take keys. */
 let focusedByKeyboard = false;
 
+/** Actions of the list of keys. */
+const DIALOG_ACTS = ["help", "close"];
+
 /**
  * Whether an element needs a key itself.
  * @param {Partial<HTMLInputElement>} target
  * @param {string} key - As in `KeyboardEvent.key`.
  * @param {boolean} byKeyboard - Whether the keyboard has moved the focus to it.
  */
-export function needed({ tagName, type, isContentEditable }, key, byKeyboard) {
-  if (key === "Escape") return type === "search"; // which it empties
+export function needed({ tagName, type, value, isContentEditable }, key, byKeyboard) {
+  if (key === "Escape") return type === "search" && Boolean(value); // which it empties
   if (tagName === "SELECT" || tagName === "TEXTAREA" || isContentEditable) return true;
   if (tagName === "INPUT" && /^(number|text|search)$/.test(type)) return true;
   if (!byKeyboard) return false;
@@ -42,18 +45,21 @@ export function show(part, open, opener) {
  * @param {Object<string, (event: KeyboardEvent) => void>} options.acts - Actions by their names in the table of keys.
  * @param {(event: KeyboardEvent) => boolean} [options.first] - Handles key events of driving, those of release with
  *   any focus; returns whether it did.
+ * @param {HTMLDialogElement} [options.dialog] - The list of keys; while it is open only its own actions are done.
  * @param {AbortSignal} options.signal
  */
-export function keys({ acts, first = () => false, signal }) {
+export function keys({ acts, first = () => false, dialog, signal }) {
   const noteFocus = ({ target }) => (focusedByKeyboard = target.matches?.(":focus-visible") ?? false);
   const listener = (/** @type {KeyboardEvent} */ event) => {
     const down = event.type === "keydown";
     const { key, code, ctrlKey, altKey, metaKey, repeat } = event;
     const isNeeded = needed(/** @type {HTMLElement} */ (event.target), key, focusedByKeyboard);
-    if (down && (isNeeded || ctrlKey || altKey || metaKey)) return; // releases are handled in any case
+    const name = actOf(event, acts);
+    const isBehind = dialog?.open && !DIALOG_ACTS.includes(name);
+    if (down && (isNeeded || isBehind || ctrlKey || altKey || metaKey)) return; // releases are handled in any case
     const driven = first(event);
-    const act = acts[actOf(event, acts)];
-    if (isNeeded || !(driven || act)) return;
+    const act = acts[name];
+    if (isNeeded || isBehind || !(driven || act)) return;
     event.preventDefault();
     if (down && !driven && (!repeat || code.startsWith("Arrow"))) act(event);
   };

@@ -1,5 +1,6 @@
 // Notices over pictures of all pages: current states, events, which disappear, and permanent notes.
 import { el } from "./dom.js";
+import { hasKeyboardFocus } from "./keys.js";
 import { styled } from "../styles.js";
 import style from "./notices.css";
 
@@ -13,6 +14,8 @@ const wordsOf = (text) => text.replace(/[\d.]+/g, "");
 export class Notices {
   /** All notes. @type {string[]} */
   noted = [];
+  /** Gets the focus that the keyboard had moved into a state that ends. @type {HTMLElement | undefined} */
+  heir = undefined;
 
   constructor() {
     styled(style);
@@ -39,6 +42,7 @@ export class Notices {
       this._flags.set(name, line);
       this._list.append(box);
     }
+    if (hasKeyboardFocus(line.box)) this.heir?.focus();
     const same = wordsOf(line.text) === wordsOf(text);
     line.text = text;
     line.box.hidden = !text;

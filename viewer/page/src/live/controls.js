@@ -32,25 +32,34 @@ function numberControl(variable, change) {
   const slider = el("input", { type: "range", min: 0, max: POSITIONS, step: range.whole ? "any" : 1, data: "slider" });
   const field = el("input", { type: "number", step: range.whole ? 1 : "any", data: "number" });
   let dragged = false; // the run does not move a dragged slider
-  const show = (value) => {
-    if (dragged || document.activeElement === field) return;
+  const slide = (value) => {
     slider.value = String(POSITIONS * toSlider(range, value));
-    field.value = String(Number(Number(value).toPrecision(6)));
+    slider.setAttribute("aria-valuetext", `${short(value)}${unit}`); // in place of the position
+  };
+  const write = (value) => {
+    field.value = String(value);
+    field.setAttribute("aria-invalid", "false");
+  };
+  const show = (value) => {
+    if (dragged) return;
+    slide(Number(value));
+    if (document.activeElement !== field && field.getAttribute("aria-invalid") !== "true") write(Number(Number(value).toPrecision(6)));
   };
   slider.addEventListener("pointerdown", () => (dragged = true));
   for (const end of ["pointerup", "pointercancel", "change"]) slider.addEventListener(end, () => (dragged = false));
   slider.addEventListener("input", () => {
     const value = fromSlider(range, Number(slider.value) / POSITIONS);
-    field.value = value;
+    slide(value);
+    write(value);
     change(value);
   });
   field.addEventListener("change", () => {
     const value = Number(field.value);
     const { min = -Infinity, max = Infinity } = variable;
     const good = field.value.trim() !== "" && value >= min && value <= max && (!range.whole || Number.isInteger(value));
-    field.classList.toggle("a3-wrong", !good);
+    field.setAttribute("aria-invalid", String(!good));
     if (!good) return;
-    slider.value = String(POSITIONS * toSlider(range, value));
+    slide(value);
     change(value);
   });
   const ends = `${short(range.low)} to ${short(range.high)}${unit}`;

@@ -212,10 +212,7 @@ class Drive extends Shell {
     const roads = Object.keys(first.resources).filter((path) => path.startsWith("roads/")).map((path) => path.slice(6));
     this.parameters = parameterPanel(parameters, { set: (v, value) => this._setSoon(v, value), roads });
     this.sideBox.append(this.inputPanel.element, this.parameters.element);
-    if (this.isCar) {
-      this.viewBox.append(levers(names, want));
-      this.root.classList.toggle("a3-touching", matchMedia("(pointer: coarse)").matches);
-    }
+    if (this.isCar) this.viewBox.append(levers(names, want));
   }
 
   _controls() {

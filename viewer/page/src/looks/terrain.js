@@ -56,7 +56,7 @@ export function terrain(material, axes, field, fineness) {
 
 /**
  * Levels of all parts of all pieces, within the largest number of triangles.
- * @param {{middle: number[], radius: number, levels: {error: number, triangles: ArrayLike<number>}[]}[][]} pieces
+ * @param {{middle: number[], radius: number, levels: {error: number, count: number}[]}[][]} pieces
  * @param {number[]} eye x and y in the world @param {Fineness} fineness
  * @returns {number[][]}
  */
@@ -64,7 +64,7 @@ export function levelsWithin(pieces, eye, { most, least, near, error: first }) {
   const distances = pieces.map((drawn) => drawn.map(({ middle, radius }) => Math.hypot(eye[0] - middle[0], eye[1] - middle[1]) - radius - near));
   for (let error = first; ; error *= ERROR_FACTOR) {
     const chosen = pieces.map((drawn, k) => drawn.map(({ levels }, i) => coarsest(levels, least + error * Math.max(0, distances[k][i]))));
-    const count = pieces.flatMap((drawn, k) => drawn.map(({ levels }, i) => levels[chosen[k][i]].triangles.length / 3));
+    const count = pieces.flatMap((drawn, k) => drawn.map(({ levels }, i) => levels[chosen[k][i]].count));
     if (error > 1 || count.reduce((sum, value) => sum + value, 0) <= most) return chosen;
   }
 }
@@ -74,7 +74,7 @@ function meshOf({ base, positions, normals, parts: drawn }, material) {
   geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
   geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
   geometry.computeBoundingSphere();
-  const finest = drawn.reduce((sum, { levels }) => sum + levels[0].triangles.length, 0);
+  const finest = drawn.reduce((sum, { levels }) => sum + 3 * levels[0].count, 0);
   const index = new THREE.BufferAttribute(new Uint32Array(finest), 1).setUsage(THREE.DynamicDrawUsage);
   geometry.setIndex(index);
   let before = "";

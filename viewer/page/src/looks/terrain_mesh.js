@@ -28,6 +28,11 @@ export function parts(patches, cells) {
   return found;
 }
 
+/**
+ * A level of detail of a part: largest error of heights, m, number of triangles, and their points.
+ * @typedef {{error: number, count: number, triangles: number[]}} Level
+ */
+
 /** Middle of a part. @param {Part} part */
 const middleOf = ({ patch, i0, j0, n, m }) => [
   patch.origin[0] + patch.spacing[0] * (i0 + 0.5 * (n - 1)),
@@ -76,8 +81,7 @@ function divided(cell, points) {
  * @param {Part[]} piece
  * @param {import("./heights.js").HeightField} field for the slopes along the borders
  * @returns {{base: number[], positions: Float32Array, normals: Float32Array,
- *   parts: {middle: number[], radius: number, levels: {error: number, triangles: number[]}[]}[]}} middle: x and y, m;
- *   error: largest error of heights, m
+ *   parts: {middle: number[], radius: number, levels: Level[]}[]}} middle: x and y, m
  */
 export function pieceParts(piece, field) {
   const first = piece[0];
@@ -93,7 +97,7 @@ export function pieceParts(piece, field) {
   const meshes = piece.map((part, k) => {
     const { patch, n, m } = part;
     const strides = STRIDES.filter((stride) => stride === 1 || stride < Math.min(n, m));
-    const levels = strides.map((stride) => ({ error: errorOf(part, stride), triangles: trianglesOf(part, stride, starts[k]) }));
+    const levels = strides.map((stride) => levelOf(part, stride, starts[k]));
     return { middle: middleOf(part), radius: 0.5 * Math.hypot((n - 1) * patch.spacing[0], (m - 1) * patch.spacing[1]), levels };
   });
   return { base, positions, normals, parts: meshes };
@@ -146,6 +150,20 @@ export function strided(n, stride) {
   for (let i = 0; i < n - 1; i += stride) found.push(i);
   found.push(n - 1);
   return found;
+}
+
+/** A level, whose triangles are made on first use: of most levels they are never drawn. @param {Part} part @returns {Level} */
+function levelOf(part, stride, start) {
+  const [rows, columns] = [part.n, part.m].map((n) => Math.ceil((n - 1) / stride));
+  const count = 2 * rows * columns + 4 * (rows + columns); // with the skirts of four sides
+  let triangles;
+  return {
+    error: errorOf(part, stride),
+    count,
+    get triangles() {
+      return (triangles ??= trianglesOf(part, stride, start));
+    },
+  };
 }
 
 function trianglesOf({ n, m }, stride, start) {

@@ -25,7 +25,7 @@ export class Bar {
     for (const end of ["pointerup", "pointercancel", "change"]) this.slide.addEventListener(end, () => (this.held = false));
     this.slide.addEventListener("pointerdown", () => (this.held = true));
     this.slide.addEventListener("input", () => {
-      write(this.clock, this._seconds(Number(this.slide.value)));
+      this._tell(this._seconds(Number(this.slide.value)));
       acts.seek(Number(this.slide.value));
     });
     this.slide.addEventListener("change", () => acts.seek(Number(this.slide.value), true));
@@ -43,6 +43,7 @@ export class Bar {
     const choices = [[size, steps], [place, places], [this.cameras, cameras]].filter(([, list]) => list.length > 1).map(([choice]) => choice); // prettier-ignore
     this.element = el("div.a3-bar", { data: "bar" }, group(...some(LEFT_BUTTONS)), this.slide, this.clock, group(this.rate), group(...choices, ...some(RIGHT_BUTTONS)));
     this.speed(1);
+    if (this.buttons.mute) this.sound(true);
   }
 
   _button(act, words, action) {
@@ -56,6 +57,12 @@ export class Bar {
 
   _seconds(time) {
     return `${time.toFixed(this.digits)} s`;
+  }
+
+  /** Shows a time in words, which a screen reader reads at the slider too. @param {string} words */
+  _tell(words) {
+    write(this.clock, words);
+    this.slide.setAttribute("aria-valuetext", words);
   }
 
   /** Shows a speed, which need not be in the list. @param {number} chosen */
@@ -74,8 +81,13 @@ export class Bar {
 
   /** Shows whether sound is on. @param {boolean} on */
   sound(on) {
-    this.buttons.mute.replaceChildren(icon(on ? "sound" : "silent"));
-    this.buttons.mute.setAttribute("aria-pressed", String(on));
+    this._state("mute", on, on ? "sound" : "silent");
+  }
+
+  /** Shows whether what a button switches is on. @param {string} act @param {boolean} on @param {Parameters<typeof icon>[0]} shown */
+  _state(act, on, shown) {
+    this.buttons[act].replaceChildren(icon(shown));
+    this.buttons[act].setAttribute("aria-pressed", String(on));
   }
 
   /**
@@ -85,16 +97,16 @@ export class Bar {
   show({ running, speed, time, range: [begin, end], grows = false }) {
     const moves = end > begin;
     const { rewind, before, toggle, step } = this.buttons;
-    for (const control of [this.slide, rewind, ...(grows ? [] : [this.rate, before, toggle, step])]) control.disabled = !moves;
-    if (document.activeElement !== this.rate) this.speed(speed);
+    const { activeElement } = document;
+    // A control that is disabled loses the focus.
+    for (const control of [this.slide, rewind, ...(grows ? [] : [this.rate, before, toggle, step])]) control.disabled = !moves && control !== activeElement;
+    if (activeElement !== this.rate) this.speed(speed);
     if (this.held) return;
-    if (document.activeElement !== this.slide || running) {
-      Object.assign(this.slide, { min: String(begin), max: String(Math.max(end, begin + 1e-6)), value: String(time) });
-    }
-    write(this.clock, grows ? this._seconds(time) : `${time.toFixed(this.digits)} / ${this._seconds(end)}`);
+    Object.assign(this.slide, { min: String(begin), max: String(Math.max(end, begin + 1e-6)), value: String(time) });
+    this._tell(grows ? this._seconds(time) : `${time.toFixed(this.digits)} / ${this._seconds(end)}`);
     if (this.shown === running) return;
     this.shown = running;
-    this.buttons.toggle.replaceChildren(icon(running ? "pause" : "play"));
+    this._state("toggle", running, running ? "pause" : "play");
   }
 }
 

@@ -12,7 +12,15 @@ const FONT = "11px system-ui, sans-serif";
 const GRID_STYLE = { stroke: "#8884", width: 1 };
 // A canvas interprets currentColor as black.
 const INK = (/** @type {uPlot} */ plot) => getComputedStyle(plot.root).color;
-const AXIS = { stroke: INK, grid: GRID_STYLE, ticks: GRID_STYLE, font: FONT, labelFont: FONT, labelSize: 16 };
+/** Magnitudes that are written without an exponent. */
+const [SMALL, LARGE] = [1e-3, 1e9];
+const GROUPED = new Intl.NumberFormat("en", { maximumSignificantDigits: 12 }); // uPlot writes at most three decimals
+/** Text of a number at an axis. @param {number} value */
+const tickText = (value) => (value === 0 || (Math.abs(value) >= SMALL && Math.abs(value) < LARGE) ? GROUPED.format(value) : value.toExponential());
+const AXIS = {
+  ...{ stroke: INK, grid: GRID_STYLE, ticks: GRID_STYLE, font: FONT, labelFont: FONT, labelSize: 16 },
+  values: (/** @type {uPlot} */ plot, /** @type {number[]} */ ticks) => ticks.map(tickText),
+};
 const LINE = "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid var(--accent, #8888);pointer-events:none;display:none";
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
 const CURSOR_KEY = "ali3"; // common cursor of all diagrams
@@ -112,7 +120,7 @@ export class Chart {
 
   _legend() {
     const entries = this.curves.map((curve) => {
-      curve.output = el("output");
+      curve.output = el("output", { "aria-live": "off" }); // it changes in each picture
       const dashed = `repeating-linear-gradient(90deg, ${curve.colour} 0 4px, transparent 4px 6px)`;
       const style = `background:${curve.dash.length > 0 ? dashed : curve.colour}`;
       const swatch = el("span.a3-swatch", { style });

@@ -30,8 +30,8 @@ export class Plots {
       type: "search",
       placeholder: `search ${this.names.length} signals`,
       "aria-label": "search signals",
-      oninput: () => this._list(),
-      onfocus: () => this._open(true),
+      oninput: () => (this.list.hidden ? this._open(true) : this._list()),
+      onclick: () => this._open(true), // not at each focus, since the tabulator would then stop at all signals
     });
     this.opener = el("button", { title: "show or hide the list of signals", onclick: () => this._open(this.list.hidden) }, "list");
     this.list = el("div.a3-list", { hidden: true });

@@ -44,6 +44,7 @@ export class Settings {
       this.shown[key] = (value) => {
         shown.textContent = `${Number(value.toPrecision(3))}×`;
         range.value = String(Math.log10(Math.max(value, low)));
+        range.setAttribute("aria-valuetext", shown.textContent); // in place of the logarithm
       };
       this.shown[key](look[key]);
       range.addEventListener("input", () => {

@@ -104,17 +104,19 @@ export class Shell {
       help: () => this.help.toggle(),
       close: () => (this.settings.toggle(false), this.help.toggle(false)),
       "full screen": () => this._fullScreen(),
-      ...(drive ? { levers: () => this.root.classList.toggle("a3-touching"), mute: () => this.mute(!this.muted) } : {}),
+      ...(drive ? { levers: () => this.touch(!this.root.classList.contains("a3-touching")), mute: () => this.mute(!this.muted) } : {}),
       ...more,
     };
     if (source.grows) this.root.dataset.grows = "yes";
     this.bar = new Bar(this.acts, { speeds: source.speeds, cameras: this.cameras, ...bar });
     if (this.cameraName) this.bar.camera(this.cameraName);
     this.foot.append(this.bar.element);
+    this.notices.heir = this.bar.buttons.toggle;
+    if (drive) this.touch(matchMedia("(pointer: coarse)").matches);
     this.settings = new Settings(this.foot, this, source);
     this.help = new Help(Object.keys(this.acts), drive !== undefined);
     this.root.append(this.help.element);
-    keys({ acts: this.acts, first: drive, signal: this.listeners.signal });
+    keys({ acts: this.acts, first: drive, dialog: this.help.element, signal: this.listeners.signal });
   }
 
   /**
@@ -211,6 +213,12 @@ export class Shell {
     const { clientWidth, clientHeight } = this.root;
     this.root.dataset.shape = clientWidth > WIDE_RATIO * clientHeight ? "wide" : "tall";
     this.dirty = true;
+  }
+
+  /** Shows or hides the levers for fingers. @param {boolean} on */
+  touch(on) {
+    this.root.classList.toggle("a3-touching", on);
+    this.bar.buttons.levers.setAttribute("aria-pressed", String(on));
   }
 
   /** Switches the sound on or off in the bar; derived classes do so for the sound itself. @param {boolean} on */

@@ -164,14 +164,10 @@ export class Session {
     return true;
   }
 
-  /** Start values of the run that differ from those of the FMU, by name. */
-  changed() {
-    return Object.entries(this.start).filter(([name, value]) => value !== this.variables.get(name)?.start);
-  }
-
   /** The run as a table; see `Record.csv`. @returns {string[]} */
   csv() {
-    const changed = this.changed().map(([name, value]) => `${name}=${typeof value === "string" ? `"${value}"` : value}`);
+    const differing = Object.entries(this.start).filter(([name, value]) => value !== this.variables.get(name)?.start);
+    const changed = differing.map(([name, value]) => `${name}=${typeof value === "string" ? `"${value}"` : value}`);
     const inputs = this.held.filter((v) => v.causality === "input").map((v) => v.name);
     const tuned = this.held.filter((v) => v.causality !== "input" && this._tuned.has(v.name)).map((v) => v.name);
     const { record } = this;

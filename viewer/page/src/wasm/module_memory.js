@@ -52,16 +52,7 @@ export class ModuleMemory {
   }
 
   /**
-   * Allocates a block with a text that ends with a zero.
-   * @param {string} text
-   * @returns {number} its address
-   */
-  blockOfText(text) {
-    return this.blockOf(encoder.encode(`${text}\0`));
-  }
-
-  /**
-   * Calls `work` with blocks for texts, and frees them afterwards.
+   * Calls `work` with blocks for texts, each ended by a zero, and frees them afterwards.
    * @param {string[]} texts
    * @param {(...addresses: number[]) => T} work takes their addresses
    * @returns {T} what `work` returns
@@ -70,7 +61,7 @@ export class ModuleMemory {
   withTexts(texts, work) {
     const blocks = [];
     try {
-      for (const text of texts) blocks.push(this.blockOfText(text));
+      for (const text of texts) blocks.push(this.blockOf(encoder.encode(`${text}\0`)));
       return work(...blocks);
     } finally {
       for (const block of blocks) this.free(block);

@@ -23,19 +23,19 @@ export function leafTexture() {
   for (let leaf = 0; leaf < LEAVES; leaf++) {
     const [angle, distance] = [2 * Math.PI * next(), Math.sqrt(next())];
     const middle = [Math.cos(angle), Math.sin(angle)].map((part) => 0.5 * SIDE + RADIUS * SIDE * distance * part);
-    const length = SHORTEST + (LONGEST - SHORTEST) * next();
-    drawLeaf(pixels, middle, length, 2 * Math.PI * next(), DARKEST + (1 - DARKEST) * next(), next());
+    const halfLength = SHORTEST + (LONGEST - SHORTEST) * next();
+    drawLeaf(pixels, middle, halfLength, 2 * Math.PI * next(), DARKEST + (1 - DARKEST) * next(), next());
   }
   return Object.assign(smoothTexture(pixels, SIDE, SIDE, 1), { colorSpace: THREE.SRGBColorSpace });
 }
 
-/** Draws a leaf. @param {Uint8Array} pixels @param {number[]} middle pixels @param {number} length half of it, pixels
+/** Draws a leaf. @param {Uint8Array} pixels @param {number[]} middle pixels @param {number} halfLength pixels; half the width is half of it
  * @param {number} turn rad @param {number} shade brightness, 0 to 1 @param {number} yellow 0 for green to 1 for yellow */
-function drawLeaf(pixels, [mx, my], length, turn, shade, yellow) {
+function drawLeaf(pixels, [mx, my], halfLength, turn, shade, yellow) {
   const [c, s] = [Math.cos(turn), Math.sin(turn)];
   for (let dy = -LONGEST; dy <= LONGEST; dy++) {
     for (let dx = -LONGEST; dx <= LONGEST; dx++) {
-      const [u, v] = [(c * dx + s * dy) / length, (c * dy - s * dx) / (0.5 * length)];
+      const [u, v] = [(c * dx + s * dy) / halfLength, (c * dy - s * dx) / (0.5 * halfLength)];
       const [x, y] = [Math.round(mx + dx), Math.round(my + dy)];
       if (u * u + v * v > 1 || x < 0 || y < 0 || x >= SIDE || y >= SIDE) continue;
       const lit = shade * (1 - 0.2 * Math.abs(v));
