@@ -67,9 +67,7 @@ def _fidelity(options: Namespace) -> list[dict[str, Any]]:
 
 
 def _references(options: Namespace) -> None:
-    car, whole = _car(options), len(options.only) == len(manoeuvres.NAMES)
-    if whole and not options.keep_replay:
-        trajectories.write_replay(car)
+    car = _car(options)
     print("\n".join([trajectories.write(name, car) for name in watched(options.only)]))
 
 
@@ -145,7 +143,7 @@ PARTS = {
         "write reference trajectories of a car, in steps of 0.1 ms; each file has the differences of larger steps",
         _references,
         names=manoeuvres.NAMES,
-        options=ONE_CAR | {"keep_replay": (False, "do not drive the double lane change again")},
+        options=ONE_CAR,
         rows=False,
     ),
     "fidelity-references": Part(
