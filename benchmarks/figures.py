@@ -7,7 +7,6 @@ themselves; this one writes these charts, and tables that no other command makes
 """
 
 import argparse
-import json
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -22,15 +21,12 @@ from benchmarks.car import (
     fidelity,
     frame_tables,
     road_faces,
-    sampled_roads,
-    scene_instructions,
     tabled_cars,
     variable_tables,
 )
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_rows, measure_table
-from benchmarks.methods import honesty, stability, stability_margins, unreduced_models
-from benchmarks.methods.start_values import start_value_table
+from benchmarks.methods import honesty, stability, stability_margins
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.pictures.chart_commands import charts
 from benchmarks.shared.coarse_runs import expected_errors
@@ -162,13 +158,11 @@ def road_step_tables() -> list[RemadeTable]:
     ]
 
 
-def instruction_table() -> list[RemadeTable]:
-    """The table of instructions, from the file with which `benchmarks.cost` compares steps."""
-    rows = json.loads(scene_instructions.STORED.read_text(encoding="utf-8"))["rows"]
-    block = scene_instructions.instruction_blocks(rows)["instructions"]
-    step = next(row["instructions"] for row in rows_of(block) if row["scene"] == "double four-bar")
-    sentence = RemadeTable(PAPER, f"A step at 0.03 s takes {step} instructions")
-    return [RemadeTable(SPEED, block, "instructions", ("scene", "step, ms")), sentence]
+def instruction_sentence() -> list[RemadeTable]:
+    """The sentence on the double four-bar, from the table of instructions."""
+    rows = rows_of(between(read(SPEED), "instructions"))
+    step = next(row["instructions"] for row in rows if row["scene"] == "double four-bar")
+    return [RemadeTable(PAPER, f"A step at 0.03 s takes {step} instructions")]
 
 
 def output_count() -> list[RemadeTable]:
@@ -255,23 +249,6 @@ def hatchback_kerb_table(whole: bool) -> list[RemadeTable]:
     ]
 
 
-def open_crg_table(whole: bool) -> list[RemadeTable]:
-    """Deviations of grids from OpenCRG files; if `whole` with all spacings."""
-    spacings = sampled_roads.SPACINGS[: None if whole else 2]
-    return [RemadeTable("docs/roads.md", sampled_roads.sampled_table(spacings), "crg", ("file", "spacing, m"))]
-
-
-def naive_size_table() -> list[RemadeTable]:
-    """Sizes of models without reduced coordinates and constraints."""
-    text = unreduced_models.size_table([unreduced_models.sizes_of(scene)[0] for scene in unreduced_models.SCENES])
-    return [RemadeTable("docs/flexible_car.md", text, "naive", ("scene",))]
-
-
-def start_value_tables(_: bool) -> list[RemadeTable]:
-    """Newton iterations by start value of a step."""
-    return [RemadeTable("docs/theory.md", start_value_table(), "start value", ("scene", "h, s"))]
-
-
 def chosen_fidelity_table() -> list[RemadeTable]:
     """Errors of the fidelities that the page on the flexible car chooses; `benchmarks.car` writes the table."""
     page = "docs/flexible_car.md"
@@ -289,13 +266,10 @@ WRITTEN_TABLES: dict[str, Callable[[bool], list[RemadeTable]]] = {
     "charts": charts,
     "elements": finite_element_tables,
     "flexible hatchback": hatchback_kerb_table,
-    "crg": open_crg_table,
-    "start values": start_value_tables,
 }
 """Charts, and tables that no other command writes: whole with ``--write``, otherwise quick parts of them."""
 COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
     "bending": assembly_defect_table,
-    "naive": naive_size_table,
     "Table 1": four_bar_table,
     "Table 2": puma_table,
     "stability": stability_margin_table,
@@ -309,7 +283,7 @@ COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
     "cheapest fidelity": chosen_fidelity_table,
     "tests of others": published_test_table,
     "roads": road_step_tables,
-    "instructions": instruction_table,
+    "instructions": instruction_sentence,
     "outputs": output_count,
     "trust page": trust_sentences,
     "README": readme_sentences,

@@ -10,34 +10,23 @@ from typing import Any
 
 import fmpy
 
-from benchmarks.car import fmu_calls, held_inputs, manoeuvres, wasm_times
+from benchmarks.car import fmu_calls, wasm_times
 from benchmarks.methods import studies
-from benchmarks.methods.study_pages import study_blocks
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
-
-KINDS = ("native", "python")
 
 
 def _calls(options: Namespace) -> list[dict[str, Any]]:
     name, system = load_scene(options.scene)
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        for kind in watched(list(KINDS)):
+        for kind in watched(fmu_calls.KINDS):
             fmu = build_fmu(system, name, Path(folder), [fmpy.platform], kind=kind)
             counts = options.steps, min(options.repeats, 64), options.instances
             rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *counts)
     return rows
-
-
-def _held(options: Namespace) -> list[dict[str, Any]]:
-    system = manoeuvres.system_of("drop")
-    kinds = dict.fromkeys(kind for kind, *_ in held_inputs.INTERPOLATIONS.values())
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        fmus = {kind: build_fmu(system, "car", Path(folder), [fmpy.platform], kind=kind) for kind in watched([*kinds])}
-        return held_inputs.measure(fmus, options.only)
 
 
 def _plant(options: Namespace) -> list[dict[str, Any]]:
@@ -55,7 +44,7 @@ def _plant_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 PARTS = {
     "calls": Part(
-        "calls of the native FMU and of the FMU of PythonFMU, from C and through FMPy",
+        "calls of the native FMU and of the FMU of PythonFMU, from C",
         _calls,
         options={
             "scene": ("prototype_car", "car or scene, as for ali3 build"),
@@ -88,21 +77,13 @@ PARTS = {
         pages=("stepping.md",),
         blocks=_plant_blocks,
     ),
-    "held": Part(
-        "errors over the communication step: inputs held, on derivatives, asked for within steps",
-        _held,
-        names=held_inputs.MANOEUVRES,
-        pages=("fmu.md",),
-        blocks=held_inputs.blocks,
-        chart=held_inputs.draw,
-    ),
     "study": Part(
-        "what Dask takes beside runs of about 0.1 s; memory, disk and starts as runs grow in number (extra `study`)",
+        "what Dask takes beside runs of about 0.1 s; memory and disk as runs grow in number (extra `study`)",
         studies.measure,
         names=studies.PARTS,
         options=studies.OPTIONS,
         pages=("scale.md",),
-        blocks=study_blocks,
+        blocks=studies.study_blocks,
     ),
 }
 

@@ -89,7 +89,7 @@ PARTS = {
         blocks=accuracy.page_blocks,
     ),
     "cars": Part(
-        "one table of all cars with steps of 5 ms; rows of other cars are those that are stored",
+        "one table of all cars with steps of 5 ms",
         lambda options: all_cars.measure(options.only, options.repeats),
         names=manoeuvres.CARS,
         options=REPEATS,

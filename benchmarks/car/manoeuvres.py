@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.shared.tables import read_csv
-from benchmarks.shared.timing import step_time
 from hosts.driving.driver import make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulate
 from mbs.elements.road import GridRoad
 from mbs.settings.input_signals import Signal
+from mbs.simulation.step_time import step_time
 from mbs.vehicle import load as load_car
 
 Column: TypeAlias = NDArray[np.float64]

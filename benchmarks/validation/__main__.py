@@ -18,7 +18,7 @@ import numpy as np
 from ali3.errors import UserError
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import DOCS, Row, table
-from benchmarks.validation import margins, omitted_seconds, published_tests, two_track
+from benchmarks.validation import omitted_seconds, published_tests, two_track
 from benchmarks.validation.bank import bank_of, write_banked
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
@@ -259,13 +259,6 @@ PARTS = {
         options=LOGGED | FITTED_PARAMETERS,
         words=lambda rows: table(rows, FIT_COLUMNS),
         check=lambda rows, options: problems(rows),
-    ),
-    "margins": Part(
-        "how near the multibody car is to a spin: starts beside the measured state, more speed",
-        lambda options: margins.margins(options.car, *_log(options), {"step_size": COARSE}),
-        options=LOGGED,
-        pages=(PAGE,),
-        blocks=lambda rows: {"margins": table(rows, margins.COLUMNS)},
     ),
     "kinds": Part(
         "what models predict for kinds of seconds that are left out: corners, speeds, accelerations",
