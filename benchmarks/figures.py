@@ -88,25 +88,16 @@ def crank_honesty_tables() -> list[RemadeTable]:
 
 def trust_tables() -> list[RemadeTable]:
     """Tables of the page on trust."""
-    keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",), "acceleration": ("manoeuvre", "h s")}
+    keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",)}
     blocks = error_limits.trust_blocks(error_limits.measure())
     return [RemadeTable("docs/trust.md", blocks[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
 
 
 def car_error_tables() -> list[RemadeTable]:
-    """Errors of the kernel in three manoeuvres of the prototype and two of the hatchback."""
-    rows = [
-        accuracy.measure(name, 0.01, None, 1)
-        for name in ("step_steer_given_throttle", "double_lane_change_replay", "drop")
-    ]
-    hatchback = [
-        accuracy.measure(name, 0.005, None, 1, "hatchback") for name in ("step_steer_given_throttle", "full_lock")
-    ]
-    keys = ("manoeuvre", "h, ms")
-    return [
-        RemadeTable(SPEED, accuracy.car_blocks(rows)["car"], "car", keys, accuracy.HELD),
-        RemadeTable("docs/cars.md", accuracy.error_table(hatchback), "hatchback", keys, accuracy.TIMES),
-    ]
+    """Errors of the kernel in three manoeuvres of the prototype."""
+    names = "step_steer_given_throttle", "double_lane_change_replay", "drop"
+    rows = [accuracy.measure(name, 0.01, None, 1) for name in names]
+    return [RemadeTable(SPEED, accuracy.car_blocks(rows)["car"], "car", ("manoeuvre", "h, ms"))]
 
 
 def handling_table() -> list[RemadeTable]:
@@ -175,16 +166,16 @@ def output_count() -> list[RemadeTable]:
 def trust_sentences() -> list[RemadeTable]:
     """Sentences of the page on trust, from its tables and tables of other pages."""
     page, column = "docs/trust.md", "10 ms"
-    kerb, hard, period = (
-        rows_of(between(read(page), f"trust {name}")) for name in ("kerb", "acceleration", "frequency")
-    )
-    coarse_rows = [row for row in hard if row["h s"] == "0.01"]
-    path, load, fastest = (max(float(r[c]) for r in coarse_rows) for c in ("path error", "load error", "largest m s2"))
+    kerb, period = (rows_of(between(read(page), f"trust {name}")) for name in ("kerb", "frequency"))
     frequency_error = next(float(row["frequency error"]) for row in period if row["steps in a period"] == "20")
     chosen = rows_of(between(read("docs/flexible_car.md"), "cheapest"))[1:]
     moments = [(r["error"], *r["cheapest fidelity, step"].split(", ")) for r in chosen]
     car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read(SPEED), "car"))}
-    fall = car_rows["drop from 0.5 m", "10"]["path error, of its length; wheel-load error, of the peak"].split(", ")[1]
+    car_errors = {name: row[accuracy.ERROR_COLUMN].split(", ") for (name, h), row in car_rows.items() if h == "10"}
+    fall = car_errors[accuracy.TITLES["drop"]][1]
+    hard = [car_errors[accuracy.TITLES[name]] for name in error_limits.HARD]
+    path, load = (max((errors[k] for errors in hard), key=lambda cell: float(cell.split()[0])) for k in (0, 1))
+    fastest = max(map(error_limits.largest_acceleration, error_limits.HARD))
     held = [r for r in rows_of(between(read("docs/fmu.md"), "held inputs")) if r["h, ms"] == "10"]
     *smooth, worst = (row["FMU, inputs held"].split(", ") for row in held)
     path_held, load_held = (
@@ -192,7 +183,7 @@ def trust_sentences() -> list[RemadeTable]:
     )
     sentences = (
         f"wheel loads to {max(float(row[column]) for row in kerb):.1%} at {column} up to {kerb[-1]['speed m s']} m/s",
-        f"path to {path:.1e} of its length, loads to {load:.1%} at {column}, up to {fastest:.0f} m/s²",
+        f"path to {path} of its length, loads to {load} at {column}, up to {fastest:.0f} m/s²",
         f"20 steps in a period: {frequency_error:.1%} of the frequency",
         f"wheel loads to {fall} at {column}, a fall of 0.5 m",
         ", ".join(f"{error} at fidelity {fidelity} ({step})" for error, fidelity, step in moments),

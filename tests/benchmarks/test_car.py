@@ -40,15 +40,8 @@ def test_rows_and_files(tmp_path, capsys):
     assert "| 8 cm kerb at 5 m/s | 5 |" in capsys.readouterr().out
 
 
-@pytest.mark.slow
-def test_another_car_has_its_own_references(capsys):
-    arguments = ["--car", "hatchback", "--no-fmu", "--repeats", "1", "--only", "step_steer_given_throttle"]
-    assert car.main(["accuracy", *arguments]) == 0
-    assert "hatchback\n\n| manoeuvre |" in capsys.readouterr().out
-
-
 def test_a_car_without_references_is_reported(capsys):
-    assert car.main(["accuracy", "--car", "bus"]) == 2
+    assert car.main(["references", "--car", "bus"]) == 2
     assert "There are no references of a car 'bus'; there are: prototype" in capsys.readouterr().err
 
 
