@@ -71,7 +71,6 @@ COLUMNS = {
     "published": PUBLISHED,
     "curves": {"quantity": "", "ay, g": "+.1f", "seconds": ".1f", "measured": ".2f", "spread": ".2f"},
     "folds": FOLDS,
-    "numbers": {"model": "", "found": "", "starts": ""},
     "notes": {"note": ""},
 }
 
@@ -106,7 +105,6 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
         "published": published_rows(*full_throttle(options.car, {"step_size": STEP})),
         "curves": _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive),
         "folds": _folds(best, refitted),
-        "numbers": _numbers(fits),
         "notes": [{"note": note} for note in car.notes],
     }
     if options.picture is not None:
@@ -117,7 +115,7 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
 
 def _kinds(options: Namespace) -> list[dict[str, Any]]:
     log, aliases = _log(options)
-    models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODELS[1]]
+    models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODELS[0]]
     car = options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS
     return omitted_seconds.rows_of(models, BODY, read_drive(log, aliases), car)
 
@@ -202,19 +200,6 @@ def _row_of_car(name: str, comparison: DriveComparison, numbers: int, drive: Dri
     }
 
 
-def _numbers(fits: Sequence[Fitted]) -> list[dict[str, Any]]:
-    """Rows of the fitted parameters of each simple model, and of the deviation from each start."""
-    return [
-        {
-            "model": f.model.name,
-            "found": ", ".join(f"{u.name} {x:.4g} {u.unit}".rstrip("1").rstrip() for u, x in _unknowns_with_values(f)),
-            "starts": ", ".join(f"{x:.4f}" for x in sorted(f.deviations)),
-        }
-        for f in fits
-        if len(f.numbers)
-    ]
-
-
 def _unknowns_with_values(f: Fitted) -> list[tuple[Any, float]]:
     return list(zip(f.model.unknowns, f.numbers.tolist(), strict=True))
 
@@ -225,9 +210,7 @@ def blocks(rows: Sequence[Row]) -> dict[str, str]:
         name: [{k: v for k, v in r.items() if k != "table"} for r in rows if r["table"] == name] for name in COLUMNS
     }
     form = COLUMNS["curves"] | dict.fromkeys(list(rows_of["curves"][0])[5:], ".2f")
-    tables = {
-        name: table(rows_of[name], COLUMNS[name]) for name in ("models", "parts", "published", "folds", "numbers")
-    }
+    tables = {name: table(rows_of[name], COLUMNS[name]) for name in ("models", "parts", "published", "folds")}
     notes = "\n".join(f"- {row['note']}" for row in rows_of["notes"])
     return tables | {"curves": table(rows_of["curves"], form), "notes": notes}
 

@@ -27,7 +27,6 @@ def simulate(
     steer, vx, ax = drive.steer[rows], drive.vx[rows], drive.ax[rows]
     bank = drive.bank[rows] if model.bank else np.zeros(rows.shape)
     p = {u.name: numbers[:, k, None] for k, u in enumerate(model.unknowns)}
-    locked = 0.0 if model.open else 1.0
     static_loads = body.mass * G / body.wheelbase / 2.0 * np.array([body.rear, body.front])
 
     def change(k: int, vy: Array, r: Array) -> tuple[Array, Array]:
@@ -53,7 +52,7 @@ def simulate(
                 fy = -max_force * root(stiffness * slip / max_force)
                 fx = 0.5 * fraction * brake * (1.0 + side * p["brake side"])
                 if axle == "rear":
-                    fx = fx + 0.5 * pull * (1.0 + locked * (2.0 * load / (loads[0] + loads[1]) - 1.0))
+                    fx = fx + pull * load / (loads[0] + loads[1])
                 to_left, forward = fy * np.cos(angle) + fx * np.sin(angle), fx * np.cos(angle) - fy * np.sin(angle)
                 across = across + to_left
                 turning = turning + x * to_left - y * forward
@@ -71,7 +70,6 @@ _NUMBERS = (
     Unknown("exponent of stiffness", "1", 0.0, 1.2),
 )
 MODELS = (
-    Model("two tracks, open differential, brakes to the side", _NUMBERS, simulate=simulate, open=True),
     Model("two tracks, drive by load, brakes to the side", _NUMBERS, simulate=simulate),
     Model("the same and bank by place", _NUMBERS, simulate=simulate, bank=True),
 )
