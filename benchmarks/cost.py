@@ -41,12 +41,8 @@ def _generated(options: Namespace) -> list[dict[str, Any]]:
 
 
 def _growth(options: Namespace) -> list[dict[str, Any]]:
-    windows, modes = (
-        (cost_growth.WINDOWS[:5], cost_growth.MODES[:2]) if options.quick else (cost_growth.WINDOWS, cost_growth.MODES)
-    )
-    repeats = 1 if options.quick else options.repeats
-    rows = [{"table": "windows", **row} for row in cost_growth.measure(windows, repeats)]
-    return rows + [{"table": "chassis", **row} for row in cost_growth.chassis(modes, repeats)]
+    windows = cost_growth.WINDOWS[:5] if options.quick else cost_growth.WINDOWS
+    return cost_growth.measure(windows, 1 if options.quick else options.repeats)
 
 
 def _throughput(options: Namespace) -> list[dict[str, Any]]:
@@ -88,7 +84,7 @@ PARTS = {
         blocks=generated_code.blocks,
     ),
     "growth": Part(
-        "time, memory and non-zeros of the N-four-bar by N and of the car's frame by its modes, with exponents",
+        "time, memory and non-zeros of the N-four-bar by N, with exponents",
         _growth,
         options={"quick": (False, "N up to 20, one repeat"), "repeats": (cost_growth.REPEATS, "timed runs of a row")},
         pages=("speed_and_accuracy.md",),
