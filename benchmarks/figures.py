@@ -213,7 +213,6 @@ def finite_element_tables(whole: bool) -> list[RemadeTable]:
     """Mass models and modes of the prototype's frame; if `whole`, also CalculiX beside two beam theories."""
     page, frame = "docs/finite_elements.md", frame_tables
     remade_tables = [
-        RemadeTable(page, frame.mass_table(), "masses", ("mass, no rotary inertia",)),
         RemadeTable(page, frame.modes_table(), "modes", ("modes",)),
     ]
     return (

@@ -6,7 +6,7 @@ from benchmarks.car import manoeuvres
 from benchmarks.car.manoeuvres import Column
 from benchmarks.shared.tables import read_csv, write_csv
 from hosts.common.wheels import WHEELS
-from mbs import Settings, Trajectory
+from mbs import Settings
 from mbs.vehicle.levels.errors import LOADS, POSITION, load_error, path_error
 
 STEP = 1e-4  # s
@@ -41,24 +41,6 @@ def read(name: str, car: str = manoeuvres.PROTOTYPE) -> tuple[Column, dict[str, 
     head, values = read_csv(manoeuvres.reference_file(name, car))
     length = float(next(line for line in head if line.startswith("# path_length_m:")).partition(":")[2])
     return values.pop("time"), values, length
-
-
-def load_error_in_time(trajectory: Trajectory, fine: Trajectory, late: float) -> float:
-    """Largest wheel-load error divided by the largest load, each load against all loads of a fine run up to `late` s
-    before and after.
-    """
-    peak, times = max(float(fine[s].max()) for s in LOADS), np.linspace(-late, late, 11)
-    return (
-        max(
-            float(
-                np.min(
-                    [np.abs(trajectory[s] - np.interp(trajectory.t + by, fine.t, fine[s])) for by in times], axis=0
-                ).max()
-            )
-            for s in LOADS
-        )
-        / peak
-    )
 
 
 def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:

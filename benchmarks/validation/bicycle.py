@@ -59,8 +59,6 @@ class Model:
     """
     simulate: Callable[..., tuple[Array, Array]] | None = None
     """Replaces the `simulate` of a bicycle."""
-    bank: bool = False
-    """Whether a model with its own `simulate` includes the bank of the road."""
 
     @property
     def moves_across(self) -> bool:

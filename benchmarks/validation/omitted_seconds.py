@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.shared.command import watched
-from benchmarks.validation.bank import PIECE, distance_and_lap, pieces
 from benchmarks.validation.bicycle import Body, Model
 from benchmarks.validation.drive import LENGTH, Array, Drive, Spans
 from benchmarks.validation.fitting import SCALES, Windows, begins, fit
+from benchmarks.validation.laps import PIECE, distance_and_lap, pieces
 from benchmarks.validation.multibody import LATERAL, YAW, task_of
 from benchmarks.validation.refit import read_ranges
 from hosts.compare.cross_validation import Parts, left_out_residuals

@@ -25,7 +25,6 @@ def simulate(
     """
     rows = begins[:, None] + np.arange(steps + 1)
     steer, vx, ax = drive.steer[rows], drive.vx[rows], drive.ax[rows]
-    bank = drive.bank[rows] if model.bank else np.zeros(rows.shape)
     p = {u.name: numbers[:, k, None] for k, u in enumerate(model.unknowns)}
     static_loads = body.mass * G / body.wheelbase / 2.0 * np.array([body.rear, body.front])
 
@@ -34,7 +33,7 @@ def simulate(
         along = body.mass * a + 0.5 * AIR * body.drag_area * v**2
         brake, pull = np.minimum(along, 0.0), np.maximum(along, 0.0)
         longitudinal_transfer = body.mass * a * HEIGHT / body.wheelbase / 2.0
-        lateral_transfer = body.mass * (r * v - bank[:, k]) * HEIGHT / TRACK / 2.0
+        lateral_transfer = body.mass * r * v * HEIGHT / TRACK / 2.0
         across, turning = np.zeros_like(vy), np.zeros_like(vy)
         for axle, x, sign in (("front", body.front, -1.0), ("rear", -body.rear, 1.0)):
             at_rest = static_loads[0 if sign < 0.0 else 1]
@@ -57,7 +56,7 @@ def simulate(
                 across = across + to_left
                 turning = turning + x * to_left - y * forward
         inertia = body.yaw_inertia * p["yaw inertia factor"]
-        return across / body.mass - v * r + bank[:, k], turning / inertia
+        return across / body.mass - v * r, turning / inertia
 
     return heun(change, drive, begins, steps, len(numbers))
 
@@ -69,7 +68,4 @@ _NUMBERS = (
     Unknown("brake side", "1", -0.5, 0.5),
     Unknown("exponent of stiffness", "1", 0.0, 1.2),
 )
-MODELS = (
-    Model("two tracks, drive by load, brakes to the side", _NUMBERS, simulate=simulate),
-    Model("the same and bank by place", _NUMBERS, simulate=simulate, bank=True),
-)
+MODEL = Model("two tracks, drive by load, brakes to the side", _NUMBERS, simulate=simulate)
