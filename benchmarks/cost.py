@@ -21,12 +21,12 @@ def _chosen(options: Namespace) -> list[scene_instructions.Scene]:
 
 def _instructions(options: Namespace) -> list[dict[str, Any]]:
     with tempfile.TemporaryDirectory() as folder:
-        program = scene_instructions.compiled(Path(folder))
+        program = scene_instructions.compile_program(Path(folder))
         return [scene_instructions.measure(scene, program, Path(folder)) for scene in watched(_chosen(options))]
 
 
 def _dearer(rows: Sequence[Row], options: Namespace) -> list[str]:
-    return scene_instructions.compared(rows, read(scene_instructions.PAGE)) if options.compare else []
+    return scene_instructions.compare_with_page(rows, read(scene_instructions.PAGE)) if options.compare else []
 
 
 def _turns(options: Namespace) -> list[dict[str, Any]]:

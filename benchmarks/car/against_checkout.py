@@ -11,7 +11,7 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from benchmarks.car import scene_instructions
-from benchmarks.car.scene_instructions import SOURCE, Scene, instructions
+from benchmarks.car.scene_instructions import SOURCE, Scene, count_instructions
 from benchmarks.shared.command import watched
 from mbs.kernel import build
 
@@ -139,6 +139,6 @@ def row_of(scene: Scene, both: Sequence[Side], steps: int, rounds: int, repeats:
         }
     if counted:
         for name, command, code in both:
-            total, start = (instructions([*command[:5], n, "1", *code]) for n in (str(steps), "0"))
+            total, start = (count_instructions([*command[:5], n, "1", *code]) for n in (str(steps), "0"))
             row[f"instructions {name}"] = None if total is None or start is None else round((total - start) / steps)
     return row

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.car import accuracy, manoeuvres, trajectories
-from benchmarks.car.scene_instructions import Scene, compiled
+from benchmarks.car.scene_instructions import Scene, compile_program
 from benchmarks.car.scene_instructions import measure as count
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
@@ -23,7 +23,7 @@ COUNTED = 500  # steps whose instructions are counted
 def measure(cars: Sequence[str], repeats: int) -> list[dict[str, Any]]:
     """A row for each car."""
     with tempfile.TemporaryDirectory() as folder:
-        program = compiled(Path(folder))
+        program = compile_program(Path(folder))
         return [row_of(car, repeats, program, Path(folder)) for car in watched(cars)]
 
 

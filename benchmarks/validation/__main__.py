@@ -104,7 +104,7 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
 def _kinds(options: Namespace) -> list[dict[str, Any]]:
     log, aliases = _log(options)
     models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODEL]
-    car = options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS
+    car = omitted_seconds.CarTask(options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS)
     return omitted_seconds.rows_of(models, BODY, read_drive(log, aliases), car)
 
 

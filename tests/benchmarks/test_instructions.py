@@ -6,7 +6,7 @@ import pytest
 
 from benchmarks import cost
 from benchmarks.car import scene_instructions
-from benchmarks.car.scene_instructions import counter
+from benchmarks.car.scene_instructions import find_valgrind
 from benchmarks.shared.figures import between, read, rows_of
 from mbs import simulate
 from tests.unoptimised import unoptimised
@@ -16,9 +16,9 @@ from tests.unoptimised import unoptimised
 @unoptimised()
 def test_counts_are_those_of_a_run_and_a_dearer_step_is_reported(tmp_path, capsys, monkeypatch):
     scene = scene_instructions.SCENES[0]._replace(steps=20)
-    program = scene_instructions.compiled(tmp_path)
+    program = scene_instructions.compile_program(tmp_path)
     monkeypatch.setattr(scene_instructions, "SCENES", [scene])
-    monkeypatch.setattr(scene_instructions, "compiled", lambda folder: program)
+    monkeypatch.setattr(scene_instructions, "compile_program", lambda folder: program)
     table = tmp_path / "table.json"
     assert cost.main(["instructions", "--json", str(table)]) == 0
     stored = json.loads(table.read_text("utf-8"))
@@ -26,8 +26,8 @@ def test_counts_are_those_of_a_run_and_a_dearer_step_is_reported(tmp_path, capsy
     run = simulate(scene.system(), scene.steps * scene.step, scene.step, progress=False, estimate_error=False).report
     assert run is not None
     assert row["iterations"] == pytest.approx(run.iterations / scene.steps)
-    assert (row["instructions"] is None) == (counter() is None)
-    what = "factorizations" if counter() is None else "instructions"
+    assert (row["instructions"] is None) == (find_valgrind() is None)
+    what = "factorizations" if find_valgrind() is None else "instructions"
     for ratio, exit_code in ((1.02, 0), (1.05, 1)):
         page = scene_instructions.instruction_blocks([row | {what: row[what] / ratio}])["instructions"]
         text = f"<!-- begin instructions -->\n{page}\n<!-- end instructions -->"

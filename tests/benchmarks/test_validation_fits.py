@@ -24,7 +24,7 @@ def laps() -> Drive:
 
 def test_seconds_are_distinguished_by_corner_speed_and_acceleration() -> None:
     drive = laps()
-    actual = omitted_seconds.families(drive)
+    actual = omitted_seconds.divide_seconds(drive)
     corners = actual["corners"]
     assert [name.startswith("corner at") for name in corners.names] == [True, True]
     left, right = (np.flatnonzero(drive.yaw_rate * side > 0.0) for side in (1.0, -1.0))
