@@ -142,12 +142,12 @@ def test_written_sentences_are_wrapped_and_tables_are_not():
 
 
 @pytest.mark.slow
-def test_growth_finds_the_non_zeros_linear(tmp_path):
+def test_growth_fits_exponents_and_draws(tmp_path):
     files = ["--json", str(tmp_path / "g.json"), "--chart", str(tmp_path / "growth.png")]
     assert cost.main(["growth", "--quick", *files]) == 0
     _, rows = read(tmp_path / "g.json")
-    first = [row for row in rows if row["method"] == "ali3p"]
-    assert 0.8 < cost_growth.exponents(first)["factor_nonzeros"] < 1.1
+    known = [{"N": n, **dict.fromkeys(cost_growth.EXPONENTS, 3.0 * n**1.5)} for n in (10, 20, 50)]
+    assert cost_growth.exponents(known) == pytest.approx(dict.fromkeys(cost_growth.EXPONENTS, 1.5))
     assert {"growth", "exponents"} == set(cost_growth.growth_blocks(rows))
     assert (tmp_path / "growth.png").read_bytes().startswith(PNG)
 

@@ -29,7 +29,7 @@ def test_counts_are_those_of_a_run_and_a_dearer_step_is_reported(tmp_path, capsy
     assert (row["instructions"] is None) == (find_valgrind() is None)
     what = "factorizations" if find_valgrind() is None else "instructions"
     for ratio, exit_code in ((1.02, 0), (1.05, 1)):
-        page = scene_instructions.instruction_blocks([row | {what: row[what] / ratio}])["instructions"]
+        page = scene_instructions.instruction_blocks([row | {what: type(row[what])(row[what] / ratio)}])["instructions"]
         text = f"<!-- begin instructions -->\n{page}\n<!-- end instructions -->"
         monkeypatch.setattr(cost, "read", lambda _, text=text: text)
         capsys.readouterr()
