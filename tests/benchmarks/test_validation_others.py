@@ -79,3 +79,8 @@ def test_the_rows_of_another_program_have_its_sources_and_fail_where_it_differs(
     assert min(roll) > 4.0
     yaw = [v for (f, _), v in zip(actual, verdicts, strict=True) if "consistent: yaw" in f.test]
     assert all(abs(float(v.split()[0])) < 0.4 for v in yaw)
+
+
+def test_a_missing_log_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+    assert command.main(["drive"]) == 2
+    assert "The log of the drive is given by --log FILE." in capsys.readouterr().err
