@@ -26,7 +26,7 @@ from benchmarks.car import (
 )
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_rows, measure_table
-from benchmarks.methods import honesty, stability, stability_margins
+from benchmarks.methods import honesty, stability, stability_margins, unreduced_models
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.pictures.chart_commands import charts
 from benchmarks.shared.coarse_runs import expected_errors
@@ -239,6 +239,12 @@ def hatchback_kerb_table(whole: bool) -> list[RemadeTable]:
     ]
 
 
+def naive_size_table() -> list[RemadeTable]:
+    """Sizes of models without reduced coordinates and constraints."""
+    text = unreduced_models.size_table([unreduced_models.sizes_of(scene)[0] for scene in unreduced_models.SCENES])
+    return [RemadeTable("docs/flexible_car.md", text, "naive", ("scene",))]
+
+
 def chosen_fidelity_table() -> list[RemadeTable]:
     """Errors of the fidelities that the page on the flexible car chooses; `benchmarks.car` writes the table."""
     page = "docs/flexible_car.md"
@@ -260,6 +266,7 @@ WRITTEN_TABLES: dict[str, Callable[[bool], list[RemadeTable]]] = {
 """Charts, and tables that no other command writes: whole with ``--write``, otherwise quick parts of them."""
 COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
     "bending": assembly_defect_table,
+    "naive": naive_size_table,
     "Table 1": four_bar_table,
     "Table 2": puma_table,
     "stability": stability_margin_table,

@@ -10,7 +10,7 @@ from typing import Any
 
 import fmpy
 
-from benchmarks.car import fmu_calls, wasm_times
+from benchmarks.car import fmu_calls, held_inputs, manoeuvres, wasm_times
 from benchmarks.methods import studies
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
@@ -27,6 +27,14 @@ def _calls(options: Namespace) -> list[dict[str, Any]]:
             counts = options.steps, min(options.repeats, 64), options.instances
             rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *counts)
     return rows
+
+
+def _held(options: Namespace) -> list[dict[str, Any]]:
+    system = manoeuvres.system_of("drop")
+    kinds = dict.fromkeys(kind for kind, *_ in held_inputs.INTERPOLATIONS.values())
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        fmus = {kind: build_fmu(system, "car", Path(folder), [fmpy.platform], kind=kind) for kind in watched([*kinds])}
+        return held_inputs.measure(fmus, options.only)
 
 
 def _plant(options: Namespace) -> list[dict[str, Any]]:
@@ -76,6 +84,14 @@ PARTS = {
         },
         pages=("stepping.md",),
         blocks=_plant_blocks,
+    ),
+    "held": Part(
+        "errors over the communication step: inputs held, on derivatives, asked for within steps",
+        _held,
+        names=held_inputs.MANOEUVRES,
+        pages=("fmu.md",),
+        blocks=held_inputs.blocks,
+        chart=held_inputs.draw,
     ),
     "study": Part(
         "what Dask takes beside runs of about 0.1 s; memory and disk as runs grow in number (extra `study`)",

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import peers
-from benchmarks.methods import dissipative, error_control, free_runs, work_precision
+from benchmarks.methods import dissipative, error_control, free_runs, unreduced_models, work_precision
 from benchmarks.methods.work_precision_chart import MAX_ERROR, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.coarse_runs import expected_errors
 from benchmarks.shared.command import Part, report_missing, run, watched
 from benchmarks.shared.pages import Row
+from benchmarks.shared.tables import plain_table
 from mbs.settings.methods import METHOD_TABLE
 
 
@@ -110,6 +111,16 @@ PARTS = {
         _motions,
         names=SLOW,
         rows=False,
+    ),
+    "naive": Part(
+        "what models without savings cost: twelve coordinates a body, a row for every equation of a joint",
+        lambda options: [
+            unreduced_models.measure(scene, options.repeats) for scene in watched(list(unreduced_models.SCENES))
+        ],
+        options={"repeats": (3, "timed runs of a row")},
+        pages=("flexible_car.md",),
+        blocks=lambda rows: {"naive": unreduced_models.size_table(rows)},
+        words=plain_table,
     ),
 }
 

@@ -48,17 +48,20 @@ def start_of_fmu(name: str, car: str = manoeuvres.PROTOTYPE) -> dict[str, Value]
     return with_names_of(manoeuvre, names).start
 
 
-def run_of_fmu(file: Path, name: str, h: float, follow: bool, car: str = manoeuvres.PROTOTYPE) -> dict[str, Column]:
+def run_of_fmu(
+    file: Path, name: str, h: float, follow: bool, car: str = manoeuvres.PROTOTYPE, inner: float | None = None
+) -> dict[str, Column]:
     """Signals of the FMU with communication steps of `h`, s, at those times of the reference that are among them.
 
-    The inputs are constant in a communication step, or if `follow` linear by their first derivatives.
+    The inputs are constant in a communication step, or if `follow` linear by their first derivatives. `inner`: step of
+    the engine, s; by default `h`.
     """
     manoeuvre, start = manoeuvres.load(name, car), start_of_fmu(name, car)
     names, every = trajectories.SENSORS, max(1, round(manoeuvres.sampling(name, car) / h))
     inputs = list(manoeuvre.inputs)
     with Fmu(file) as fmu:
         set_inputs, set_slopes, get = fmu.setter(inputs), fmu.slope_setter(inputs), fmu.getter(names)
-        fmu.initialise(start | manoeuvre.at(0.0) | {"step_size": h})
+        fmu.initialise(start | manoeuvre.at(0.0) | {"step_size": h if inner is None else inner})
         rows = [get()]
         for k in range(round(manoeuvre.stop_time / h)):
             inputs_now, inputs_after = manoeuvre.at(k * h), manoeuvre.at((k + 1) * h - BEFORE)

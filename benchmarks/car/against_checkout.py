@@ -11,7 +11,8 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from benchmarks.car import scene_instructions
-from benchmarks.car.scene_instructions import SOURCE, Scene, count_instructions
+from benchmarks.car.operations import executed
+from benchmarks.car.scene_instructions import SOURCE, Scene
 from benchmarks.shared.command import watched
 from mbs.kernel import build
 
@@ -91,7 +92,7 @@ def measure(
     repeats : int
         Runs of which a round takes the least time.
     counted : bool
-        Instructions too, if valgrind is installed.
+        Instructions and operations too, if valgrind and objdump are installed.
     steps : int
         Number of steps of each scene; 0: its own number.
     """
@@ -139,6 +140,7 @@ def row_of(scene: Scene, both: Sequence[Side], steps: int, rounds: int, repeats:
         }
     if counted:
         for name, command, code in both:
-            total, start = (count_instructions([*command[:5], n, "1", *code]) for n in (str(steps), "0"))
-            row[f"instructions {name}"] = None if total is None or start is None else round((total - start) / steps)
+            with_steps, without = (executed([*command[:5], n, "1", *code]) for n in (str(steps), "0"))
+            for what, total, start in zip(("instructions", "operations"), with_steps, without, strict=True):
+                row[f"{what} {name}"] = None if total is None or start is None else round((total - start) / steps)
     return row

@@ -48,8 +48,9 @@ def _row(scene: Scene, program: Path, folder: Path, rounds: int, repeats: int) -
 
 
 def blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Instructions and time of a step, the code in kB."""
+    """Operations, instructions and time of a step, the code in kB."""
     keys_by_title = {
+        "operations": "operations generated",
         "instructions, loops": "instructions loops",
         "generated": "instructions generated",
         "us, loops": "us loops",
@@ -61,7 +62,7 @@ def blocks(rows: Sequence[Row]) -> dict[str, str]:
         | {"times as fast": 1.0 / r["ratio"], "code, kB": r["kB"]}
         for r in rows
     ]
-    columns = {"scene": "", "step, ms": "", "instructions, loops": ",d", "generated": ",d"}
+    columns = {"scene": "", "step, ms": "", "operations": ",d", "instructions, loops": ",d", "generated": ",d"}
     return {
         "generated": table(
             lines, columns | {"us, loops": ".1f", "us, generated": ".1f", "times as fast": ".2f", "code, kB": "d"}

@@ -31,15 +31,19 @@ def find_valgrind() -> str | None:
     return shutil.which("valgrind")
 
 
-def count_instructions(command: Sequence[str]) -> int | None:
+def count_instructions(
+    command: Sequence[str], profile: Path = Path("/dev/null"), options: Sequence[str] = ()
+) -> int | None:
     """Instructions of a program, the same on a busy machine and on an idle one; None without valgrind.
+
+    `profile`: file that callgrind writes; `options`: options of callgrind.
 
     Raises `RuntimeError` if valgrind did not say how many.
     """
     valgrind = find_valgrind()
     if valgrind is None:
         return None
-    run = [valgrind, "--tool=callgrind", "--callgrind-out-file=/dev/null", *command]
+    run = [valgrind, "--tool=callgrind", f"--callgrind-out-file={profile}", *options, *command]
     process = subprocess.run(run, capture_output=True, text=True, check=True)
     result = _COLLECTED.search(process.stderr)
     if result is None:

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 REFERENCE = Path(__file__).with_name("assembly_defect.csv")
 COMPONENTS = ("T", "My", "Mz")
-INTERVAL = 0.02  # s, between stored instants
 
 
 def reference() -> dict[str, NDArray[np.float64]]:

@@ -5,8 +5,10 @@ file and car. Simple models and the car are fitted to the same seconds and compa
 """
 
 import sys
+import tempfile
 from argparse import Namespace
 from collections.abc import Sequence
+from dataclasses import replace as replace_of
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -15,12 +17,13 @@ import numpy as np
 
 from ali3.errors import UserError
 from benchmarks.shared.command import Part, run, watched
-from benchmarks.shared.pages import Row, table
-from benchmarks.validation import omitted_seconds, published_tests, two_track
+from benchmarks.shared.pages import DOCS, Row, table
+from benchmarks.validation import margins, omitted_seconds, published_tests, two_track
+from benchmarks.validation.bank import bank_of, write_banked
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
 from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
-from benchmarks.validation.drive import Array, Drive, read_drive
+from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, read_drive
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import DriveComparison, compare_drive
 from benchmarks.validation.published_figures import full_throttle, published_rows
@@ -56,22 +59,19 @@ PARTS_LEFT_OUT = (
 )
 LACKING = {k: f for k, f in MODEL_COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
+FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # inner step of the car, s
 COARSE = 0.01  # inner step for many runs, s
 LEFT_OUT = "linear bicycle", "saturating bicycle, tanh", "x/sqrt(1 + x2), two grips, yaw inertia"
+BANKED = "multibody car, bank by place"
 CHART_MODEL = 3  # index in MODELS: the saturating bicycle with four numbers
 COLUMNS = {
     "models": MODEL_COLUMNS,
     "parts": LACKING,
     "published": PUBLISHED,
-    "curves": {
-        "quantity": "",
-        "ay, g": "+.1f",
-        "seconds": ".1f",
-        "measured": ".2f",
-        "spread": ".2f",
-        "multibody car": ".2f",
-    },
+    "curves": {"quantity": "", "ay, g": "+.1f", "seconds": ".1f", "measured": ".2f", "spread": ".2f"},
+    "folds": FOLDS,
+    "numbers": {"model": "", "found": "", "starts": ""},
     "notes": {"note": ""},
 }
 
@@ -79,8 +79,13 @@ COLUMNS = {
 def _drive(options: Namespace) -> list[dict[str, Any]]:
     """Fit the models and compare them; rows with the names of their tables."""
     log, aliases = _log(options)
-    drive = read_drive(log, aliases)
-    models = [*MODELS, two_track.MODEL]
+    page = (DOCS / PAGE).read_text(encoding="utf-8")
+    if options.write and options.banked_car is None and f"| {BANKED} |" in page:
+        raise UserError(
+            f"The page has the row '{BANKED}', which --write without --banked-car FMU would lose; give it too."
+        )
+    drive = _with_bank(read_drive(log, aliases), FITTED)
+    models = [m for m in (*MODELS, *two_track.MODELS) if drive.bank.size or not m.bank]
     fits = [fit(model, BODY, drive) for model in watched(models)]
 
     def compare_car(settings: dict[str, float], brief: bool) -> DriveComparison:
@@ -88,11 +93,20 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
 
     car = compare_car({}, brief=False)
     rows = [_row_of_fit(f, drive) for f in fits] + [_row_of_car("multibody car", car, FITTED_NUMBERS, drive)]
+    if options.banked_car is not None and drive.bank.size:
+        with tempfile.TemporaryDirectory() as folder:
+            files = write_banked(Path(folder), log, aliases, drive.bank, BODY.mass)
+            banked = compare_drive(str(options.banked_car), *files, {"step_size": STEP})
+        rows.append(_row_of_car(BANKED, banked, FITTED_NUMBERS, drive))
+    best = min((f for f in fits if np.isfinite(f.lateral)), key=lambda f: f.windows)
+    refitted = fit(best.model, BODY, _with_bank(drive, JUDGED), JUDGED, FITTED)
     tables = {
         "models": rows,
         "parts": [_row_of_car(name, compare_car(values, brief=True), 0, drive) for name, values in PARTS_LEFT_OUT],
         "published": published_rows(*full_throttle(options.car, {"step_size": STEP})),
-        "curves": _curves(car, drive),
+        "curves": _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive),
+        "folds": _folds(best, refitted),
+        "numbers": _numbers(fits),
         "notes": [{"note": note} for note in car.notes],
     }
     if options.picture is not None:
@@ -103,8 +117,8 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
 
 def _kinds(options: Namespace) -> list[dict[str, Any]]:
     log, aliases = _log(options)
-    models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODEL]
-    car = omitted_seconds.CarTask(options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS)
+    models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODELS[1]]
+    car = options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS
     return omitted_seconds.rows_of(models, BODY, read_drive(log, aliases), car)
 
 
@@ -113,6 +127,17 @@ def _log(options: Namespace) -> tuple[Path, Path]:
     if options.log is None:
         raise UserError("The log of the drive is given by --log FILE.")
     return options.log, options.aliases or ALIASES
+
+
+def _with_bank(drive: Drive, seconds: Spans) -> Drive:
+    """The drive with the bank of the road from its accelerometer in some seconds; unchanged if it cannot be
+    computed.
+    """
+    try:
+        return replace_of(drive, bank=bank_of(drive, seconds))
+    except ValueError as error:
+        print(f"note: no bank of the road, and no model that knows it. {error}")
+        return drive
 
 
 def _row_of_fit(f: Fitted, drive: Drive) -> dict[str, Any]:
@@ -133,20 +158,35 @@ def _by_acceleration(drive: Drive, predicted: tuple[Array, Array]) -> dict[str, 
     return {"acceleration": acceleration_error(drive, *predicted), **agreement}
 
 
-def _curves(car: DriveComparison, drive: Drive) -> list[dict[str, Any]]:
-    """Rows of understeer angle and sideslip by lateral acceleration: measured mean, and difference of the car."""
-    return [
-        {
+def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[str, Any]]:
+    """Rows of understeer angle and sideslip by lateral acceleration: measured mean, and difference of each model."""
+    results = {name: curves(drive, BODY.wheelbase, *predicted) for name, predicted in models.items()}
+    rows = []
+    for k, c in enumerate(next(iter(results.values()))):
+        row: dict[str, Any] = {
             "quantity": c.quantity,
             "ay, g": c.acceleration,
             "seconds": c.seconds,
             "measured": c.measured,
-            "spread": c.spread,
-            "multibody car": c.difference,
         }
-        for c in curves(drive, BODY.wheelbase, *car.predicted)
-        if c.seconds >= ENOUGH
+        rows.append(
+            row | {"spread": c.spread} | {name: model_curves[k].difference for name, model_curves in results.items()}
+        )
+    return [row for row in rows if row["seconds"] >= ENOUGH]
+
+
+def _folds(first: Fitted, second: Fitted) -> list[dict[str, Any]]:
+    """Rows of the parameters of a model fitted to either part of the drive, and of its yaw-rate error in the other."""
+    rows = [
+        {"number": f"{u.name}, {u.unit}", "fitted seconds": a, "others": b}
+        for (u, a), (_, b) in zip(_unknowns_with_values(first), _unknowns_with_values(second), strict=True)
     ]
+    yaw_rate_row = {
+        "number": "yaw rate in windows of the other part, rad/s",
+        "fitted seconds": first.windows,
+        "others": second.windows,
+    }
+    return [*rows, yaw_rate_row]
 
 
 def _row_of_car(name: str, comparison: DriveComparison, numbers: int, drive: Drive) -> dict[str, Any]:
@@ -162,14 +202,34 @@ def _row_of_car(name: str, comparison: DriveComparison, numbers: int, drive: Dri
     }
 
 
+def _numbers(fits: Sequence[Fitted]) -> list[dict[str, Any]]:
+    """Rows of the fitted parameters of each simple model, and of the deviation from each start."""
+    return [
+        {
+            "model": f.model.name,
+            "found": ", ".join(f"{u.name} {x:.4g} {u.unit}".rstrip("1").rstrip() for u, x in _unknowns_with_values(f)),
+            "starts": ", ".join(f"{x:.4f}" for x in sorted(f.deviations)),
+        }
+        for f in fits
+        if len(f.numbers)
+    ]
+
+
+def _unknowns_with_values(f: Fitted) -> list[tuple[Any, float]]:
+    return list(zip(f.model.unknowns, f.numbers.tolist(), strict=True))
+
+
 def blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Tables of the page by the names of their marks."""
     rows_of = {
         name: [{k: v for k, v in r.items() if k != "table"} for r in rows if r["table"] == name] for name in COLUMNS
     }
-    tables = {name: table(rows_of[name], COLUMNS[name]) for name in ("models", "parts", "published", "curves")}
+    form = COLUMNS["curves"] | dict.fromkeys(list(rows_of["curves"][0])[5:], ".2f")
+    tables = {
+        name: table(rows_of[name], COLUMNS[name]) for name in ("models", "parts", "published", "folds", "numbers")
+    }
     notes = "\n".join(f"- {row['note']}" for row in rows_of["notes"])
-    return tables | {"notes": notes}
+    return tables | {"curves": table(rows_of["curves"], form), "notes": notes}
 
 
 LOGGED: dict[str, tuple[Any, str]] = {
@@ -184,7 +244,12 @@ PARTS = {
     "drive": Part(
         "simple models and the multibody car through a measured drive",
         _drive,
-        options=LOGGED | {"picture": (Path, "draw measured and predicted yaw rate (PNG)")},
+        COLUMNS,
+        options=LOGGED
+        | {
+            "banked_car": (Path, "FMU of the car with --ports forces=vehicle: driven with the bank of the road too"),
+            "picture": (Path, "draw measured and predicted yaw rate (PNG)"),
+        },
         pages=(PAGE,),
         blocks=blocks,
     ),
@@ -194,6 +259,13 @@ PARTS = {
         options=LOGGED | FITTED_PARAMETERS,
         words=lambda rows: table(rows, FIT_COLUMNS),
         check=lambda rows, options: problems(rows),
+    ),
+    "margins": Part(
+        "how near the multibody car is to a spin: starts beside the measured state, more speed",
+        lambda options: margins.margins(options.car, *_log(options), {"step_size": COARSE}),
+        options=LOGGED,
+        pages=(PAGE,),
+        blocks=lambda rows: {"margins": table(rows, margins.COLUMNS)},
     ),
     "kinds": Part(
         "what models predict for kinds of seconds that are left out: corners, speeds, accelerations",

@@ -59,6 +59,10 @@ class Model:
     """
     simulate: Callable[..., tuple[Array, Array]] | None = None
     """Replaces the `simulate` of a bicycle."""
+    bank: bool = False
+    open: bool = False
+    """`bank`, `open`, of a model with its own `simulate`: whether it includes the bank of the road, and whether its
+    differential is open."""
 
     @property
     def moves_across(self) -> bool:
@@ -94,6 +98,20 @@ def _saturating(curve: Callable[[Array], Array]) -> Callable[..., tuple[Array, A
     return forces
 
 
+def _degressive(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
+    """Forces by the curve `root` with degressive stiffness and grip, and load transfer at the height of the car
+    file.
+    """
+    results = []
+    static_loads, loads = _loads(body, np.float64(0.0), {}), _loads(body, ax, {"height": np.float64(HEIGHT)})
+    for axle, slip, at_rest, load in zip(("front", "rear"), (af, ar), static_loads, loads, strict=True):
+        share = load / at_rest
+        max_force = p[f"{axle} grip"] * (1.0 - p["grip lost by load"] * (share - 1.0)) * load
+        stiffness = p[f"{axle} stiffness"] * share ** p["exponent of stiffness"]
+        results.append(-max_force * root(stiffness * slip / max_force))
+    return results[0], results[1]
+
+
 def root(x: Array) -> Array:
     """Force curve x / sqrt(1 + x^2), with initial slope one and limit one."""
     return x / np.sqrt(1.0 + x * x)
@@ -108,6 +126,9 @@ _OFFSET = Unknown("steering offset", "rad", -0.02, 0.02)
 _HEIGHT = Unknown("height", "m", 0.0, 1.2)
 INERTIA = Unknown("yaw inertia factor", "1", 0.3, 2.0)
 _PLACE = Unknown("centre of mass to the left", "m", -0.2, 0.2)
+_BY_LOAD = Unknown("exponent of stiffness", "1", 0.0, 1.0), Unknown("grip lost by load", "1", 0.0, 0.8)
+_FACTOR = Unknown("steering factor", "1", 0.6, 1.3)
+_BY_BRAKING = Unknown("steering by ax", "rad s2/m", -0.002, 0.002)
 
 MODELS = (
     Model("kinematic", ()),
@@ -115,10 +136,26 @@ MODELS = (
     Model("linear bicycle", _LINEAR, _linear),
     Model("saturating bicycle, tanh", (*STIFFNESS, *_GRIP, _OFFSET), _saturating(np.tanh)),
     Model("x/sqrt(1 + x2), two grips, yaw inertia", (*STIFFNESS, *GRIPS, _OFFSET, INERTIA), _saturating(root)),
+    Model("tanh, two grips, longitudinal load transfer", (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT), _saturating(np.tanh)),
     Model(
-        "load transfer, centre of mass beside the middle, yaw inertia",
+        "the same and steering factor, steering by ax",
+        (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _FACTOR, _BY_BRAKING),
+        _saturating(np.tanh),
+    ),
+    Model(
+        "load transfer, centre of mass beside the middle",
+        (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _PLACE),
+        _saturating(root),
+    ),
+    Model(
+        "the same and yaw inertia",
         (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _PLACE, INERTIA),
         _saturating(root),
+    ),
+    Model(
+        "the same with the height of the car file, tyres degressive",
+        (*STIFFNESS, *GRIPS, _OFFSET, _PLACE, INERTIA, *_BY_LOAD),
+        _degressive,
     ),
 )
 
@@ -148,7 +185,8 @@ def simulate(
     forces = model.forces
 
     def change(k: int, vy: Array, r: Array) -> tuple[Array, Array]:
-        angle = steer[:, k] + p.get("steering offset", np.float64(0.0))
+        angle = p.get("steering factor", np.float64(1.0)) * steer[:, k] + p.get("steering offset", np.float64(0.0))
+        angle = angle + p.get("steering by ax", np.float64(0.0)) * ax[:, k]
         af = np.arctan2(vy + body.front * r, vx[:, k]) - angle
         ar = np.arctan2(vy - body.rear * r, vx[:, k])
         front, rear = forces(body, af, ar, ax[:, k], p)

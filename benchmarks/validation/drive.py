@@ -1,6 +1,6 @@
 """A measured drive as equally spaced samples, and the seconds in which models are fitted and compared."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +38,10 @@ class Drive:
     """Lateral velocity of the centre of mass in vehicle axes, positive to the left, m/s, shape (n,)."""
     yaw_rate: Array
     """Yaw rate, rad/s, shape (n,)."""
+    ay: Array = field(default_factory=lambda: np.zeros(0))
+    """Signal of the lateral accelerometer, m/s2, shape (n,); empty if the log has none."""
+    bank: Array = field(default_factory=lambda: np.zeros(0))
+    """Lateral acceleration by the weight on a banked road, positive to the left, m/s2, shape (n,); empty if unknown."""
 
     @property
     def interval(self) -> float:
@@ -90,4 +94,5 @@ def read_drive(file: Path, aliases: Path) -> Drive:
         column("chassis.vx", "m/s"),
         column("chassis.vy", "m/s"),
         column("chassis.wz", "rad/s"),
+        column("chassis.ay", "m/s2") if "chassis.ay" in log_aliases.columns else np.zeros(0),
     )

@@ -24,6 +24,8 @@ class Fitted:
     model: Model
     numbers: Array
     """Parameters, shape (p,)."""
+    deviations: list[float]
+    """Root mean square error in the fitted windows after the fit from each start, in `SCALES`."""
     fitted: float
     """Root mean square error of the yaw rate in the fitted windows, rad/s."""
     windows: float
@@ -126,6 +128,7 @@ def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others:
     return Fitted(
         model,
         numbers,
+        [_rms(r.fun) for r in results],
         _rms(windows.deviations(numbers[None])[1]),
         _rms(turning),
         _rms((path - drive.yaw_rate)[drive.inside(others)]),

@@ -8,16 +8,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.shared.command import watched
+from benchmarks.validation.bank import PIECE, distance_and_lap, pieces
 from benchmarks.validation.bicycle import Body, Model
 from benchmarks.validation.drive import LENGTH, Array, Drive, Spans
 from benchmarks.validation.fitting import SCALES, Windows, begins, fit
-from benchmarks.validation.laps import PIECE, distance_and_lap, pieces
 from benchmarks.validation.multibody import LATERAL, YAW, task_of
 from benchmarks.validation.refit import read_ranges
 from hosts.compare.cross_validation import Parts, left_out_residuals
@@ -48,7 +48,7 @@ class Family:
     """Index of the kind of each sample, shape (n,); the index after the last name is not a kind."""
 
 
-def divide_seconds(drive: Drive) -> dict[str, Family]:
+def families(drive: Drive) -> dict[str, Family]:
     """Corners by place, ranges of speed, ranges of longitudinal acceleration. Raises `ValueError` without laps."""
     distance, lap = distance_and_lap(drive)
     piece, count = pieces(distance, lap), round(lap / PIECE)
@@ -64,13 +64,12 @@ def divide_seconds(drive: Drive) -> dict[str, Family]:
     speeds = np.quantile(drive.vx, np.linspace(0.0, 1.0, SPEEDS + 1))
     return {
         "corners": Family(corners, np.roll(of_piece, shift)[piece]),
-        "speed": _divide_by_value(drive.vx, speeds[1:-1], "m/s"),
-        "acceleration": _divide_by_value(drive.ax, ACCELERATIONS, "m/s² forward"),
+        "speed": _ranges(drive.vx, speeds[1:-1], "m/s"),
+        "acceleration": _ranges(drive.ax, ACCELERATIONS, "m/s² forward"),
     }
 
 
-def _divide_by_value(values: Array, edges: Sequence[float] | Array, unit: str) -> Family:
-    """Ranges of a quantity between edges, which are in its `unit`; `values`: at the samples, shape (n,)."""
+def _ranges(values: Array, edges: Sequence[float] | Array, unit: str) -> Family:
     ends = [f"{e:.3g}" for e in edges]
     names = [f"below {ends[0]}", *(f"{a} to {b}" for a, b in pairwise(ends)), f"above {ends[-1]}"]
     return Family([f"{n} {unit}" for n in names], np.searchsorted(edges, values))
@@ -102,24 +101,18 @@ def row_of_simple_model(model: Model, body: Body, drive: Drive, families: Mappin
     return {"model": model.name} | without_kinds(jacobian, residual, windows.samples.ravel(), families)
 
 
-class CarTask(NamedTuple):
-    """The multibody car that replays a log."""
-
-    car: str
-    """FMU or car, as for ``ali3 compare``."""
-    log: Path
-    aliases: Path
-    """Alias file of the log."""
-    settings: dict[str, float]
-    """Start values of parameters."""
-    bounds: Path
-    """File of the fitted parameters, for `read_ranges`."""
-
-
-def row_of_car(car: CarTask, drive: Drive, families: Mapping[str, Family]) -> dict[str, Any]:
+def row_of_car(
+    car: str,
+    log: Path,
+    aliases: Path,
+    settings: dict[str, float],
+    bounds: Path,
+    drive: Drive,
+    families: Mapping[str, Family],
+) -> dict[str, Any]:
     """Row of `COLUMNS` of the multibody car: by the parameters that `refit` fits, from the values of its file."""
-    ranges = read_ranges(car.bounds)
-    task = task_of(car.car, car.log, car.aliases, car.settings, _all_seconds(drive))
+    ranges = read_ranges(bounds)
+    task = task_of(car, log, aliases, settings, _all_seconds(drive))
     unknowns = fitted_parameters([f"{n}={span}" for n, span in ranges.items()], task.parameters, task.set_values)
     outputs = {name: task.outputs[name] for name in (YAW, LATERAL)}
     steps = np.array([_DIFFERENCE * (u.high - u.low) for u in unknowns])
@@ -142,7 +135,7 @@ def _all_seconds(drive: Drive) -> Spans:
     return ((0.0, float(drive.time[-1])),)
 
 
-def rows_of(models: Sequence[Model], body: Body, drive: Drive, car: CarTask) -> list[dict[str, Any]]:
-    """Rows of `COLUMNS`, of the simple models and of the car."""
-    families = divide_seconds(drive)
-    return [*(row_of_simple_model(m, body, drive, families) for m in watched(models)), row_of_car(car, drive, families)]
+def rows_of(models: Sequence[Model], body: Body, drive: Drive, car: Sequence[Any]) -> list[dict[str, Any]]:
+    """Rows of `COLUMNS`. `car`: the first five arguments of `row_of_car`."""
+    result = families(drive)
+    return [*(row_of_simple_model(m, body, drive, result) for m in watched(models)), row_of_car(*car, drive, result)]

@@ -25,7 +25,9 @@ def simulate(
     """
     rows = begins[:, None] + np.arange(steps + 1)
     steer, vx, ax = drive.steer[rows], drive.vx[rows], drive.ax[rows]
+    bank = drive.bank[rows] if model.bank else np.zeros(rows.shape)
     p = {u.name: numbers[:, k, None] for k, u in enumerate(model.unknowns)}
+    locked = 0.0 if model.open else 1.0
     static_loads = body.mass * G / body.wheelbase / 2.0 * np.array([body.rear, body.front])
 
     def change(k: int, vy: Array, r: Array) -> tuple[Array, Array]:
@@ -33,7 +35,7 @@ def simulate(
         along = body.mass * a + 0.5 * AIR * body.drag_area * v**2
         brake, pull = np.minimum(along, 0.0), np.maximum(along, 0.0)
         longitudinal_transfer = body.mass * a * HEIGHT / body.wheelbase / 2.0
-        lateral_transfer = body.mass * r * v * HEIGHT / TRACK / 2.0
+        lateral_transfer = body.mass * (r * v - bank[:, k]) * HEIGHT / TRACK / 2.0
         across, turning = np.zeros_like(vy), np.zeros_like(vy)
         for axle, x, sign in (("front", body.front, -1.0), ("rear", -body.rear, 1.0)):
             at_rest = static_loads[0 if sign < 0.0 else 1]
@@ -51,12 +53,12 @@ def simulate(
                 fy = -max_force * root(stiffness * slip / max_force)
                 fx = 0.5 * fraction * brake * (1.0 + side * p["brake side"])
                 if axle == "rear":
-                    fx = fx + pull * load / (loads[0] + loads[1])
+                    fx = fx + 0.5 * pull * (1.0 + locked * (2.0 * load / (loads[0] + loads[1]) - 1.0))
                 to_left, forward = fy * np.cos(angle) + fx * np.sin(angle), fx * np.cos(angle) - fy * np.sin(angle)
                 across = across + to_left
                 turning = turning + x * to_left - y * forward
         inertia = body.yaw_inertia * p["yaw inertia factor"]
-        return across / body.mass - v * r, turning / inertia
+        return across / body.mass - v * r + bank[:, k], turning / inertia
 
     return heun(change, drive, begins, steps, len(numbers))
 
@@ -68,4 +70,8 @@ _NUMBERS = (
     Unknown("brake side", "1", -0.5, 0.5),
     Unknown("exponent of stiffness", "1", 0.0, 1.2),
 )
-MODEL = Model("two tracks, drive by load, brakes to the side", _NUMBERS, simulate=simulate)
+MODELS = (
+    Model("two tracks, open differential, brakes to the side", _NUMBERS, simulate=simulate, open=True),
+    Model("two tracks, drive by load, brakes to the side", _NUMBERS, simulate=simulate),
+    Model("the same and bank by place", _NUMBERS, simulate=simulate, bank=True),
+)

@@ -1,11 +1,13 @@
-"""Fidelities of the car: choosing one from measured rows, one measured row, the chart."""
+"""Fidelities of the car: choosing one from measured rows, one measured row, the chart; the naive models."""
 
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from benchmarks.car import fidelity, fidelity_runs
+from benchmarks.methods import unreduced_models
 from mbs.vehicle import Fidelity
 
 
@@ -66,3 +68,12 @@ def test_errors_of_a_reference_with_itself_are_nothing() -> None:
     assert set(fidelity_runs.errors(reference, reference).values()) == {0.0}
     other = reference | {"chassis.x": reference["chassis.x"] + 0.5}
     assert fidelity_runs.errors(other, reference)["motion"] == pytest.approx(0.5)
+
+
+def test_naive_models_move_alike_and_are_larger() -> None:
+    for scene in ("double four-bar", "prototype car"):
+        result = unreduced_models.measure(scene, 1)
+        assert result["naive_coordinates"] > 2 * result["coordinates"]
+        assert result["naive_rows"] > 2 * result["rows"]
+        assert result["difference"] < 0.01
+    assert np.isfinite(result["factor"])

@@ -3,6 +3,7 @@
 import pytest
 
 from benchmarks.car.generated_code import blocks, measure
+from benchmarks.car.operations import disassembler
 from benchmarks.car.scene_instructions import SCENES, find_valgrind
 from benchmarks.shared.figures import rows_of
 from tests.unoptimised import unoptimised
@@ -19,6 +20,8 @@ def test_generated_code_makes_the_same_steps() -> None:
     assert row["kB"] > 1
     if find_valgrind() is not None:
         assert row["instructions generated"] < 0.9 * row["instructions loops"]
+        if disassembler() is not None:
+            assert row["operations generated"] == pytest.approx(row["operations loops"], rel=0.2)
     row |= {"us loops": 20.0, "us generated": 12.5, "ratio": 0.625}
     (written,) = rows_of(blocks([row])["generated"])
     assert (written["us, loops"], written["us, generated"], written["times as fast"]) == ("20.0", "12.5", "1.60")

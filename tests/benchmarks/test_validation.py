@@ -1,6 +1,7 @@
 """Fits of bicycle models to a drive with known parameters, integrated by SciPy."""
 
 import gzip
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,10 +9,12 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from benchmarks.validation import fitting, two_track
-from benchmarks.validation.bicycle import MODELS, Body, simulate
+from benchmarks.validation.bank import PORT, bank_of, distance_and_lap, write_banked
+from benchmarks.validation.bicycle import MODELS, Body, Model, simulate
 from benchmarks.validation.drive import Drive, read_drive
-from benchmarks.validation.laps import distance_and_lap
 from hosts.common.errors import HostError
+from hosts.compare.log_aliases import read_log_aliases
+from hosts.compare.log_file import read_log
 
 BODY = Body(1000.0, 1500.0, 1.3, 1.1)
 STIFFNESS = (80e3, 120e3)  # N/rad, front and rear
@@ -75,13 +78,13 @@ def test_the_steps_of_a_bicycle_are_fine_enough(drive: Drive) -> None:
 
 def test_a_centre_of_mass_beside_the_middle_turns_the_braked_car(drive: Drive) -> None:
     """On the right the braked car turns to the left: mass times deceleration times lever over the inertia."""
-    model = MODELS[PLACES["load transfer, centre of mass beside the middle, yaw inertia"]]
+    model = MODELS[PLACES["load transfer, centre of mass beside the middle"]]
     right, deceleration = -0.03, 4.0
     speeds = 40.0 - deceleration * drive.time
     zero = np.zeros_like(drive.time)
     braked = Drive(drive.time, zero, speeds, zero, zero)
     soft = {"front stiffness": 1e-6, "rear stiffness": 1e-6, "front grip": 1.0, "rear grip": 1.0}
-    own = soft | {"centre of mass to the left": right, "yaw inertia factor": 1.0}
+    own = soft | {"centre of mass to the left": right}
     numbers = np.array([[own.get(u.name, 0.0) for u in model.unknowns]])
     _, rate = simulate(model, BODY, braked, np.array([100]), 100, numbers)
     expected = BODY.mass * deceleration * -right / BODY.yaw_inertia
@@ -111,33 +114,59 @@ def test_a_packed_log_is_read_by_its_alias_file(tmp_path: Path) -> None:
 
 def test_two_tracks_turn_where_brakes_and_drive_differ_from_side_to_side(drive: Drive) -> None:
     """Moments of forces along by their levers; of the drive by load, those of a car that already turns."""
-    model = two_track.MODEL
+    by_load, opened = (two_track.MODELS[k] for k in (1, 0))
     speeds, zero = 40.0 - 4.0 * drive.time, np.zeros_like(drive.time)
     numbers = {"front stiffness": 1e-6, "rear stiffness": 1e-6, "front grip": 1.0, "rear grip": 1.0}
     numbers |= {"yaw inertia factor": 1.0, "brake side": 0.1, "exponent of stiffness": 0.5}
     braked = Drive(drive.time, zero, speeds, zero, zero)
 
-    def turned(drive: Drive, **changed: float) -> float:
+    def turned(model: Model, drive: Drive, **changed: float) -> float:
         p = np.array([[(numbers | changed)[u.name] for u in model.unknowns]])
         return float(two_track.simulate(model, BODY, drive, np.array([0]), 50, p)[1][0, 0, 50])
 
     moment = 0.1 * 4.0 * BODY.mass * 0.5 * two_track.TRACK
-    assert turned(braked) == pytest.approx(moment * 50 * H / BODY.yaw_inertia, rel=1e-6)
+    for model in (by_load, opened):
+        assert turned(model, braked) == pytest.approx(moment * 50 * H / BODY.yaw_inertia, rel=1e-6)
     driven = Drive(drive.time, zero, 20.0 + 4.0 * drive.time, zero, zero + 0.2)
-    assert (
-        turned(driven, **{"brake side": 0.0}) > 0.21
-    )  # the outer wheels carry more and push more: a left turn is pushed to the left
+    first = turned(by_load, driven, **{"brake side": 0.0}) - 0.2
+    assert turned(opened, driven, **{"brake side": 0.0}) == pytest.approx(0.2)
+    assert first > 0.01  # the outer wheels carry more and push more: a left turn is pushed to the left
 
 
 @pytest.mark.slow
-def test_the_length_of_a_lap_is_found_by_the_curvature_of_the_path() -> None:
-    """Laps of 2200 m; without laps the drive is refused."""
+def test_the_bank_of_the_road_is_computed_by_position_and_accelerates_the_car(drive: Drive) -> None:
+    """Laps of 2200 m on a banked road; roll adds 3 % of the acceleration to the signal."""
     time = np.arange(0.0, 190.0, H)
     v = 31.0 + 3.0 * np.sin(0.13 * time)
     distance = np.concatenate([[0.0], np.cumsum(0.5 * H * (v[1:] + v[:-1]))])
     phase = 2.0 * np.pi * distance / 2200.0
     rate = v * 4e-3 * (np.sin(phase) + np.sin(3.0 * phase) + 0.7 * np.cos(7.0 * phase))
-    assert distance_and_lap(Drive(time, 0.0 * v, v, 0.0 * v, rate))[1] == pytest.approx(2200.0, abs=2.0)
+    true = 0.4 * np.sin(2.0 * phase) - 0.2 * np.cos(4.0 * phase)
+    banked = Drive(time, 0.0 * v, v, 0.0 * v, rate, 1.03 * rate * v - true)
+    actual = bank_of(banked)
+    assert distance_and_lap(banked)[1] == pytest.approx(2200.0, abs=2.0)
+    inside = (time > 5.0) & (time < 185.0)
+    assert np.sqrt(np.mean((actual - true)[inside] ** 2)) < 0.08
     noise = np.random.default_rng(5).normal(size=len(time))
+    elsewhere = Drive(time, 0.0 * v, v, 0.0 * v, 0.1 * noise, noise)
     with pytest.raises(ValueError, match="does not repeat its path"):
-        distance_and_lap(Drive(time, 0.0 * v, v, 0.0 * v, 0.1 * noise))
+        bank_of(elsewhere)
+    model = two_track.MODELS[2]
+    p = np.array([[1e-6, 1e-6, 1.0, 1.0, 1.0, 0.0, 0.5]])
+    slope = Drive(drive.time, 0.0 * drive.time, 20.0 + 0.0 * drive.time, 0.0 * drive.time, 0.0 * drive.time)
+    moved = two_track.simulate(model, BODY, replace(slope, bank=0.5 + 0.0 * drive.time), np.array([0]), 100, p)[0]
+    assert moved[0, 0, 100] == pytest.approx(0.5, rel=1e-6)  # m/s after a second
+
+
+@pytest.mark.parametrize("name", ["drive.csv", "drive.csv.gz"])
+def test_a_log_gets_the_bank_of_the_road_as_a_force(tmp_path: Path, name: str) -> None:
+    text = b"time [s],vx [m/s]\n0.0,20\n0.01,21\n"
+    log, aliases = tmp_path / name, tmp_path / "drive.toml"
+    log.write_bytes(gzip.compress(text) if name.endswith(".gz") else text)
+    aliases.write_text('[time]\nname = "time"\n[signals]\n"chassis.vx" = { name = "vx", unit = "m/s" }\n', "utf-8")
+    file, names = write_banked(tmp_path, log, aliases, np.array([0.5, -0.25]), 1000.0)
+    form = read_log_aliases(names)
+    assert form.columns[PORT].unit == "N"
+    read = read_log(file, form.dialect)
+    assert read.numbers(form.columns[PORT].name).tolist() == [500.0, -250.0]
+    assert read.numbers("vx").tolist() == [20.0, 21.0]

@@ -1,15 +1,45 @@
-"""Seconds left out of a fit, against closed forms, and bounds of a fit."""
+"""Perturbed starts, seconds left out of a fit, and bounds of a fit, against closed forms."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from benchmarks.validation import omitted_seconds, refit
+from benchmarks.validation import margins, omitted_seconds, refit
 from benchmarks.validation.drive import Drive
 from benchmarks.validation.fitting import SCALES
+from hosts.compare.segments import Segment
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.measures.signal import Signal
 
 STEP = 0.01
+
+
+def segment() -> Segment:
+    time = np.array([0.0, 1.0])
+    start = {"initial.speed": 20.0, "initial.lateral_speed": 0.5, "initial.yaw_rate": 0.3}
+    speed = Signal("speed", "speed", "m/s", time, np.array([20.0, 24.0]))
+    return Segment(Manoeuvre("drive", time, {"steering": 0.1 + 0.0 * time}, 1.0, start), speed)
+
+
+def test_a_start_beside_the_state_is_that_of_the_reference_point() -> None:
+    """The velocity of a rigid body at a point is that of the origin and the yaw rate times the lever."""
+    point = -1.33, 0.02
+    original, moved = (s.manoeuvre.start for s in (segment(), margins.with_offset(segment(), 0.5, -0.3, 0.024, point)))
+
+    def at_point(start) -> list[float]:
+        rate = start["initial.yaw_rate"]
+        return [start["initial.speed"] - rate * point[1], start["initial.lateral_speed"] + rate * point[0], rate]
+
+    np.testing.assert_allclose(np.subtract(at_point(moved), at_point(original)), [0.5, -0.3, 0.024], atol=1e-15)
+
+
+def test_a_faster_stretch_holds_and_starts_with_more_speed_at_the_same_steering() -> None:
+    faster = margins.with_speed(segment(), 1.1)
+    assert faster.manoeuvre.start["initial.speed"] == pytest.approx(22.0)
+    assert faster.speed is not None
+    assert faster.speed.values.tolist() == pytest.approx([22.0, 26.4])
+    assert faster.manoeuvre.inputs["steering"].tolist() == [0.1, 0.1]
 
 
 def laps() -> Drive:
@@ -24,7 +54,7 @@ def laps() -> Drive:
 
 def test_seconds_are_distinguished_by_corner_speed_and_acceleration() -> None:
     drive = laps()
-    actual = omitted_seconds.divide_seconds(drive)
+    actual = omitted_seconds.families(drive)
     corners = actual["corners"]
     assert [name.startswith("corner at") for name in corners.names] == [True, True]
     left, right = (np.flatnonzero(drive.yaw_rate * side > 0.0) for side in (1.0, -1.0))
