@@ -4,7 +4,7 @@ A file of this folder, or a room that can be run, is a command, ``python -m benc
 benchmarks`` lists them. A command says what its parts are; `shared.command` gives each its arguments, table, machine
 line, JSON, chart and page. The measurements are in the rooms, by subject:
 
-- `shared`: options and output of the commands, progress, the machine, timing, tables, charts and files;
+- `shared`: options and output of the commands, progress, the machine, tables, charts and files;
 - `baselines`: classical methods in Python; `peers`: other engines;
 - `references`: exact motions and stored runs of other programs, also for tests;
 - `car`, `paper`, `methods`: measurements of cars, for the tables of the paper, and of integration methods;

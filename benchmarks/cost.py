@@ -1,6 +1,5 @@
 """What a step costs: ``python -m benchmarks.cost PART``: instructions, growth, worst steps, many cars a core."""
 
-import json
 import sys
 import tempfile
 from argparse import Namespace
@@ -12,41 +11,38 @@ from typing import Any
 from benchmarks.car import against_checkout, generated_code, lanes, real_time, scene_instructions
 from benchmarks.methods import cost_growth
 from benchmarks.shared.command import Part, run, watched
+from benchmarks.shared.figures import read
 from benchmarks.shared.pages import Row
 
 
+def _chosen(options: Namespace) -> list[scene_instructions.Scene]:
+    return [scene for scene in scene_instructions.SCENES if scene.name in options.only]
+
+
 def _instructions(options: Namespace) -> list[dict[str, Any]]:
-    scenes = [scene for scene in scene_instructions.SCENES if scene.name in options.only]
     with tempfile.TemporaryDirectory() as folder:
-        program = scene_instructions.compiled(Path(folder))
-        return [scene_instructions.measure(scene, program, Path(folder)) for scene in watched(scenes)]
+        program = scene_instructions.compile_program(Path(folder))
+        return [scene_instructions.measure(scene, program, Path(folder)) for scene in watched(_chosen(options))]
 
 
 def _dearer(rows: Sequence[Row], options: Namespace) -> list[str]:
-    if options.against is None:
-        return []
-    return scene_instructions.compared(rows, json.loads(options.against.read_text("utf-8"))["rows"])
+    return scene_instructions.compare_with_page(rows, read(scene_instructions.PAGE)) if options.compare else []
 
 
 def _turns(options: Namespace) -> list[dict[str, Any]]:
     if options.other is None:
         raise RuntimeError("--other is missing: the folder of the checkout with which steps are timed in turn.")
-    scenes = [scene for scene in scene_instructions.SCENES if scene.name in options.only]
-    return [*against_checkout.measure(options.other, scenes, options.rounds, options.repeats, options.instructions)]
+    counts = options.rounds, options.repeats, options.instructions
+    return [*against_checkout.measure(options.other, _chosen(options), *counts)]
 
 
 def _generated(options: Namespace) -> list[dict[str, Any]]:
-    scenes = [scene for scene in scene_instructions.SCENES if scene.name in options.only]
-    return [*generated_code.measure(scenes, options.rounds, options.repeats)]
+    return [*generated_code.measure(_chosen(options), options.rounds, options.repeats)]
 
 
 def _growth(options: Namespace) -> list[dict[str, Any]]:
-    windows, modes = (
-        (cost_growth.WINDOWS[:5], cost_growth.MODES[:2]) if options.quick else (cost_growth.WINDOWS, cost_growth.MODES)
-    )
-    repeats = 1 if options.quick else options.repeats
-    rows = [{"table": "windows", **row} for row in cost_growth.measure(windows, repeats)]
-    return rows + [{"table": "chassis", **row} for row in cost_growth.chassis(modes, repeats)]
+    windows = cost_growth.WINDOWS[:5] if options.quick else cost_growth.WINDOWS
+    return cost_growth.measure(windows, 1 if options.quick else options.repeats)
 
 
 def _throughput(options: Namespace) -> list[dict[str, Any]]:
@@ -54,40 +50,41 @@ def _throughput(options: Namespace) -> list[dict[str, Any]]:
     return [row for scene in watched(scenes) for row in lanes.measure(*scene, rounds=options.rounds)]
 
 
+SCENES = tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES))
+IN_TURN = {
+    "rounds": (7, "each measures both; the ratio is the median of all rounds"),
+    "repeats": (5, "runs of which a round takes the least"),
+}
 PARTS = {
     "instructions": Part(
         "iterations, factorizations and solves of the first steps of scenes, and instructions where valgrind is there",
         _instructions,
-        names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
-        options={"against": (Path, "rows that steps are compared with: over 3 % more is an error")},
-        pages=("speed.md",),
+        names=SCENES,
+        options={"compare": (False, "with the table of the page: over 3 % more is an error")},
+        pages=(scene_instructions.PAGE.removeprefix("docs/"),),
         blocks=scene_instructions.instruction_blocks,
         check=_dearer,
     ),
     "turns": Part(
         "steps of scenes by this checkout and by another one in turn: times, their ratio, counts",
         _turns,
-        names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
-        options={
+        names=SCENES,
+        options=IN_TURN
+        | {
             "other": (Path, "folder of the other checkout: a working tree, made by git worktree add"),
-            "rounds": (7, "each measures both; the ratio is the median of all rounds"),
-            "repeats": (5, "runs of which a round takes the least"),
             "instructions": (False, "instructions beside the times"),
         },
     ),
     "generated": Part(
         "steps of scenes by the loops of the kernel and by code generated for their Systems, in turn",
         _generated,
-        names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
-        options={
-            "rounds": (7, "each measures both; the ratio is the median of all rounds"),
-            "repeats": (5, "runs of which a round takes the least"),
-        },
+        names=SCENES,
+        options=IN_TURN,
         pages=("speed.md",),
         blocks=generated_code.blocks,
     ),
     "growth": Part(
-        "time, memory and non-zeros of the N-four-bar by N and of the car's frame by its modes, with exponents",
+        "time, memory and non-zeros of the N-four-bar by N, with exponents",
         _growth,
         options={"quick": (False, "N up to 20, one repeat"), "repeats": (cost_growth.REPEATS, "timed runs of a row")},
         pages=("speed_and_accuracy.md",),

@@ -7,7 +7,6 @@ themselves; this one writes these charts, and tables that no other command makes
 """
 
 import argparse
-import json
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -22,15 +21,12 @@ from benchmarks.car import (
     fidelity,
     frame_tables,
     road_faces,
-    sampled_roads,
-    scene_instructions,
     tabled_cars,
     variable_tables,
 )
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_rows, measure_table
 from benchmarks.methods import honesty, stability, stability_margins, unreduced_models
-from benchmarks.methods.start_values import start_value_table
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.pictures.chart_commands import charts
 from benchmarks.shared.coarse_runs import expected_errors
@@ -92,25 +88,16 @@ def crank_honesty_tables() -> list[RemadeTable]:
 
 def trust_tables() -> list[RemadeTable]:
     """Tables of the page on trust."""
-    keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",), "acceleration": ("manoeuvre", "h s")}
+    keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",)}
     blocks = error_limits.trust_blocks(error_limits.measure())
     return [RemadeTable("docs/trust.md", blocks[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
 
 
 def car_error_tables() -> list[RemadeTable]:
-    """Errors of the kernel in three manoeuvres of the prototype and two of the hatchback."""
-    rows = [
-        accuracy.measure(name, 0.01, None, 1)
-        for name in ("step_steer_given_throttle", "double_lane_change_replay", "drop")
-    ]
-    hatchback = [
-        accuracy.measure(name, 0.005, None, 1, "hatchback") for name in ("step_steer_given_throttle", "full_lock")
-    ]
-    keys = ("manoeuvre", "h, ms")
-    return [
-        RemadeTable(SPEED, accuracy.car_blocks(rows)["car"], "car", keys, accuracy.HELD),
-        RemadeTable("docs/cars.md", accuracy.error_table(hatchback), "hatchback", keys, accuracy.TIMES),
-    ]
+    """Errors of the kernel in three manoeuvres of the prototype."""
+    names = "step_steer_given_throttle", "double_lane_change_replay", "drop"
+    rows = [accuracy.measure(name, 0.01, None, 1) for name in names]
+    return [RemadeTable(SPEED, accuracy.car_blocks(rows)["car"], "car", ("manoeuvre", "h, ms"))]
 
 
 def handling_table() -> list[RemadeTable]:
@@ -162,13 +149,11 @@ def road_step_tables() -> list[RemadeTable]:
     ]
 
 
-def instruction_table() -> list[RemadeTable]:
-    """The table of instructions, from the file with which `benchmarks.cost` compares steps."""
-    rows = json.loads(scene_instructions.STORED.read_text(encoding="utf-8"))["rows"]
-    block = scene_instructions.instruction_blocks(rows)["instructions"]
-    step = next(row["instructions"] for row in rows_of(block) if row["scene"] == "double four-bar")
-    sentence = RemadeTable(PAPER, f"A step at 0.03 s takes {step} instructions")
-    return [RemadeTable(SPEED, block, "instructions", ("scene", "step, ms")), sentence]
+def instruction_sentence() -> list[RemadeTable]:
+    """The sentence on the double four-bar, from the table of instructions."""
+    rows = rows_of(between(read(SPEED), "instructions"))
+    step = next(row["instructions"] for row in rows if row["scene"] == "double four-bar")
+    return [RemadeTable(PAPER, f"A step at 0.03 s takes {step} instructions")]
 
 
 def output_count() -> list[RemadeTable]:
@@ -181,16 +166,16 @@ def output_count() -> list[RemadeTable]:
 def trust_sentences() -> list[RemadeTable]:
     """Sentences of the page on trust, from its tables and tables of other pages."""
     page, column = "docs/trust.md", "10 ms"
-    kerb, hard, period = (
-        rows_of(between(read(page), f"trust {name}")) for name in ("kerb", "acceleration", "frequency")
-    )
-    coarse_rows = [row for row in hard if row["h s"] == "0.01"]
-    path, load, fastest = (max(float(r[c]) for r in coarse_rows) for c in ("path error", "load error", "largest m s2"))
+    kerb, period = (rows_of(between(read(page), f"trust {name}")) for name in ("kerb", "frequency"))
     frequency_error = next(float(row["frequency error"]) for row in period if row["steps in a period"] == "20")
     chosen = rows_of(between(read("docs/flexible_car.md"), "cheapest"))[1:]
     moments = [(r["error"], *r["cheapest fidelity, step"].split(", ")) for r in chosen]
     car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read(SPEED), "car"))}
-    fall = car_rows["drop from 0.5 m", "10"]["path error, of its length; wheel-load error, of the peak"].split(", ")[1]
+    car_errors = {name: row[accuracy.ERROR_COLUMN].split(", ") for (name, h), row in car_rows.items() if h == "10"}
+    fall = car_errors[accuracy.TITLES["drop"]][1]
+    hard = [car_errors[accuracy.TITLES[name]] for name in error_limits.HARD]
+    path, load = (max((errors[k] for errors in hard), key=lambda cell: float(cell.split()[0])) for k in (0, 1))
+    fastest = max(map(error_limits.largest_acceleration, error_limits.HARD))
     held = [r for r in rows_of(between(read("docs/fmu.md"), "held inputs")) if r["h, ms"] == "10"]
     *smooth, worst = (row["FMU, inputs held"].split(", ") for row in held)
     path_held, load_held = (
@@ -198,7 +183,7 @@ def trust_sentences() -> list[RemadeTable]:
     )
     sentences = (
         f"wheel loads to {max(float(row[column]) for row in kerb):.1%} at {column} up to {kerb[-1]['speed m s']} m/s",
-        f"path to {path:.1e} of its length, loads to {load:.1%} at {column}, up to {fastest:.0f} m/s²",
+        f"path to {path} of its length, loads to {load} at {column}, up to {fastest:.0f} m/s²",
         f"20 steps in a period: {frequency_error:.1%} of the frequency",
         f"wheel loads to {fall} at {column}, a fall of 0.5 m",
         ", ".join(f"{error} at fidelity {fidelity} ({step})" for error, fidelity, step in moments),
@@ -228,7 +213,6 @@ def finite_element_tables(whole: bool) -> list[RemadeTable]:
     """Mass models and modes of the prototype's frame; if `whole`, also CalculiX beside two beam theories."""
     page, frame = "docs/finite_elements.md", frame_tables
     remade_tables = [
-        RemadeTable(page, frame.mass_table(), "masses", ("mass, no rotary inertia",)),
         RemadeTable(page, frame.modes_table(), "modes", ("modes",)),
     ]
     return (
@@ -255,21 +239,10 @@ def hatchback_kerb_table(whole: bool) -> list[RemadeTable]:
     ]
 
 
-def open_crg_table(whole: bool) -> list[RemadeTable]:
-    """Deviations of grids from OpenCRG files; if `whole` with all spacings."""
-    spacings = sampled_roads.SPACINGS[: None if whole else 2]
-    return [RemadeTable("docs/roads.md", sampled_roads.sampled_table(spacings), "crg", ("file", "spacing, m"))]
-
-
 def naive_size_table() -> list[RemadeTable]:
     """Sizes of models without reduced coordinates and constraints."""
     text = unreduced_models.size_table([unreduced_models.sizes_of(scene)[0] for scene in unreduced_models.SCENES])
     return [RemadeTable("docs/flexible_car.md", text, "naive", ("scene",))]
-
-
-def start_value_tables(_: bool) -> list[RemadeTable]:
-    """Newton iterations by start value of a step."""
-    return [RemadeTable("docs/theory.md", start_value_table(), "start value", ("scene", "h, s"))]
 
 
 def chosen_fidelity_table() -> list[RemadeTable]:
@@ -289,8 +262,6 @@ WRITTEN_TABLES: dict[str, Callable[[bool], list[RemadeTable]]] = {
     "charts": charts,
     "elements": finite_element_tables,
     "flexible hatchback": hatchback_kerb_table,
-    "crg": open_crg_table,
-    "start values": start_value_tables,
 }
 """Charts, and tables that no other command writes: whole with ``--write``, otherwise quick parts of them."""
 COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
@@ -309,7 +280,7 @@ COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
     "cheapest fidelity": chosen_fidelity_table,
     "tests of others": published_test_table,
     "roads": road_step_tables,
-    "instructions": instruction_table,
+    "instructions": instruction_sentence,
     "outputs": output_count,
     "trust page": trust_sentences,
     "README": readme_sentences,

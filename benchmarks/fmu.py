@@ -12,20 +12,17 @@ import fmpy
 
 from benchmarks.car import fmu_calls, held_inputs, manoeuvres, wasm_times
 from benchmarks.methods import studies
-from benchmarks.methods.study_pages import study_blocks
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
-
-KINDS = ("native", "python")
 
 
 def _calls(options: Namespace) -> list[dict[str, Any]]:
     name, system = load_scene(options.scene)
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        for kind in watched(list(KINDS)):
+        for kind in watched(fmu_calls.KINDS):
             fmu = build_fmu(system, name, Path(folder), [fmpy.platform], kind=kind)
             counts = options.steps, min(options.repeats, 64), options.instances
             rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *counts)
@@ -55,7 +52,7 @@ def _plant_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 PARTS = {
     "calls": Part(
-        "calls of the native FMU and of the FMU of PythonFMU, from C and through FMPy",
+        "calls of the native FMU and of the FMU of PythonFMU, from C",
         _calls,
         options={
             "scene": ("prototype_car", "car or scene, as for ali3 build"),
@@ -97,12 +94,12 @@ PARTS = {
         chart=held_inputs.draw,
     ),
     "study": Part(
-        "what Dask takes beside runs of about 0.1 s; memory, disk and starts as runs grow in number (extra `study`)",
+        "what Dask takes beside runs of about 0.1 s; memory and disk as runs grow in number (extra `study`)",
         studies.measure,
         names=studies.PARTS,
         options=studies.OPTIONS,
         pages=("scale.md",),
-        blocks=study_blocks,
+        blocks=studies.study_blocks,
     ),
 }
 

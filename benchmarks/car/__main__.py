@@ -34,20 +34,13 @@ from benchmarks.shared.pages import Row
 from mbs.vehicle import car_names, load
 
 REPEATS = {"repeats": (3, "timed runs of a row")}
-ONE_CAR = {"car": (manoeuvres.PROTOTYPE, f"of {', '.join(manoeuvres.CARS)}")}
-
-
-def _car(options: Namespace) -> str:
-    if options.car not in manoeuvres.CARS:
-        raise UserError(f"There are no references of a car {options.car!r}; there are: {', '.join(manoeuvres.CARS)}.")
-    return str(options.car)
 
 
 def _accuracy(options: Namespace) -> list[dict[str, Any]]:
-    car, runs = _car(options), [(name, h) for name in options.only for h in accuracy.STEPS]
+    runs = [(name, h) for name in options.only for h in accuracy.STEPS]
     with tempfile.TemporaryDirectory() as folder:
-        fmu = None if options.no_fmu else accuracy.build_fmu_of(Path(folder), car)
-        return [accuracy.measure(name, h, fmu, options.repeats, car) for name, h in watched(runs)]
+        fmu = None if options.no_fmu else accuracy.build_fmu_of(Path(folder))
+        return [accuracy.measure(name, h, fmu, options.repeats) for name, h in watched(runs)]
 
 
 def _tables(options: Namespace) -> list[dict[str, Any]]:
@@ -67,10 +60,9 @@ def _fidelity(options: Namespace) -> list[dict[str, Any]]:
 
 
 def _references(options: Namespace) -> None:
-    car, whole = _car(options), len(options.only) == len(manoeuvres.NAMES)
-    if whole and not options.keep_replay:
-        trajectories.write_replay(car)
-    print("\n".join([trajectories.write(name, car) for name in watched(options.only)]))
+    if options.car not in manoeuvres.CARS:
+        raise UserError(f"There are no references of a car {options.car!r}; there are: {', '.join(manoeuvres.CARS)}.")
+    print("\n".join([trajectories.write(name, options.car) for name in watched(options.only)]))
 
 
 def _fidelity_references(options: Namespace) -> None:
@@ -83,15 +75,15 @@ def _tables_block(rows: Sequence[Row]) -> dict[str, str]:
 
 PARTS = {
     "accuracy": Part(
-        "errors and cost of a car's manoeuvres by step, in the kernel and through its FMU",
+        "errors and cost of the prototype's manoeuvres by step, in the kernel and through its FMU",
         _accuracy,
         names=manoeuvres.NAMES,
-        options=ONE_CAR | {"repeats": (5, "timed runs of a row"), "no_fmu": (False, "leave the runs through FMPy out")},
-        pages=("speed.md", "fmu.md", "cars.md"),
-        blocks=accuracy.page_blocks,
+        options={"repeats": (5, "timed runs of a row"), "no_fmu": (False, "leave the runs through FMPy out")},
+        pages=("speed.md", "fmu.md"),
+        blocks=accuracy.car_blocks,
     ),
     "cars": Part(
-        "one table of all cars with steps of 5 ms; rows of other cars are those that are stored",
+        "one table of all cars with steps of 5 ms",
         lambda options: all_cars.measure(options.only, options.repeats),
         names=manoeuvres.CARS,
         options=REPEATS,
@@ -114,7 +106,7 @@ PARTS = {
         blocks=lambda rows: {"handling": measures.measure_table(rows)},
     ),
     "trust": Part(
-        "errors by steps in a period, by speed over a kerb, and of hard manoeuvres",
+        "errors by steps in a period and by speed over a kerb",
         lambda options: error_limits.measure(),
         pages=("trust.md",),
         blocks=error_limits.trust_blocks,
@@ -145,7 +137,7 @@ PARTS = {
         "write reference trajectories of a car, in steps of 0.1 ms; each file has the differences of larger steps",
         _references,
         names=manoeuvres.NAMES,
-        options=ONE_CAR | {"keep_replay": (False, "do not drive the double lane change again")},
+        options={"car": (manoeuvres.PROTOTYPE, f"of {', '.join(manoeuvres.CARS)}")},
         rows=False,
     ),
     "fidelity-references": Part(

@@ -37,9 +37,7 @@ TITLES = {
 }
 SMALLER = {"kerb_lock_brake": (0.002,)}
 """Further steps in the table, beside 10 and 5 ms, s."""
-HELD = ("the same through the FMU, inputs held",)
-TIMES = ("us per step", "times real time")
-SHOWN = 0.005  # s, step in the table of errors
+ERROR_COLUMN = "path error, of its length; wheel-load error, of the peak"
 WITHOUT_INPUTS = ("kerb_drop", "drop")
 
 
@@ -114,15 +112,15 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
     return row
 
 
-def build_fmu_of(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
-    """Build the FMU of the car for this platform; None if FMPy is not installed."""
+def build_fmu_of(folder: Path) -> Path | None:
+    """Build the FMU of the prototype for this platform; None if FMPy is not installed."""
     try:
         import fmpy
     except ImportError as error:
         print(f"{error.name} is not installed; the columns of the FMU stay empty.", file=sys.stderr)
         return None
     say = partial(print, file=sys.stderr, flush=True)
-    return build_fmu(manoeuvres.system_of("drop", car), f"{car}_car", folder, (fmpy.platform,), say)
+    return build_fmu(manoeuvres.system_of("drop"), f"{manoeuvres.PROTOTYPE}_car", folder, (fmpy.platform,), say)
 
 
 def _errors(row: Row, suffix: str = "") -> str | None:
@@ -141,8 +139,7 @@ def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
                 {
                     "manoeuvre": TITLES[r["manoeuvre"]],
                     "h, ms": f"{1e3 * r['h_s']:g}",
-                    "path error, of its length; wheel-load error, of the peak": _errors(r),
-                    HELD[0]: _errors(r, "_fmpy_held"),
+                    ERROR_COLUMN: _errors(r),
                     "iterations, mean (most)": f"{r['iterations_mean']:.2f} ({r['iterations_max']})",
                 }
             )
@@ -159,26 +156,3 @@ def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
     ]
     blocks = {"car": table(lines, dict.fromkeys(lines[0], ""))}
     return blocks | ({"held inputs": table(rows_of_held, dict.fromkeys(rows_of_held[0], ""))} if rows_of_held else {})
-
-
-def error_table(rows: Sequence[Row]) -> str:
-    """Table of errors and cost of the kernel by manoeuvre, with steps of 5 ms."""
-    lines = [
-        {
-            "manoeuvre": r["manoeuvre"].replace("_", " "),
-            "h, ms": f"{1e3 * r['h_s']:g}",
-            "path error, of its length": f"{r['path_error_rel']:.1e}",
-            "wheel-load error, of the peak": f"{100.0 * r['wheel_load_error_rel']:.2g} %",
-            TIMES[0]: f"{r['us_per_step']:.0f}",
-            TIMES[1]: f"{r['realtime_factor']:.0f}",
-        }
-        for r in rows
-        if r["h_s"] == SHOWN
-    ]
-    return table(lines, dict.fromkeys(lines[0], ""))
-
-
-def page_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Tables of the prototype, or the table of another car."""
-    car = str(rows[0]["car"])
-    return car_blocks(rows) if car == manoeuvres.PROTOTYPE else {car: error_table(rows)}

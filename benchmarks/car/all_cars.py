@@ -1,56 +1,36 @@
 """One table of all cars against their references.
 
 For each car, over the manoeuvres that have references, with steps of 5 ms: the largest path error divided by the path
-length and the largest wheel-load error divided by the largest load, each with its manoeuvre; the wheel-load error
-against loads of a run of 0.2 ms up to half a step before and after; the manoeuvres with errors above 1 % and 3 %, and
-the step that keeps them below; simulated time divided by processor time of the slowest manoeuvre; instructions of a
-step of the slalom, if valgrind is installed.
+length and the largest wheel-load error divided by the largest load, each with its manoeuvre; simulated time divided by
+processor time of the slowest manoeuvre; instructions of a step of the slalom, if valgrind is installed.
 """
 
-import json
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from benchmarks.car import accuracy, manoeuvres, trajectories
-from benchmarks.car.scene_instructions import Scene, compiled
+from benchmarks.car.scene_instructions import Scene, compile_program
 from benchmarks.car.scene_instructions import measure as count
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 
 STEP = 0.005  # s
-SMALLER = (0.002, 0.001)  # s
-FINE = 0.0002  # s
 COUNTED = 500  # steps whose instructions are counted
-STORED = Path(__file__).parents[1] / "data" / "car_table.json"
 
 
 def measure(cars: Sequence[str], repeats: int) -> list[dict[str, Any]]:
-    """Rows of all cars in their order: new ones of these cars, stored ones of the others."""
+    """A row for each car."""
     with tempfile.TemporaryDirectory() as folder:
-        program = compiled(Path(folder))
-        rows = [row_of(car, repeats, program, Path(folder)) for car in watched(cars)]
-    rows_by_car = {row["car"]: row for row in (*json.loads(STORED.read_text("utf-8"))["rows"], *rows)}
-    return [rows_by_car[car] for car in manoeuvres.CARS if car in rows_by_car]
-
-
-def within_bounds(row: Row) -> bool:
-    """Whether both errors of a row are within their bounds."""
-    return bool(row["path_error_rel"] <= accuracy.PATH_BOUND and row["wheel_load_error_rel"] <= accuracy.LOAD_BOUND)
+        program = compile_program(Path(folder))
+        return [row_of(car, repeats, program, Path(folder)) for car in watched(cars)]
 
 
 def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any]:
     """Row of a car: its errors against its references, and its cost."""
     rows = [accuracy.measure(name, STEP, None, repeats, car) for name in trajectories.referenced(car)]
     path, load = (max(rows, key=lambda row: row[key]) for key in accuracy.ERRORS)
-    needs: dict[str, float | None] = {}
-    for row in rows:
-        if not within_bounds(row):
-            finer = (accuracy.measure(row["manoeuvre"], h, None, 1, car) for h in SMALLER)
-            needs[row["manoeuvre"]] = next((r["h_s"] for r in finer if within_bounds(r)), None)
-    worst_manoeuvre = load["manoeuvre"]
-    result, fine = (manoeuvres.run(worst_manoeuvre, h, car=car) for h in (STEP, FINE))
     slowest = min(rows, key=lambda row: row["realtime_factor"])
     scene = Scene(car, STEP, COUNTED, lambda: manoeuvres.system_of("slalom", car), "slalom")
     return {
@@ -58,8 +38,6 @@ def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any
         "manoeuvres": len(rows),
         "path": {key: path[key] for key in ("manoeuvre", "path_error_rel")},
         "load": {key: load[key] for key in ("manoeuvre", "wheel_load_error_rel")},
-        "load_in_time": trajectories.load_error_in_time(result, fine, 0.5 * STEP),
-        "needs": needs,
         "realtime": {key: slowest[key] for key in ("manoeuvre", "realtime_factor")},
         "instructions": count(scene, program, folder)["instructions"],
     }
@@ -73,11 +51,6 @@ def text_of(rows: Sequence[Row]) -> str:
             "largest path error": f"{r['path']['path_error_rel']:.1e} ({_title(r['path']['manoeuvre'])})",
             "largest wheel-load error": f"{100.0 * r['load']['wheel_load_error_rel']:.2g} % "
             f"({_title(r['load']['manoeuvre'])})",
-            "within half a step in time": f"{100.0 * r['load_in_time']:.2g} %",
-            "outside of 1 %, 3 %; inside with": "; ".join(
-                f"{_title(name)}; {'–' if h is None else f'{1e3 * h:g} ms'}" for name, h in r["needs"].items()
-            )
-            or "none",
             "times real time": f"{r['realtime']['realtime_factor']:.0f} ({_title(r['realtime']['manoeuvre'])})",
             "instructions a step": r["instructions"],
         }

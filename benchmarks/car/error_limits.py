@@ -1,4 +1,4 @@
-"""Errors by steps in a period, by speed over a kerb and by acceleration: the limits of accurate runs."""
+"""Errors by steps in a period and by speed over a kerb; accelerations of hard manoeuvres."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,7 +18,7 @@ STEPS = (0.001, 0.002, 0.005, 0.01)  # s
 FINE = 2e-4  # s
 BEFORE = 0.2  # s of the run before the kerb
 AFTER = 1.0  # s of the run after the kerb
-HARD = {
+HARD = {  # manoeuvres, with the direction of their largest acceleration
     "launch_and_brake": "vx",
     "step_steer_given_throttle": "vy",
     "double_lane_change_replay": "vy",
@@ -27,7 +27,6 @@ HARD = {
 COLUMNS = {
     "frequency": {"steps_in_a_period": "d", "frequency_error": ".3g", "closed_form": ".3g"},
     "kerb": {"speed_m_s": "g"} | {f"{1e3 * h:g} ms": ".2g" for h in STEPS},
-    "acceleration": {"manoeuvre": "", "largest_m_s2": ".1f", "h_s": "g", "path_error": ".1e", "load_error": ".1g"},
 }
 
 
@@ -71,25 +70,17 @@ def kerb(speed: float) -> dict[str, Any]:
     return {"speed_m_s": speed} | errors
 
 
-def acceleration(name: str, h: float) -> dict[str, Any]:
-    """Errors of a manoeuvre against its stored reference, and its largest horizontal acceleration. `h`: step, s."""
-    t, values, length = trajectories.read(name)
-    trajectory = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
+def largest_acceleration(name: str) -> float:
+    """Largest horizontal acceleration in a manoeuvre of `HARD`, from its stored reference, m/s2."""
+    t, values, _ = trajectories.read(name)
     accelerations = values["chassis.ay"] if HARD[name] == "vy" else np.gradient(values["speed"], t)
-    return {
-        "manoeuvre": name.replace("_", " "),
-        "largest_m_s2": float(np.abs(accelerations).max()),
-        "h_s": h,
-        "path_error": trajectories.path_error(trajectory, values) / length,
-        "load_error": trajectories.load_error(trajectory, values),
-    }
+    return float(np.abs(accelerations).max())
 
 
 def measure() -> list[dict[str, Any]]:
     """Rows of all tables, each with the name of its table."""
     cases: list[tuple[str, Any, tuple[Any, ...]]] = [("frequency", frequency, (n,)) for n in STEPS_IN_A_PERIOD]
     cases += [("kerb", kerb, (v,)) for v in SPEEDS]
-    cases += [("acceleration", acceleration, (name, h)) for name in HARD for h in (0.01, 0.002)]
     return [{"table": name} | work(*arguments) for name, work, arguments in watched(cases)]
 
 

@@ -18,8 +18,6 @@ from mbs.flexible.recovery import gauge_rows
 from mbs.flexible.relief_solution import inertia_relief
 
 Array = NDArray[np.float64]
-FREQUENCIES = 15  # compared
-FIRST = 5  # in the first column
 DYNAMIC_MODES = FRAME.section.dynamic_modes
 FIGURES = {
     "tube_tip_deflection_m": ("tube of 1.5 m, tip deflection under 100 N, mm", 1e3, ".3f", 1),
@@ -30,29 +28,6 @@ FIGURES = {
 }
 """Results in `calculix.STORED`: title, scale, format, and stride of the shown values."""
 CONVERGED = 4  # refinement from which three digits of the moments at rest do not change
-
-
-def mass_errors(kind: str) -> Array:
-    """Relative errors of the free natural frequencies without rotary inertia, against consistent mass with it.
-
-    `kind`: "consistent" or "lumped".
-    """
-    frame = FRAME.frame()[0]
-    exact, results = (
-        natural_modes(model, 6 + FREQUENCIES)[0][6:]
-        for model in (frame.finite_element_model(), frame.finite_element_model(kind, rotary=False))
-    )
-    return np.asarray(results / exact - 1.0)
-
-
-def mass_table() -> str:
-    """Table of the largest frequency errors of simpler mass models."""
-    rows = []
-    for kind in ("consistent", "lumped"):
-        errors = 100.0 * mass_errors(kind)
-        first_errors, all_errors = (max(errors_of_modes, key=abs) for errors_of_modes in (errors[:FIRST], errors))
-        rows.append({"mass, no rotary inertia": kind, "first five, %": first_errors, "first fifteen, %": all_errors})
-    return table(rows, dict(zip(rows[0], ("", "+.2f", "+.2f"), strict=True)))
 
 
 def moments(theory: str = "euler_bernoulli", refinement: int = 1) -> Array:

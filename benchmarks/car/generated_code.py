@@ -31,7 +31,7 @@ def measure(scenes: Sequence[Scene], rounds: int, repeats: int) -> Iterator[dict
         A step is refused, or both do not make the same iterations.
     """
     with tempfile.TemporaryDirectory() as folder:
-        program = scene_instructions.compiled(Path(folder))
+        program = scene_instructions.compile_program(Path(folder))
         for scene in watched(scenes):
             yield _row(scene, program, Path(folder), rounds, repeats)
 

@@ -119,9 +119,8 @@ def measure(
             "us_a_step": us[way],
             "ratio": us["single"] / us[way],
             "steps_alone": alone[way],
-            "kilobytes_a_car": 1e-3 * (loaded.instance_size + (many[0].size / many[0].width if many else 0.0)),
         }
-        for way, many in ways.items()
+        for way in ways
     ]
 
 
@@ -159,10 +158,9 @@ def _step(
 
 
 def lane_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Tables of the gain by lanes, and of their memory."""
+    """Tables of the gain by lanes."""
     tables = {name: [row for row in rows if row["scene"] in scenes] for name, scenes in LANES.items()}
-    blocks = {name: _table_of_ways(part) for name, part in tables.items() if part}
-    return blocks | {"lanes memory": _memory(rows)}
+    return {name: _table_of_ways(part) for name, part in tables.items() if part}
 
 
 def scene_of(row: Row) -> str:
@@ -177,19 +175,6 @@ def _table_of_ways(rows: Sequence[Row]) -> str:
         line = lines.setdefault(row["way"], {"way": WAYS.get(row["way"], row["way"])})
         line[scene_of(row)] = f"{row['us_a_step']:.1f} ({row['ratio']:.2f})"
     return table(list(lines.values()), dict.fromkeys(["way", *dict.fromkeys(map(scene_of, rows))], ""))
-
-
-def _groups(rows: Sequence[Row], scene: str) -> dict[str, Row]:
-    """Rows of a scene by way, alone and in lanes on one core."""
-    return {r["way"]: r for r in rows if r["scene"] == scene and (r["way"] == "single" or r["way"].endswith("lanes"))}
-
-
-def _memory(rows: Sequence[Row]) -> str:
-    lines = []
-    for scene in dict.fromkeys(row["scene"] for row in rows):
-        sizes = {f"{WAYS.get(way, way)}, kB": r["kilobytes_a_car"] for way, r in _groups(rows, scene).items()}
-        lines.append({"scene": scene} | sizes)
-    return table(lines, {key: "" if key == "scene" else ".0f" for key in lines[0]})
 
 
 KERB = 7.0  # s: shortly before the front wheels are over it

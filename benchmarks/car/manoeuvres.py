@@ -1,29 +1,37 @@
 """Manoeuvres of cars: the host's files and further ones, simulated by the kernel without an FMU.
 
-They are the prototype's; a car that needs other pedals or steering has a file in its folder.
+They are the prototype's; a car that needs other pedals or steering has a file in its folder. The replay of the double
+lane change has the inputs that are stored with its reference.
 """
 
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.shared.timing import step_time
+from benchmarks.shared.tables import read_csv
 from hosts.driving.driver import make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulate
 from mbs.elements.road import GridRoad
 from mbs.settings.input_signals import Signal
+from mbs.simulation.step_time import step_time
 from mbs.vehicle import load as load_car
 
+Column: TypeAlias = NDArray[np.float64]
 FOLDER = Path(__file__).with_name("data")
+REFERENCES = Path(__file__).parents[2] / "tests" / "data" / "car"
 HOST = ("launch_and_brake", "kerb_drop", "step_steer_given_throttle", "slalom", "drop", "steady_cornering")
-OWN = ("double_lane_change_replay", "full_lock", "brake_on_slope", "kerb_lock_brake")
-NAMES = HOST + OWN
-CLOSED_LOOP = "double_lane_change"  # of the host; OWN[0] is its replay
+REPLAY = "double_lane_change_replay"
+CLOSED_LOOP = "double_lane_change"  # of the host, whose driver gave the inputs of `REPLAY`
+PEDALS = ("steering", "throttle", "brake")
+"""Inputs of that driver."""
+OWN = ("full_lock", "brake_on_slope", "kerb_lock_brake")
+NAMES = (*HOST, REPLAY, *OWN)
 RISE_BEGINS = 20.0  # m
 RISE_ENDS = 25.0  # m
 GRADE = 0.1  # dz/dx after the rise
@@ -41,8 +49,16 @@ CARS = (
 )
 
 
+def reference_file(name: str, car: str) -> Path:
+    """File of the reference of a manoeuvre of a car."""
+    return (REFERENCES if car == PROTOTYPE else REFERENCES / car) / f"{name}.csv"
+
+
 def load(name: str, car: str = PROTOTYPE) -> Manoeuvre:
     """A manoeuvre of a car: one of `NAMES` or another one of the host."""
+    if name == REPLAY:
+        _, columns = read_csv(reference_file(name, car))
+        return _replay(columns["time"], {pedal: columns[pedal] for pedal in PEDALS}, car)
     own_file = FOLDER / car / f"{name}.toml"
     if own_file.is_file():
         return load_manoeuvre(str(own_file))
@@ -145,11 +161,8 @@ def sampling(name: str, car: str = PROTOTYPE) -> float:
     return max(1, round(load(name, car).stop_time / 400.0 / 0.01)) * 0.01
 
 
-def record_driver(car: str) -> NDArray[np.float64]:
-    """Inputs of the host's driver in the double lane change, updated every 0.02 s.
-
-    Returns time, steering, throttle and brake, shape (n, 4).
-    """
+def record_driver(car: str) -> Manoeuvre:
+    """The replay of the double lane change, driven now by the host's driver, which acts every 0.02 s."""
     h, interval = 1e-3, 0.02
     manoeuvre = load(CLOSED_LOOP, car)
     system = system_of(CLOSED_LOOP, car)
@@ -159,8 +172,13 @@ def record_driver(car: str) -> NDArray[np.float64]:
     rows = []
     for k in range(round(manoeuvre.stop_time / interval) + 1):
         acts = driver.act(k * interval, run.sensors)
-        rows.append([k * interval, *acts.values()])
+        rows.append([float(f"{value:.6g}") for value in (k * interval, *(acts[pedal] for pedal in PEDALS))])
         for name, value in acts.items():
             run.set_input(name, value)
         run.step(h, round(interval / h))
-    return np.array(rows)
+    time, *inputs = np.array(rows).T
+    return _replay(time, dict(zip(PEDALS, inputs, strict=True)), car)
+
+
+def _replay(time: Column, inputs: dict[str, Column], car: str) -> Manoeuvre:
+    return Manoeuvre(REPLAY, time, inputs, float(time[-1]), dict(load(CLOSED_LOOP, car).start))

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
-from benchmarks.car.scene_instructions import instructions
+from benchmarks.car.scene_instructions import count_instructions
 
 _ARITHMETIC = re.compile(
     r"^\s*([0-9a-f]+):\s+v?(?:add|sub|mul|div|sqrt|min|max|addsub|hadd|(fn?m(?:add|sub)\d{3}))(sd|pd)\s+(\S.*)$", re.M
@@ -28,10 +28,10 @@ def executed(command: Sequence[str]) -> tuple[int | None, int | None]:
     vector, including operations of the C library. They are None without objdump and 0 on other processors than x86-64.
     """
     if disassembler() is None:
-        return instructions(command), None
+        return count_instructions(command), None
     with tempfile.TemporaryDirectory() as folder:
         profile = Path(folder, "profile")
-        total = instructions(command, profile, ("--dump-instr=yes", "--compress-pos=no", "--compress-strings=no"))
+        total = count_instructions(command, profile, ("--dump-instr=yes", "--compress-pos=no", "--compress-strings=no"))
         if total is None:
             return None, None
         executions = _executions(profile.read_text(encoding="utf-8"))

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from benchmarks.car import manoeuvres
+from benchmarks.shared.figures import between, rows_of
 from benchmarks.shared.pages import Row, table
 from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Simulation, System, compile
@@ -19,25 +20,27 @@ from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_c
 
 _COLLECTED = re.compile(r"Collected : (\d+)")
 SOURCE = Path(__file__).parents[1] / "shared" / "c" / "run_system.c"
-STORED = Path(__file__).parents[1] / "data" / "instructions.json"
+PAGE = "docs/speed.md"
 MAX_RATIO = 1.03
-"""Ratio to the stored table above which a step is dearer."""
+"""Ratio to the table of the page above which a step is dearer."""
 
 
 @cache
-def counter() -> str | None:
+def find_valgrind() -> str | None:
     """The program valgrind; None if it is not installed."""
     return shutil.which("valgrind")
 
 
-def instructions(command: Sequence[str], profile: Path = Path("/dev/null"), options: Sequence[str] = ()) -> int | None:
+def count_instructions(
+    command: Sequence[str], profile: Path = Path("/dev/null"), options: Sequence[str] = ()
+) -> int | None:
     """Instructions of a program, the same on a busy machine and on an idle one; None without valgrind.
 
     `profile`: file that callgrind writes; `options`: options of callgrind.
 
     Raises `RuntimeError` if valgrind did not say how many.
     """
-    valgrind = counter()
+    valgrind = find_valgrind()
     if valgrind is None:
         return None
     run = [valgrind, "--tool=callgrind", f"--callgrind-out-file={profile}", *options, *command]
@@ -49,24 +52,28 @@ def instructions(command: Sequence[str], profile: Path = Path("/dev/null"), opti
 
 
 class Scene(NamedTuple):
-    """What is counted: the first `steps` of `step` seconds."""
+    """The first steps of a motion, which are counted."""
 
     name: str
     step: float
+    """s."""
     steps: int
+    """Number of steps."""
     system: Callable[[], System]
+    """Compiles the System."""
     manoeuvre: str = ""
+    """Name of the manoeuvre that gives a car its start and inputs; empty: none."""
 
 
-def _flexible() -> System:
+def _compile_flexible() -> System:
     return compile(prototype_car.build(fidelity=3))
 
 
-def _car() -> System:
+def _compile_rigid() -> System:
     return manoeuvres.system_of("slalom")
 
 
-def _tables() -> System:
+def _compile_tables() -> System:
     return compile(prototype_car.build(fidelity=10))
 
 
@@ -76,21 +83,21 @@ SCENES = (
     Scene("Bricard's mechanism", 0.01, 300, lambda: compile(bricard.build())),
     Scene("flyball governor", 0.01, 300, lambda: compile(flyball.build())),
     Scene("spatial chain", 0.01, 200, lambda: compile(spatial_chain.build())),
-    Scene("lane change", 0.01, 500, _car, "double_lane_change_replay"),
-    Scene("lane change", 0.002, 500, _car, "double_lane_change_replay"),
-    Scene("slalom", 0.005, 500, _car, "slalom"),
-    Scene("launch and brake", 0.01, 500, _car, "launch_and_brake"),
-    Scene("full lock", 0.01, 500, _car, "full_lock"),
-    Scene("drop", 0.002, 500, _car, "drop"),
-    Scene("lane change, tables", 0.01, 500, _tables, "double_lane_change_replay"),
-    Scene("slalom, tables", 0.005, 500, _tables, "slalom"),
-    Scene("slalom, flexible frame", 0.005, 100, _flexible, "slalom"),
-    Scene("drop, flexible frame", 0.002, 200, _flexible, "drop"),
+    Scene("lane change", 0.01, 500, _compile_rigid, "double_lane_change_replay"),
+    Scene("lane change", 0.002, 500, _compile_rigid, "double_lane_change_replay"),
+    Scene("slalom", 0.005, 500, _compile_rigid, "slalom"),
+    Scene("launch and brake", 0.01, 500, _compile_rigid, "launch_and_brake"),
+    Scene("full lock", 0.01, 500, _compile_rigid, "full_lock"),
+    Scene("drop", 0.002, 500, _compile_rigid, "drop"),
+    Scene("lane change, tables", 0.01, 500, _compile_tables, "double_lane_change_replay"),
+    Scene("slalom, tables", 0.005, 500, _compile_tables, "slalom"),
+    Scene("slalom, flexible frame", 0.005, 100, _compile_flexible, "slalom"),
+    Scene("drop, flexible frame", 0.002, 200, _compile_flexible, "drop"),
     Scene("kerb test, flexible frame", 0.01, 100, lambda: compile(kerb_test.build(3))),
 )
 
 
-def compiled(folder: Path) -> Path:
+def compile_program(folder: Path) -> Path:
     """The program that repeats steps."""
     program, label = folder / "run_system", "the program that repeats steps"
     sources, include = [SOURCE, *build.sources(lanes=False)], (build.HERE / "include",)
@@ -124,7 +131,7 @@ def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
     status, *counts = map(int, output.split())
     if status != 0:
         raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {status}).")
-    total, start_count = instructions(command), instructions(command_without_steps)
+    total, start_count = count_instructions(command), count_instructions(command_without_steps)
     row: dict[str, Any] = {"scene": scene.name, "step_ms": 1e3 * scene.step, "steps": scene.steps}
     row |= {k: n / scene.steps for k, n in zip(("iterations", "factorizations", "solves"), counts, strict=True)}
     result = None if total is None or start_count is None else round((total - start_count) / scene.steps)
@@ -148,16 +155,18 @@ def instruction_blocks(rows: Sequence[Row]) -> dict[str, str]:
     return {"instructions": table(lines, columns | {"instructions": ",d"})}
 
 
-def compared(rows: Sequence[Row], stored: Sequence[Row]) -> list[str]:
-    """A sentence for each scene that takes over 3 % more than in stored rows; factorizations count without valgrind."""
-    stored_rows = {(row["scene"], row["step_ms"]): row for row in stored}
+def compare_with_page(rows: Sequence[Row], page: str) -> list[str]:
+    """A sentence for each scene that takes over 3 % more than in the table of a page; factorizations count without
+    valgrind.
+    """
+    written = {(row["scene"], row["step, ms"]): row for row in rows_of(between(page, "instructions"))}
     lines = []
     for row in rows:
-        stored_row = stored_rows.get((row["scene"], row["step_ms"]))
-        if stored_row is None:
+        before = written.get((row["scene"], f"{row['step_ms']:g}"))
+        if before is None:
             continue
-        quantity = "instructions" if row["instructions"] and stored_row["instructions"] else "factorizations"
-        ratio = row[quantity] / stored_row[quantity]
+        quantity = "factorizations" if row["instructions"] is None else "instructions"
+        ratio = row[quantity] / float(before[quantity].replace(",", ""))
         if ratio > MAX_RATIO:
             lines.append(
                 f"{row['scene']}, {row['step_ms']:g} ms: {quantity} {100.0 * (ratio - 1.0):.1f} % more a step."

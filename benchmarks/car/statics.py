@@ -29,7 +29,7 @@ def wheel_loads() -> tuple[float, float]:
 
 
 class _Corner:
-    """Equilibrium of several bodies with joint forces of known directions and points."""
+    """Equilibrium of several bodies with joint forces of known directions and points; axes of the drawing, m and N."""
 
     def __init__(self, bodies: list[str]) -> None:
         self.bodies = bodies
@@ -38,6 +38,7 @@ class _Corner:
         self.load = np.zeros(6 * len(bodies))
 
     def _wrench(self, body: str, force: np.ndarray, point: np.ndarray) -> np.ndarray:
+        """Force and moment about the origin on each body, shape (6 n,), of a force on one body; on the frame: zeros."""
         w = np.zeros(6 * len(self.bodies))
         if body in self.bodies:
             offset = 6 * self.bodies.index(body)
@@ -47,7 +48,9 @@ class _Corner:
     def add_joint(
         self, name: str, first: str, second: str, directions: np.ndarray, p1: np.ndarray, p2: np.ndarray
     ) -> None:
-        """Add an unknown force on body `first` at p1 along each direction, and its reaction on `second` at p2."""
+        """Add an unknown force on body `first` at p1 along each of `directions` (k, 3), and its reaction on `second` at
+        p2.
+        """
         for d in directions:
             self.columns.append(self._wrench(first, d, p1) - self._wrench(second, d, p2))
             self.names.append((name, d))

@@ -1,21 +1,14 @@
 """Reference trajectories of cars: their computation and files, and errors against them."""
 
-from pathlib import Path
-from typing import TypeAlias
-
 import numpy as np
-from numpy.typing import NDArray
 
 from benchmarks.car import manoeuvres
+from benchmarks.car.manoeuvres import Column
 from benchmarks.shared.tables import read_csv, write_csv
 from hosts.common.wheels import WHEELS
-from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.write_manoeuvre import write_manoeuvre
-from mbs import Settings, Trajectory
+from mbs import Settings
 from mbs.vehicle.levels.errors import LOADS, POSITION, load_error, path_error
 
-Column: TypeAlias = NDArray[np.float64]
-FOLDER = Path(__file__).parents[2] / "tests" / "data" / "car"
 STEP = 1e-4  # s
 CHECKS = (1e-3, 5e-4, 2.5e-4)  # s, steps that show the order
 TIGHT = Settings(tolerance_r=1e-12)
@@ -28,20 +21,12 @@ SENSORS = (
 )
 
 
-def folder_of(car: str) -> Path:
-    """Folder of the references of a car."""
-    return FOLDER if car == manoeuvres.PROTOTYPE else FOLDER / car
-
-
 def referenced(car: str) -> list[str]:
     """Names of the manoeuvres with a reference of the car."""
-    folder = folder_of(car)
-    return [name for name in manoeuvres.NAMES if (folder / f"{name}.csv").is_file()]
+    return [name for name in manoeuvres.NAMES if manoeuvres.reference_file(name, car).is_file()]
 
 
-def read(
-    name: str, car: str = manoeuvres.PROTOTYPE
-) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], float]:
+def read(name: str, car: str = manoeuvres.PROTOTYPE) -> tuple[Column, dict[str, Column], float]:
     """A stored reference.
 
     Returns
@@ -49,43 +34,30 @@ def read(
     t : ndarray of shape (n,)
         Times, s.
     values : dict of str to ndarray of shape (n,)
-        Values by sensor.
+        Values by sensor, and for the replay of the double lane change by input.
     length : float
         Length of the path of the reference point, m.
     """
-    head, values = read_csv(folder_of(car) / f"{name}.csv")
+    head, values = read_csv(manoeuvres.reference_file(name, car))
     length = float(next(line for line in head if line.startswith("# path_length_m:")).partition(":")[2])
     return values.pop("time"), values, length
 
 
-def load_error_in_time(trajectory: Trajectory, fine: Trajectory, late: float) -> float:
-    """Largest wheel-load error divided by the largest load, each load against all loads of a fine run up to `late` s
-    before and after.
-    """
-    peak, times = max(float(fine[s].max()) for s in LOADS), np.linspace(-late, late, 11)
-    return (
-        max(
-            float(
-                np.min(
-                    [np.abs(trajectory[s] - np.interp(trajectory.t + by, fine.t, fine[s])) for by in times], axis=0
-                ).max()
-            )
-            for s in LOADS
-        )
-        / peak
-    )
-
-
 def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
-    """Simulate a manoeuvre with the small step, write its file and return a line about it."""
-    interval = manoeuvres.sampling(name, car)
-    fine = manoeuvres.run(name, STEP, car=car, every=1, settings=TIGHT)
+    """Simulate a manoeuvre with the small step, write its file and return a line about it.
+
+    The double lane change is driven by the host's driver first, and its inputs are written too.
+    """
+    interval, system = manoeuvres.sampling(name, car), manoeuvres.system_of(name, car)
+    replayed = name == manoeuvres.REPLAY
+    manoeuvre = manoeuvres.record_driver(car) if replayed else manoeuvres.load(name, car)
+    fine = manoeuvres.run_on(system, manoeuvre, STEP, settings=TIGHT)
     every = round(interval / STEP)
     length = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
     values = {s: fine[s][::every] for s in SENSORS}
     errors, loads = [], []
     for h in CHECKS:
-        coarse = manoeuvres.run(name, h, car=car, every=round(interval / h), settings=TIGHT)
+        coarse = manoeuvres.run_on(system, manoeuvre, h, every=round(interval / h), settings=TIGHT)
         errors.append(path_error(coarse, values))
         loads.append(load_error(coarse, values))
     order = np.log2(errors[0] / errors[1])
@@ -100,20 +72,9 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
         + "; ".join(f"{h:g} s {e:.2e} m, {w:.1e}" for h, e, w in zip(CHECKS, errors, loads, strict=True)),
         f"# order in the step {order:.2f}; error of this path if it is 2: {own_error:.1e} m",
     ]
-    write_csv(folder_of(car) / f"{name}.csv", lines, {"time": fine.t[::every]} | values, 8)
+    inputs = manoeuvre.inputs if replayed else {}
+    write_csv(manoeuvres.reference_file(name, car), lines, {"time": fine.t[::every]} | values | inputs, 8)
     return (
         f"{name:<26} path {length:8.3f} m, order {order:5.2f}, own error {own_error:.1e} m, "
         f"iterations {report.mean_iterations:.2f} (at most {report.max_iterations}), {report.halvings} halvings"
     )
-
-
-def write_replay(car: str = manoeuvres.PROTOTYPE) -> None:
-    """Write the inputs of the driver in the double lane change as a manoeuvre file."""
-    closed = manoeuvres.load(manoeuvres.CLOSED_LOOP, car)
-    rows = np.array([[float(f"{v:.6g}") for v in row] for row in manoeuvres.record_driver(car)])
-    inputs = dict(zip(("steering", "throttle", "brake"), rows.T[1:], strict=True))
-    folder = manoeuvres.FOLDER if car == manoeuvres.PROTOTYPE else manoeuvres.FOLDER / car
-    name = manoeuvres.OWN[0]
-    manoeuvre = Manoeuvre(name, rows[:, 0], inputs, float(rows[-1, 0]), dict(closed.start))
-    comment = "What the host's driver did in the double lane change; made by python -m benchmarks.car references"
-    write_manoeuvre(manoeuvre, folder / f"{name}.toml", comment)

@@ -12,8 +12,7 @@ import numpy as np
 import mbs
 from benchmarks.car import fidelity_runs
 from benchmarks.methods.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TITLES, TREE_ONLY
-from benchmarks.paper.assembly_defect import STEP
-from benchmarks.references.assembly_defect import COMPONENTS, reference
+from benchmarks.references.assembly_defect import COMPONENTS, INTERVAL, reference
 from benchmarks.shared.pages import Row, table
 from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
 from mbs.vehicle.environment import GRAVITY
@@ -22,6 +21,7 @@ METHODS = [method for method in KERNEL if method not in (*CONSERVATIVE_ONLY, *TR
 QUICK = ("spinning_beam", "car_at_rest_100s")
 SPIN_UP = Path(__file__).parents[2] / "tests" / "data" / "reference" / "spin_up_beam.csv"
 CaseRun = tuple[float, mbs.Trajectory]
+"""Error of a run in the quantity of its scene, and the run."""
 
 
 @dataclass(frozen=True)
@@ -56,37 +56,37 @@ def _run(
     return mbs.simulate(_system(name), end, h, inputs, settings, every=every, progress=False, estimate_error=False)
 
 
-def beam(settings: mbs.Settings, h: float) -> CaseRun:
-    """Error of the tip deflection against geometrically exact beams."""
+def run_beam(settings: mbs.Settings, h: float) -> CaseRun:
+    """Error of the tip deflection against geometrically exact beams, of the largest deflection. `h`: step, s."""
     t = _run("beam", spinning_beam.DURATION, h, settings, 0.02)
     time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
     _, result = spinning_beam.extension_and_deflection(t.t, t["tip.x"], t["tip.y"])
     return float(np.abs(np.interp(time_ref, t.t, result) - expected).max() / np.abs(expected).max()), t
 
 
-def four_bar(settings: mbs.Settings, h: float) -> CaseRun:
-    """Error of the moments in the coupler against geometrically exact beams."""
-    t = _run("four-bar", assembly_defect_four_bar.DURATION, h, settings, STEP)
+def run_four_bar(settings: mbs.Settings, h: float) -> CaseRun:
+    """Error of the moments in the coupler against geometrically exact beams, of the largest moment."""
+    t = _run("four-bar", assembly_defect_four_bar.DURATION, h, settings, INTERVAL)
     expected = reference()
     gap = max(np.abs(t[f"coupler.{c}"] - expected[c]).max() for c in COMPONENTS)
     return float(gap / max(np.abs(expected[c]).max() for c in COMPONENTS)), t
 
 
-def rest(settings: mbs.Settings, h: float) -> CaseRun:
-    """Displacement of the braked car in 100 s."""
+def stand_braked(settings: mbs.Settings, h: float) -> CaseRun:
+    """Largest displacement of the braked car in 100 s, m."""
     t = _run("car", 100.0, h, settings, 0.1, {"brake": 1.0})
     position = np.array([t[f"chassis.{c}"] for c in "xyz"])
     return float(np.linalg.norm(position - position[:, :1], axis=0).max()), t
 
 
-def kerb(settings: mbs.Settings, h: float) -> CaseRun:
-    """Error of the filtered moments of the flexible frame against much smaller steps."""
+def run_kerb(settings: mbs.Settings, h: float) -> CaseRun:
+    """Error of the filtered moments of the flexible frame against steps of 0.5 ms, of their largest change."""
     t = fidelity_runs.run("kerb_test", 3, h, settings)
     return fidelity_runs.errors(fidelity_runs.sampled(t, h), fidelity_runs.read_reference("kerb_test"))["moment"], t
 
 
-def drive(settings: mbs.Settings, h: float) -> CaseRun:
-    """Error of the mean wheel loads against the weight, over 1000 s of wide bends under power."""
+def drive_bends(settings: mbs.Settings, h: float) -> CaseRun:
+    """Error of the mean wheel loads over 1000 s of wide bends under power, of the weight."""
     times = np.arange(0.0, 1001.0, 1.0)
     inputs = {"throttle": 0.2, "steering": (times, 0.02 * np.sin(2.0 * np.pi * times / 40.0))}
     t = _run("car", 1000.0, h, settings, 0.1, inputs)
@@ -95,11 +95,11 @@ def drive(settings: mbs.Settings, h: float) -> CaseRun:
 
 
 SCENES = {
-    "spinning_beam": Scene("deflection, of the largest", beam, 0.05, (0.02, 0.01, 0.005)),
-    "assembly_defect_four_bar": Scene("moment, of the largest", four_bar, 0.05, (0.01, 0.005, 0.002)),
-    "car_at_rest_100s": Scene("way, m", rest, 1e-3, (0.05, 0.02, 0.01, 0.005)),
-    "flexible_car_over_the_kerb": Scene("moment, of the largest change", kerb, 0.05, (0.01, 0.005, 0.002)),
-    "car_drives_1000s": Scene("mean load, of the weight", drive, 1e-3, (0.02, 0.01)),
+    "spinning_beam": Scene("deflection, of the largest", run_beam, 0.05, (0.02, 0.01, 0.005)),
+    "assembly_defect_four_bar": Scene("moment, of the largest", run_four_bar, 0.05, (0.01, 0.005, 0.002)),
+    "car_at_rest_100s": Scene("way, m", stand_braked, 1e-3, (0.05, 0.02, 0.01, 0.005)),
+    "flexible_car_over_the_kerb": Scene("moment, of the largest change", run_kerb, 0.05, (0.01, 0.005, 0.002)),
+    "car_drives_1000s": Scene("mean load, of the weight", drive_bends, 1e-3, (0.02, 0.01)),
 }
 
 

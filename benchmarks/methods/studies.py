@@ -1,12 +1,10 @@
-"""Measurements of studies on Dask: overhead of a run, memory, disk, tasks, rows, starts."""
+"""Studies on Dask: overhead of a run, memory and disk, and the tables of `docs/scale.md`."""
 
-import gc
 import multiprocessing
-import subprocess
 import tempfile
 import time
 from argparse import Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
@@ -19,8 +17,8 @@ import psutil
 
 import mbs
 from ali3.errors import UserError
-from ali3.processes import module_command
 from benchmarks.shared.command import watched
+from benchmarks.shared.pages import Row, table
 from fmu_src.build.build import build_fmu
 from hosts.study.campaign import cluster_runner, missing_runs
 from hosts.study.folder import begin_study
@@ -28,9 +26,7 @@ from hosts.study.plan import make_plan
 from hosts.study.study_file import read_study_file
 from hosts.study.study_runs import Bench, experiment_of, outcome_of
 from hosts.study.trial_runs import make_trial_runs
-from hosts.study.worker_data import Outcome
 
-Row = dict[str, Any]
 T = TypeVar("T")
 
 _CAR = """fmu = '{fmu}'
@@ -38,7 +34,7 @@ _CAR = """fmu = '{fmu}'
 manoeuvre = "slalom"
 stop_time = {stop_time!r}
 [sampling]
-method = "{method}"
+method = "sobol"
 runs = {runs}
 [parameters."road.friction_factor"]
 range = [0.4, 1.0]
@@ -56,7 +52,7 @@ _SPRING = """fmu = '{fmu}'
 name = "release"
 stop_time = {stop_time!r}
 [sampling]
-method = "{method}"
+method = "sobol"
 runs = {runs}
 [parameters."spring.stiffness"]
 range = [50.0, 200.0]
@@ -66,7 +62,7 @@ range = [0.0, 5.0]
 low = "min(bob.y)"
 end = "final(bob.y)"
 """
-PARTS = ("overhead", "memory", "single")
+PARTS = ("overhead", "memory")
 _LOOP = 50
 OPTIONS = {
     "fmu": ("dist/PrototypeCar.fmu", "of the car"),
@@ -74,8 +70,6 @@ OPTIONS = {
     "seconds": (0.1, "of a run of the car, s"),
     "workers": ((1, 2), "of the cluster"),
     "sizes": ((500, 2000), "runs of a small FMU"),
-    "rows": (100_000, "of the plan and the writer alone"),
-    "tasks": (2000, "that are empty"),
 }
 TEXTS = {"car": _CAR, "spring": _SPRING}
 """Study files by case."""
@@ -98,11 +92,11 @@ def in_new_process(work: Callable[..., T], *arguments: Any) -> T:
         return pool.submit(work, *arguments).result()
 
 
-def plan_of(case: str, fmu: Path, runs: int, stop_time: float, folder: Path, method: str = "sobol") -> Any:
+def plan_of(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Any:
     """Write the file of a study into a folder and make its plan. `stop_time`: s."""
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{case}.toml"
-    text = TEXTS[case].format(fmu=fmu.absolute(), stop_time=stop_time, runs=runs, method=method)
+    text = TEXTS[case].format(fmu=fmu.absolute(), stop_time=stop_time, runs=runs)
     file.write_text(text, encoding="utf-8")
     return make_plan(read_study_file(file)[0], file, fmu.absolute())
 
@@ -113,7 +107,7 @@ def stop_time_for(case: str, fmu: Path, seconds: float, folder: Path) -> float:
     return round(max(0.1, trial * seconds / plain_loop(case, fmu, 5, trial, folder)["run_s"]), 2)
 
 
-def plain_loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row:
+def plain_loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> dict[str, Any]:
     """Row of runs one after the other without Dask, after one to warm up."""
     plan = plan_of(case, fmu, max(runs, 2), stop_time, folder)
     job, work = plan.work.jobs[0], replace(plan.work, reuse=True)
@@ -140,7 +134,7 @@ def _cluster(workers: int) -> Iterator[str]:
         yield cluster.scheduler_address
 
 
-def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, folder: Path) -> Row:
+def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, folder: Path) -> dict[str, Any]:
     """Row of a study on a Dask cluster, without its start: time in addition to the runs, memory, disk."""
     from hosts.experiment.cluster import connected
     from hosts.experiment.store import ResultStore
@@ -197,93 +191,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     }
 
 
-def start_again(case: str, runs: int, folder: Path) -> Row:
-    """Row of the command on a folder with all rows: the time to detect that no run is missing."""
-    file = folder / f"{case}.toml"
-    command = module_command("ali3", "study", str(file), "--out", str(folder), "--no-report")
-    begin = time.perf_counter()
-    completed = subprocess.run(command, check=False, capture_output=True, text=True)
-    if completed.returncode != 0 or f"{runs} of {runs} runs are there" not in completed.stdout:
-        raise RuntimeError(f"the study was not found whole: {completed.stdout} {completed.stderr}")
-    return {"table": "start again", "case": case, "runs": runs, "start_s": time.perf_counter() - begin}
-
-
-def measure_plan(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Row:
-    """Row of the time and memory of a plan, and of its points block by block."""
-    plan_of(case, fmu, 16, 1.0, folder, method)
-    gc.collect()
-    before, begin = psutil.Process().memory_info().rss, time.perf_counter()
-    plan = plan_of(case, fmu, runs, 1.0, folder, method)
-    seconds, size = time.perf_counter() - begin, 1000
-    begin = time.perf_counter()
-    for first in range(0, runs, size):
-        plan.points.block(first, min(size, runs - first))
-    blocks = time.perf_counter() - begin
-    memory = psutil.Process().memory_info().rss - before
-    row = {"table": "plan", "method": method, "runs": runs, "start_s": seconds}
-    return row | {"main_ms": 1e3 * blocks / runs, "main_mb": 1e-6 * memory}
-
-
-def measure_writer(case: str, fmu: Path, rows: int, folder: Path) -> Row:
-    """Row of the writer: times to write random rows in chunks of 20, to check the files, and to open them in pandas."""
-    from hosts.study.damaged_files import sound_runs
-    from hosts.study.outcome_table import OutcomeTable
-    from hosts.study.parts import part_files
-    from hosts.study.store import read_study
-
-    plan = plan_of(case, fmu, rows, 1.0, folder)
-    begin_study(folder, plan.record, b"", plan.fmu)
-    rng, chunk = np.random.default_rng(0), 20
-    numbers = rng.random((rows, len(plan.work.columns))).tolist()
-    table, spent = OutcomeTable(folder, plan.record), 0.0
-    for first in range(0, rows, chunk):
-        indices = list(range(first, min(first + chunk, rows)))
-        outcomes = [
-            Outcome(measures=dict(zip(plan.work.columns, numbers[k], strict=True)), simulated=1.0, wall=numbers[k][0])
-            for k in indices
-        ]
-        begin = time.perf_counter()
-        for run, outcome in zip(plan.runs_at(indices), outcomes, strict=True):
-            table.take("", (run, outcome))
-        if table.is_full:
-            table.write()
-        spent += time.perf_counter() - begin
-    begin = time.perf_counter()
-    table.write()
-    spent += time.perf_counter() - begin
-    del table, numbers
-    size = sum(f.stat().st_size for f in part_files(folder))
-    begin = time.perf_counter()
-    assert sound_runs(folder, plan.record)[0].all()
-    result = time.perf_counter() - begin
-    begin, before = time.perf_counter(), psutil.Process().memory_info().rss
-    frame = read_study(folder)
-    read = time.perf_counter() - begin
-    assert len(frame) == rows
-    memory = psutil.Process().memory_info().rss - before
-    row = {"table": "rows", "case": case, "runs": rows, "main_ms": 1e3 * spent / rows, "bytes": size / rows}
-    return row | {"found_s": result, "read_s": read, "read_mb": 1e-6 * memory}
-
-
-def measure_empty_tasks(tasks: int, workers: int) -> Row:
-    """Row of empty tasks: the time of Dask itself."""
-    from hosts.experiment.cluster import connected
-
-    with _cluster(workers) as address, connected(address) as client:
-        client.gather(client.map(_identity, range(100), pure=False))
-        process = psutil.Process()
-        begin, processor = time.perf_counter(), sum(process.cpu_times()[:2])
-        client.gather(client.map(_identity, range(tasks), pure=False))
-        elapsed, processor = time.perf_counter() - begin, sum(process.cpu_times()[:2]) - processor
-    row = {"table": "empty tasks", "runs": tasks, "workers": workers, "elapsed_s": elapsed}
-    return row | {"task_ms": 1e3 * elapsed / tasks, "main_ms": 1e3 * processor / tasks}
-
-
-def _identity(number: int) -> int:
-    return number
-
-
-def measure(options: Namespace) -> list[Row]:
+def measure(options: Namespace) -> list[dict[str, Any]]:
     """Rows of the selected parts, each with the name of its table."""
     if "overhead" in options.only and not Path(options.fmu).is_file():
         raise UserError(f"There is no file {options.fmu}; build it, or give --fmu.")
@@ -300,21 +208,24 @@ def _measurements(options: Namespace, folder: Path) -> Iterator[Callable[[], dic
         for workers in options.workers:
             arguments = ("car", car, options.runs, workers, stop, folder / f"car-{workers}")
             yield lambda arguments=arguments: in_new_process(study_runs, *arguments)
-    if not set(options.only) & {"memory", "single"}:
-        return
-    spring = spring_fmu(folder)
     if "memory" in options.only:
+        spring = spring_fmu(folder)
         for runs in options.sizes:
-            study_folder = folder / f"spring-{runs}"
-            yield lambda runs=runs, study_folder=study_folder: in_new_process(
-                study_runs, "spring", spring, runs, max(options.workers), 1.0, study_folder
-            )
-            yield lambda runs=runs, study_folder=study_folder: start_again("spring", runs, study_folder)
-    if "single" in options.only:
-        for method in ("sobol", "latin_hypercube"):
-            study_folder = folder / f"plan-{method}"
-            yield lambda method=method, study_folder=study_folder: in_new_process(
-                measure_plan, "spring", spring, options.rows, method, study_folder
-            )
-        yield lambda: in_new_process(measure_writer, "spring", spring, options.rows, folder / "rows")
-        yield lambda: in_new_process(measure_empty_tasks, options.tasks, max(options.workers))
+            arguments = ("spring", spring, runs, max(options.workers), 1.0, folder / f"spring-{runs}")
+            yield lambda arguments=arguments: in_new_process(study_runs, *arguments)
+
+
+def study_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Tables of the page by the names of their marks, of the measured parts."""
+    results: dict[str, str] = {}
+    car, spring = ([r for r in rows if r["table"] == "runs" and r["case"] == case] for case in ("car", "spring"))
+    if car:
+        columns = {"workers": "d", "runs": ",d", "run, s": ".4f", "runs/s": ".2f", "chunks": ",d"}
+        columns |= {"overhead, ms/run": ".2f", "overhead": ".2%", "bytes/run": ".0f", "parts": "d", "failed": "d"}
+        loop = next((r for r in rows if r["table"] == "loop"), None)
+        alone = f"\n\nThe same runs in a plain loop without Dask take {loop['run_s']:.4f} s each." if loop else ""
+        results["study overhead"] = table(car, columns) + alone
+    if spring:
+        columns = {"runs": ",d", "main before, MB": ".0f", "main at most, MB": ".0f", "main, ms/run": ".3f"}
+        results["study memory"] = table(spring, columns | {"worker, MB": ".0f", "bytes/run": ".0f", "parts": "d"})
+    return results

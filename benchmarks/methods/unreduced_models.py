@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from benchmarks.shared.pages import Row, table
-from benchmarks.shared.timing import step_time
 from mbs import Model, Simulation, System, compile
 from mbs.common.checks import direction
 from mbs.model.body import Body
@@ -16,6 +15,7 @@ from mbs.model.carried_parts import SlidingPoint, Spin, WrittenAxis
 from mbs.model.joints.joint import Joint
 from mbs.model.perpendicular_vectors import perpendicular
 from mbs.scenes import double_four_bar, prototype_car
+from mbs.simulation.step_time import step_time
 from mbs.vehicle import built_car
 
 ROD_MASS = 0.5  # kg

@@ -94,7 +94,6 @@ PARTS = {
         options={"seeds": (3, "noises of a row")},
         pages=("flexible_car.md",),
         blocks=measured_guides.guide_blocks,
-        chart=lambda rows, file: measured_guides.draw(file),
     ),
 }
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,7 @@ from scipy.interpolate import PchipInterpolator, PPoly
 
 from ali3.low_pass import low_pass
 from benchmarks.car.fidelity_runs import FREQUENCY, MOMENTS
-from benchmarks.shared.command import pyplot, save_chart, watched
+from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 from mbs import Settings, Trajectory, compile, simulate
 from mbs.model.model import Model
@@ -60,15 +59,14 @@ class Signals:
 
 @dataclass(frozen=True)
 class Motion:
-    """Motion of the chassis by double integration."""
+    """Longitudinal motion of the chassis by double integration."""
 
     time: Array
+    """s, shape (n,)."""
     way: Array
+    """Along the axis of the chassis, m, shape (n,)."""
     speed: Array
-    heave: Array
-    pitch: Array
-    """`time`, s; `way`, m, and `speed`, m/s, along the axis of the chassis; `heave`, m, upwards; `pitch`, rad, positive
-    nose down; shape (n,) each."""
+    """Along that axis, m/s, shape (n,)."""
     guide: PPoly
     """The way over time, with a piecewise linear acceleration."""
 
@@ -103,11 +101,11 @@ def accelerometer_signals(
 
 
 def motion(signals: Signals, distance: float) -> Motion:
-    """The motion of the chassis, corrected for the drift at rest.
+    """The longitudinal motion of the chassis, corrected for the drift at rest.
 
     Least squares give the acceleration of the reference point and the angular acceleration from the four signals;
-    squares of angular velocities are neglected. Each is integrated; means over a second at rest are the drift of the
-    rate, interpolated by a monotone cubic. The speed is then scaled to the known distance.
+    squares of angular velocities are neglected. The first is integrated; means over a second at rest are the drift of
+    the speed, interpolated by a monotone cubic. The speed is then scaled to the known distance.
 
     `distance`: distance from rest to rest, m. The scaling corrects for the weight in the signal by the pitch of the
     braked car.
@@ -115,15 +113,15 @@ def motion(signals: Signals, distance: float) -> Motion:
     t = signals.time
     arms = np.vstack([np.hstack([np.eye(3), -_cross(arm)]) for arm in _ARMS])
     rigid = np.linalg.lstsq(arms, signals.force.reshape(len(t), 12).T, rcond=None)[0]
-    drifts = {k: _drift(t, cumulative_trapezoid(rigid[k], t, initial=0)) for k in (0, 2, 4)}
-    rates = {k: cumulative_trapezoid(rigid[k], t, initial=0) - drift(t) for k, drift in drifts.items()}
-    scale = distance / float(cumulative_trapezoid(rates[0], t)[-1])
-    speed = scale * rates[0]
-    heave, pitch = (cumulative_trapezoid(rates[k], t, initial=0) for k in (2, 4))
-    change = scale * (rigid[0] - drifts[0].derivative()(t))
+    speed = cumulative_trapezoid(rigid[0], t, initial=0)
+    drift = _drift(t, speed)
+    speed -= drift(t)
+    scale = distance / float(cumulative_trapezoid(speed, t)[-1])
+    speed *= scale
+    change = scale * (rigid[0] - drift.derivative()(t))
     change, breaks = np.append(change, change[-1]), np.append(t, t[-1] + RATE)  # a guide is constant after its end
     guide = PPoly(np.stack([np.diff(change) / np.diff(breaks), change[:-1]]), breaks).antiderivative(2)
-    return Motion(t, cumulative_trapezoid(speed, t, initial=0), speed, heave, pitch, guide)
+    return Motion(t, cumulative_trapezoid(speed, t, initial=0), speed, guide)
 
 
 def _cross(r: Array) -> Array:
@@ -161,8 +159,6 @@ COLUMNS = {
     "guide": "",
     "way, m": ".3f",
     "speed, m/s": ".3f",
-    "heave, m": ".3f",
-    "pitch, deg": ".1f",
     "iterations": ".2f",
     "most": "d",
     "tangents": ".2f",
@@ -170,9 +166,6 @@ COLUMNS = {
     "moments, %": ".1f",
     "peaks, %": ".1f",
 }
-_SMOOTH = "#0b62c4"
-_MEASURED = "#d55e00"
-_SIGNAL = "#b0b0b0"
 PAPER = {"guide": "the paper's, measured", "iterations": 2.0, "most": 3}
 _MAX_SHIFT = 0.5  # s
 _EDGE = 0.1  # s at the end that are not compared
@@ -220,7 +213,7 @@ def row_of(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int])
     options = dict(CASES[name])
     frequency = options.pop("filter", 0.0)
     every = round(RATE / FINE)
-    x, z, pitch = (true[f"chassis.{k}"][::every] - true[f"chassis.{k}"][0] for k in ("x", "z", "pitch"))
+    x = true["chassis.x"][::every] - true["chassis.x"][0]
     reference = moments(plain)
     results = []
     for seed in seeds:
@@ -234,8 +227,6 @@ def row_of(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int])
             {
                 "way, m": _rms(guide_motion.way - x),
                 "speed, m/s": _rms(guide_motion.speed - np.gradient(x, guide_motion.time)),
-                "heave, m": _rms(guide_motion.heave - z),
-                "pitch, deg": float(np.degrees(_rms(guide_motion.pitch - pitch))),
                 **cost(run),
                 "later, s": delay * kerb_test.STEP,
                 "moments, %": 100.0 * error,
@@ -261,39 +252,3 @@ def measure(seeds: int) -> list[dict[str, Any]]:
 def guide_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Table of the page."""
     return {"measured guides": table(rows, COLUMNS)}
-
-
-def draw(file: Path) -> None:
-    """Draw signals, speed and filtered moments of one seed with all noise."""
-    plt = pyplot()
-    true, plain = simulate_smooth(), simulate(compile(kerb_test.build()), kerb_test.DURATION, kerb_test.STEP)
-    signals = accelerometer_signals(true)
-    guide_motion = motion(signals, float(true["chassis.x"][-1] - true["chassis.x"][0]))
-    run = simulate_guided(guide_motion)
-    gauge_indices = [k for k, name in enumerate(MOMENTS) if name.endswith(("SG1", "SG3"))]
-    figure, panels = plt.subplots(2 + len(gauge_indices), 1, figsize=(9.0, 8.4), sharex=True, layout="constrained")
-    panels[0].plot(signals.time, signals.force[:, 0, 0], color=_SIGNAL, linewidth=0.6, label="accelerometer FL, along")
-    panels[0].plot(
-        signals.time, np.gradient(kerb_test.speed(signals.time), signals.time), color=_SMOOTH, label="smooth"
-    )
-    panels[0].set_ylabel("m/s²")
-    panels[1].plot(guide_motion.time, kerb_test.speed(guide_motion.time), color=_SMOOTH, label="smooth guide")
-    panels[1].plot(guide_motion.time, guide_motion.speed, color=_MEASURED, linewidth=1.0, label="from accelerations")
-    panels[1].set_ylabel("speed, m/s")
-    reference, guided_moments = moments(plain), moments(run)
-    for axes, k in zip(panels[2:], gauge_indices, strict=True):
-        axes.plot(plain.t[: len(reference)], reference[:, k], color=_SMOOTH, label="smooth guide")
-        axes.plot(
-            run.t[: len(guided_moments)],
-            guided_moments[:, k],
-            color=_MEASURED,
-            linewidth=1.0,
-            label="from accelerations",
-        )
-        axes.set_ylabel(f"change at {MOMENTS[k].split('.')[-1]}, N m")
-    panels[-1].set_xlabel("time, s")
-    for axes in panels:
-        axes.legend(loc="upper left", frameon=False, ncols=2)
-        axes.margins(x=0)
-        axes.spines[["top", "right"]].set_visible(False)
-    save_chart(figure, file)

@@ -16,12 +16,16 @@ Z = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True)
 class PeerRun:
-    """Positions of the output point (n, k), m, at times (n,), s; wall time of the steps, s."""
+    """A run of another engine."""
 
     t: Vector
+    """Times, s, shape (n,)."""
     positions: Vector
+    """Output point at these times, m, shape (n, k)."""
     wall_s: float
+    """Wall time of the steps, s."""
     finished: bool
+    """Whether it reached its end."""
 
 
 def sample_times(end: float, samples: int) -> Vector:
@@ -31,19 +35,22 @@ def sample_times(end: float, samples: int) -> Vector:
 
 @dataclass(frozen=True)
 class Link:
-    """A body and its revolute joint at `position` on the parent (0: the ground); all axes are parallel at the start.
-
-    `centre`: centre of mass from the joint, m; `inertia`: about it, kg m^2; `mass`: kg; `rate`: initial rate of
-    the joint, rad/s.
-    """
+    """A body and its revolute joint on a parent; the axes of all bodies are parallel at the start."""
 
     parent: int
+    """Number of the body that carries the joint; 0: the ground."""
     position: Vector
+    """Joint from the joint of the parent, m, shape (3,)."""
     axis: Vector
+    """Unit vector along the joint's axis, shape (3,)."""
     centre: Vector
+    """Centre of mass from the joint, m, shape (3,)."""
     inertia: Vector
+    """Inertia about the centre of mass, kg m2, shape (3, 3)."""
     mass: float
+    """kg."""
     rate: float = 0.0
+    """Initial rate of the joint, rad/s."""
 
 
 @dataclass(frozen=True)
@@ -58,12 +65,16 @@ class Closure:
 
 @dataclass
 class Tree:
-    """A scene: bodies are numbered from 1; `body`, `point`, `components` define the output point."""
+    """A scene; its bodies are numbered from 1."""
 
     gravity: Vector
+    """m/s2, shape (3,)."""
     body: int
+    """Body of the output point."""
     point: Vector
+    """Output point from the joint of its body, m, shape (3,)."""
     components: list[int]
+    """Components of the output point that are compared."""
     links: list[Link] = field(default_factory=list)
     closures: list[Closure] = field(default_factory=list)
 
@@ -119,5 +130,6 @@ def _chain() -> Tree:
 
 
 def _rod(along: Vector, mass: float, length: float, side: float) -> Vector:
+    """Inertia of a square rod about its centre, kg m2, shape (3, 3). `along`: unit vector; `side`: its section, m."""
     axial, transverse = mass * side**2 / 6.0, mass * (length**2 + side**2) / 12.0
     return np.asarray(transverse * np.eye(3) + (axial - transverse) * np.outer(along, along))

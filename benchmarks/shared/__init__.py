@@ -1,1 +1,1 @@
-"""What the commands have in common: arguments, progress, the machine, timing, tables, charts and files."""
+"""What the commands have in common: arguments, progress, the machine, tables, charts and files."""

@@ -142,17 +142,13 @@ def test_written_sentences_are_wrapped_and_tables_are_not():
 
 
 @pytest.mark.slow
-def test_growth_finds_the_non_zeros_linear(tmp_path):
+def test_growth_fits_exponents_and_draws(tmp_path):
     files = ["--json", str(tmp_path / "g.json"), "--chart", str(tmp_path / "growth.png")]
     assert cost.main(["growth", "--quick", *files]) == 0
     _, rows = read(tmp_path / "g.json")
-    few, more = [row for row in rows if row["table"] == "chassis"]
-    assert more["modes"] - few["modes"] == cost_growth.MODES[1] - cost_growth.MODES[0]
-    exponents = cost_growth.exponents([few, more], "modes")
-    assert 1.0 < exponents["factor_nonzeros"] < 2.0  # the modal block is dense
-    blocks = cost_growth.growth_blocks(rows)
-    assert f"factor nonzeros {exponents['factor_nonzeros']:.2f}" in blocks["chassis growth"]
-    assert {"growth", "exponents", "chassis growth"} == set(blocks)
+    known = [{"N": n, **dict.fromkeys(cost_growth.EXPONENTS, 3.0 * n**1.5)} for n in (10, 20, 50)]
+    assert cost_growth.exponents(known) == pytest.approx(dict.fromkeys(cost_growth.EXPONENTS, 1.5))
+    assert {"growth", "exponents"} == set(cost_growth.growth_blocks(rows))
     assert (tmp_path / "growth.png").read_bytes().startswith(PNG)
 
 

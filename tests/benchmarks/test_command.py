@@ -13,8 +13,8 @@ import pytest
 from benchmarks.car import manoeuvres
 from benchmarks.shared.command import Part, pyplot, run, save_chart, watched
 from benchmarks.shared.pages import table
-from benchmarks.shared.timing import step_time
 from mbs import Settings
+from mbs.simulation.step_time import step_time
 
 H = 0.01  # s
 DURATION = 0.05  # s

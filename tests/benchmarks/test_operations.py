@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks.car.operations import disassembler, executed
-from benchmarks.car.scene_instructions import counter
+from benchmarks.car.scene_instructions import find_valgrind
 from mbs.kernel import build
 from tests.unoptimised import unoptimised
 
@@ -31,7 +31,7 @@ int main(int n_arguments, char **arguments) {
 @pytest.mark.slow
 @unoptimised()
 @pytest.mark.skipif(
-    counter() is None or disassembler() is None or platform.machine() not in ("x86_64", "AMD64"),
+    find_valgrind() is None or disassembler() is None or platform.machine() not in ("x86_64", "AMD64"),
     reason="needs valgrind, objdump and their instructions",
 )
 def test_each_number_of_a_vector_is_an_operation(tmp_path: Path) -> None:

@@ -60,13 +60,6 @@ def test_the_part_is_merged_and_the_rest_of_the_page_stays(monkeypatch: pytest.M
     ]
 
 
-def test_a_row_of_the_page_that_would_be_lost_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
-    assert command.main(["drive", "--log", "drive.csv", "--write"]) == 2
-    assert "would lose" in capsys.readouterr().err
-    assert command.main(["drive"]) == 2
-    assert "The log of the drive is given by --log FILE." in capsys.readouterr().err
-
-
 @pytest.mark.slow
 def test_the_hatchback_is_slower_than_people_in_a_named_car(monkeypatch: pytest.MonkeyPatch) -> None:
     """What fails stays in the table, whose speed is bisected to 1 km/h."""
@@ -86,3 +79,8 @@ def test_the_rows_of_another_program_have_its_sources_and_fail_where_it_differs(
     assert min(roll) > 4.0
     yaw = [v for (f, _), v in zip(actual, verdicts, strict=True) if "consistent: yaw" in f.test]
     assert all(abs(float(v.split()[0])) < 0.4 for v in yaw)
+
+
+def test_a_missing_log_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+    assert command.main(["drive"]) == 2
+    assert "The log of the drive is given by --log FILE." in capsys.readouterr().err
