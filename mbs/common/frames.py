@@ -10,14 +10,40 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
+class AxialStiffening:
+    """Axial forces of ``b`` beams by ``n`` amplitudes, and the stiffness that they add as parts of the elastic one."""
+
+    forces: Array
+    """Shape (b, n): tension per amplitude, N."""
+    stiffness: Array
+    """Shape (b, n, n): stiffness per tension in modes of unit elastic energy, 1/N."""
+    bounds: Array
+    """Shape (b,): largest eigenvalue of each stiffness, 1/N."""
+
+    def share(self, amplitudes: Array, least: float = 0.0) -> float:
+        """Largest part of the elastic stiffness of a deformation that the axial forces add or take.
+
+        It is the axial force as a part of the buckling load of the body with its frame clamped: of a straight beam
+        whose frame is in its middle, of the Euler load between hinged ends.
+
+        `amplitudes`: shape (n,). A share below `least` may be returned as 0.
+        """
+        forces = self.forces @ amplitudes
+        if np.abs(forces) @ self.bounds <= least:
+            return 0.0
+        return float(np.abs(np.linalg.eigvalsh(np.tensordot(forces, self.stiffness, 1))).max())
+
+
+@dataclass(frozen=True)
 class FlexibleShapes:
-    """Rotations of the nodes of a flexible body in its floating frame, per modal amplitude."""
+    """What a flexible body does in its floating frame, per modal amplitude."""
 
     name: str
     first: int
     """Index of its first amplitude among the full coordinates; the others follow."""
     turns: Array
     """Shape (nodes, 3, modes): rotation of each node per unit amplitude, rad."""
+    axial: AxialStiffening
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64])
             scalars.append(i)
     rigid = tuple(b.start for b in model.bodies if not (b.is_point or b.is_flexible))
     flexible = tuple(
-        FlexibleShapes(b.name, b.start + 12, b.flexibility.node_rotations)
+        FlexibleShapes(b.name, b.start + 12, b.flexibility.node_rotations, b.flexibility.axial)
         for b in model.bodies
         if b.flexibility is not None
     )

@@ -11,6 +11,7 @@ from scipy import sparse
 from mbs.common.affine import Affine
 from mbs.common.checks import flag, instance_of, mapping
 from mbs.common.errors import ModelError
+from mbs.compiler.angle_axes import check_angle_axes
 from mbs.compiler.armatures import armature_arrays
 from mbs.compiler.consistent_start import close_position
 from mbs.compiler.dependent_rows import independent_rows
@@ -67,10 +68,11 @@ NO_TREE: Tables = {name: [] for name in ARRAYS if name.startswith("tree_")}
 
 
 def check_model(model: Model) -> Model:
-    """The model; raises an error unless it is a Model with a body."""
+    """The model; raises an error unless it is a Model with a body, whose relative angles can turn."""
     instance_of(Model, model, "What compile takes", "a Model")
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
+    check_angle_axes(model)
     return model
 
 

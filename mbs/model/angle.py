@@ -26,7 +26,8 @@ def relative_angle(
     body_1, body_2 : Body
         Bodies with axes, or the ground.
     axis : array_like, shape (3,), optional
-        In space only: earth axes in the reference configuration, of any length.
+        In space only: earth axes in the reference configuration, of any length. It is that of the hinge of the
+        bodies if they have one; `compile` refuses one across it.
     zero : float
         The angle in the reference configuration, rad.
 

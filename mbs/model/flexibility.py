@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.common.frames import AxialStiffening
+
 Array = NDArray[np.float64]
 
 
@@ -25,3 +27,4 @@ class Flexibility:
     """Shape (k, 3): as drawn, m."""
     node_rotations: Array
     """Shape (k, 3, n): rad per amplitude, in the axes of the finite-element model."""
+    axial: AxialStiffening

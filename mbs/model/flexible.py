@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, is_finite, shown, vector
 from mbs.common.errors import ModelError
+from mbs.flexible.axial_stiffening import axial_stiffening
 from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
 from mbs.flexible.modal_body import ModalBody
 from mbs.model.body import Body, same_place
@@ -67,7 +68,14 @@ class FlexibleBody(Body):
         self.second_moment = self.integrals.J0
         i = self.integrals
         self.flexibility = Flexibility(
-            i.P, i.c, i.T, reduced.K, reduced.C, np.asarray(self.node_positions), reduced.node_rotations
+            P=i.P,
+            c=i.c,
+            T=i.T,
+            K=reduced.K,
+            C=reduced.C,
+            nodes=np.asarray(self.node_positions),
+            node_rotations=reduced.node_rotations,
+            axial=axial_stiffening(reduced),
         )
         self._interfaces: dict[int, Interface] = {}
         self._extent = float(np.linalg.norm(reduced.node_positions, axis=1).max())

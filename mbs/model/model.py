@@ -139,11 +139,11 @@ class Model(
     def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
         """Start velocity of a body: of its centre of mass, its angular velocity, or both.
 
-        A part that is not given follows from the joints: of all velocities that have the given part, the start takes
-        the one with the least kinetic energy, and a free body turns or moves only as given. Without both the body
-        starts at rest. The joints remove no more of the given part than they must. Where several given velocities
-        contradict each other through the joints the start has mass-weighted means, and `print(system)` and every run
-        report the numbers.
+        A part that is given again replaces the former one. A part that is not given in any call follows from the
+        joints: of all velocities that have the given part, the start takes the one with the least kinetic energy, and
+        a free body turns or moves only as given. Without both the body starts at rest. The joints remove no more of
+        the given part than they must. Where several given velocities contradict each other through the joints the
+        start has mass-weighted means, and `print(system)` and every run report the numbers.
 
         Parameters
         ----------
@@ -165,7 +165,8 @@ class Model(
         w = None if angular is None else _angular(angular, size, f"the angular {subject}")
         if body.is_point and v is None:
             raise ModelError(f"The {subject} is angular; a point mass has a linear one only.")
-        self.body_velocities[body.number] = (v, w)
+        given = self.body_velocities.get(body.number, (None, None))
+        self.body_velocities[body.number] = (given[0] if v is None else v, given[1] if w is None else w)
 
 
 def _angular(value: ArrayLike, size: int, subject: str) -> Vector:

@@ -79,3 +79,15 @@ def test_a_rate_and_a_velocity_contradict_each_other() -> None:
 
     assert "the rate of 'angle' is given as 5 1/s" in str(mbs.compile(pendulum(5.0, 1.0)))
     assert np.abs(mbs.compile(pendulum(5.0, 5.0)).arrays["qd0"]).max() == pytest.approx(5.0)
+
+
+def test_the_parts_of_a_velocity_may_be_given_one_after_the_other() -> None:
+    m = Model("tumbling", gravity=(0, 0, 0))
+    body = m.body("body", mass=1.0, com=(0, 0, 0), inertia=(0.1, 0.1, 0.1))
+    m.initial_velocity(body, (9.0, 0, 0))
+    m.initial_velocity(body, (1.0, 0, 0))
+    m.initial_velocity(body, angular=(0, 0, 2.0))
+    m.sense_position("speed", body, None, "x", order=1)
+    m.sense_rotation("rate", body, "z", order=1)
+    sensors = mbs.Simulation(mbs.compile(m)).sensors
+    assert (sensors["speed"], sensors["rate"]) == pytest.approx((1.0, 2.0))

@@ -1,12 +1,15 @@
-"""Bending beyond the range of linear modes is reported once, with the number of parts that a body needs."""
+"""Bodies beyond the range of linear modes are reported once, with the number of parts that they need."""
 
 import warnings
 
+import numpy as np
 import pytest
 
-from mbs import BendingWarning, Simulation, simulate
+from mbs import BendingWarning, Simulation, compile, linearise, simulate
+from mbs.flexible.section import round_bar
+from mbs.model import Model
 from mbs.simulation.march import march
-from tests.flexible_engine.bodies import soft_pendulum
+from tests.flexible_engine.bodies import ALUMINIUM, chain, soft_pendulum
 
 
 def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs() -> None:
@@ -15,10 +18,50 @@ def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs() -> No
     assert len(caught) == 1
 
 
-def test_two_bodies_are_not_warned_of() -> None:
+def test_as_many_bodies_as_the_message_says_are_not_warned_of() -> None:
+    with pytest.warns(
+        BendingWarning, match=r"axial forces of 0\.09\d times .* Divide it into 2 or more"
+    ):
+        simulate(soft_pendulum(2), 1.0, 0.0025, progress=False, estimate_error=False)
     with warnings.catch_warnings():
         warnings.simplefilter("error", BendingWarning)
-        simulate(soft_pendulum(2), 2.0, 0.0025, progress=False, estimate_error=False)
+        simulate(soft_pendulum(4), 2.0, 0.0025, progress=False, estimate_error=False)
+
+
+def _column(parts: int, share: float) -> Simulation:
+    """A hinged column of 1 m at rest under `share` of its Euler load; negative: tension."""
+    section = round_bar(0.02)
+    m = Model("column", gravity=(0, 0, 0))
+    m.start_in_equilibrium = True
+    column = chain(m, (0, 0, 0), (1, 0, 0), section, ALUMINIUM, parts=parts)
+    m.revolute("left", m.ground, column[0].interface(0), point=(0, 0, 0), axis=(0, 0, 1))
+    end = m.body("end", mass=0.01, com=(1, 0, 0), inertia=(1e-5, 1e-5, 1e-5))
+    m.revolute("right", column[-1].interface(2), end, point=(1, 0, 0), axis=(0, 0, 1))
+    m.prismatic("slide", end, m.ground, axis=(1, 0, 0))
+    euler_load = np.pi**2 * ALUMINIUM.E * section.Iy
+    m.force("load", end, inputs=[m.input("load", min=-1e5, max=1e5, start=-share * euler_load), None, None])
+    return Simulation(compile(m))
+
+
+@pytest.mark.parametrize(
+    ("parts", "share", "of_part", "error"),
+    [(1, 0.5, 0.50, 0.42), (2, 0.5, 0.12, 0.093), (4, 0.5, 0.0, 0.024), (2, -0.5, 0.12, -0.035)],
+)
+def test_axial_forces_are_reported_where_they_change_a_frequency(
+    parts: int, share: float, of_part: float, error: float
+) -> None:
+    """Of a column, pi^2 sqrt(EI / (rho A)) sqrt(1 - share); one body has the same with and without a load."""
+    simulation = _column(parts, share)
+    section = round_bar(0.02)
+    exact = np.pi / 2 * np.sqrt(ALUMINIUM.E * section.Iy / (ALUMINIUM.rho * section.area) * (1 - share))
+    lowest = min(mode.frequency_hz for mode in linearise(simulation).oscillating_modes())
+    assert lowest / exact - 1 == pytest.approx(error, abs=0.001)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", BendingWarning)
+        simulation.run(0.0002, 0.0001, progress=False)
+    texts = [str(w.message) for w in caught if w.category is BendingWarning]
+    assert len(texts) == (of_part > 0)
+    assert all(f"axial forces of {of_part:.2g} times its buckling load" in text for text in texts)
 
 
 def test_a_stepped_run_warns_once() -> None:

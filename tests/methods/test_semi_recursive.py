@@ -208,3 +208,21 @@ def test_a_step_that_fails_leaves_the_last_state_and_a_run_shows_it():
     again.run(0.05, done)
     for a, b in zip(instance.get_state()[:3], again.get_state()[:3], strict=True):
         assert a[:] == b[:]
+
+
+@pytest.mark.parametrize("hinges", [2, 3])
+def test_a_door_on_several_hinges_moves_as_on_one(hinges):
+    """All rows of its loops are redundant: what round-off leaves of them is no row."""
+
+    def door(count):
+        m = Model("door")
+        leaf = m.body("leaf", mass=2.0, com=(0.3, 0.1, -0.2), inertia=(0.1, 0.2, 0.25))
+        axis = np.array([0.36, 0.48, 0.8])
+        for k in range(count):
+            m.revolute(f"hinge {k}", m.ground, leaf, point=0.5 * k * axis, axis=axis)
+        m.sense_position("x", leaf, None, "x")
+        return simulate(compile(m), 1.0, 0.01, method="semi_recursive", progress=False)["x"]
+
+    one = door(1)
+    assert np.ptp(one) > 0.05
+    np.testing.assert_allclose(door(hinges), one, rtol=0, atol=1e-9)

@@ -107,3 +107,19 @@ def test_a_torque_on_an_angle_acts_on_both_bodies():
     t = Simulation(compile(m)).run(1.0, 0.001)
     assert t["two"][-1] == pytest.approx(3.0, rel=1e-5)
     assert t["one"][-1] == pytest.approx(-0.75, rel=1e-5)
+
+
+@pytest.mark.parametrize("joint", ["revolute", "cylindrical"])
+def test_an_angle_across_the_hinge_of_its_bodies_is_refused(joint):
+    """It would stay at 0 while the hinge turns, and a torque on it would do nothing; an oblique axis projects."""
+
+    def model(axis):
+        m = Model("door")
+        door = m.body("door", mass=1.0, com=(0.5, 0, 0), inertia=(0.1, 0.1, 0.1))
+        getattr(m, joint)("hinge", m.ground, door, point=(0, 0, 0), axis=(0, 0, 1))
+        m.relative_angle("opening", m.ground, door, axis=axis)
+        return m
+
+    compile(model((0.1, 0, 1)))
+    with pytest.raises(ModelError, match=r"'opening' is about \(0, 1, 0\), but .* turns about \(0, 0, 1\)"):
+        compile(model((0, 2, 0)))

@@ -53,6 +53,7 @@ struct ali3_tree_work {
   double product[ALI3_MAX_JOINTS + 1][ALI3_LANES]; /* M times the columns of the null space */
   double row[ALI3_MAX_CUT_ROWS][ALI3_LANES]; /* Jacobian of the rows of the cut joints */
   double upper[ALI3_MAX_CUT_ROWS][ALI3_LANES]; /* factors of the chosen rows */
+  double largest_term; /* of the sums in w->row, by which their round-off is measured */
   double Phi[ALI3_MAX_CUT_ROWS], gamma[ALI3_MAX_CUT_ROWS];
   int32_t row_order[ALI3_MAX_CUT_ROWS], column_order[ALI3_LANES], rank; /* the first `rank` of both are the chosen */
   double stage[ALI3_STAGES][2 * ALI3_LANES], sum[2 * ALI3_LANES]; /* rates of (q, qd) at the stages of a step */

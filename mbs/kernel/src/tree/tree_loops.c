@@ -8,6 +8,7 @@
 #include "tree.h"
 
 static const double RANK = 1e-7; /* of the largest pivot: a smaller one belongs to a redundant row */
+static const double ROUND_OFF = 1e-12; /* of the largest term of the rows: likewise, if all rows are redundant */
 
 typedef struct {
   int32_t first, second; /* bodies */
@@ -43,6 +44,7 @@ static void add_path_derivatives(const ali3_tree *T, ali3_tree_work *w, const cu
     const double t[3] = {w->turn[0][j], w->turn[1][j], w->turn[2][j]};
     double v[3];
     ali3_cross(t, point, v);
+    for (int i = 0; i < 3; i++) w->largest_term = fmax(w->largest_term, fmax(fabs(t[i]), fabs(w->shift[i][j])));
     for (int i = 0; i < k->points; i++) w->row[row + i][j] += sign * (w->shift[i][j] + v[i]);
     for (int i = 0; i < k->axes; i++) w->row[row + k->points + i][j] += sign * ali3_dot(t, arm[i]);
   }
@@ -51,6 +53,7 @@ static void add_path_derivatives(const ali3_tree *T, ali3_tree_work *w, const cu
 void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients) {
   const ali3_tree *T = S->tree;
   int32_t row = 0;
+  if (gradients) w->largest_term = 0.0;
   for (int32_t c = 0; c < T->n_cut; c++) {
     const cut k = cut_of(S, w, c);
     for (int i = 0; i < k.points; i++) w->Phi[row + i] = k.p[i] - k.r[i];
@@ -129,7 +132,7 @@ void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
           column = j;
         }
     if (k == 0) largest = best;
-    if (!(best > RANK * largest)) break;
+    if (!(best > fmax(RANK * largest, ROUND_OFF * w->largest_term))) break;
     const int32_t row = w->row_order[at], joint = w->column_order[column];
     w->row_order[at] = w->row_order[k];
     w->row_order[k] = row;
