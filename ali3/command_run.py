@@ -4,6 +4,7 @@ import io
 import os
 import sys
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from ali3.confinement import confine
 from ali3.errors import UserError, reason
@@ -76,5 +77,14 @@ def _print_end(line: str, status: int) -> int:
 
 def _os_error_text(error: OSError) -> str:
     if error.filename is None or error.strerror is None:
-        return str(error)
+        return str(error) if _has_current_folder() else "The current folder has been deleted; change to another one."
     return f"{error.filename}: {reason(error)}."
+
+
+def _has_current_folder() -> bool:
+    """Whether the current folder still exists."""
+    try:
+        Path.cwd()
+    except OSError:
+        return False
+    return True

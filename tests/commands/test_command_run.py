@@ -59,6 +59,20 @@ def test_missing_memory_is_named_as_the_cause(
     assert capsys.readouterr().err.endswith("raise the limit (ulimit -v).\n")
 
 
+def test_a_current_folder_that_was_deleted_is_the_cause(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "gone").mkdir()
+    os.chdir("gone")
+    try:
+        (tmp_path / "gone").rmdir()
+    except OSError:
+        pytest.skip("the folder of a process cannot be deleted here")
+    assert run_command(lambda: len(str(Path.cwd()))) == 2
+    assert capsys.readouterr().err == "error: The current folder has been deleted; change to another one.\n"
+
+
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
 def test_what_the_encoding_of_the_output_lacks_ends_no_command(encoding: str) -> None:
     code = "from ali3.command_run import run_command; run_command(lambda: print('a \\u2212\\udcff') or 0)"
