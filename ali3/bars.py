@@ -14,7 +14,7 @@ _MAX_INTERVAL = 60.0  # s
 _JUDGED = 0.01  # part of the whole after which the remaining time is known
 
 
-class Bar(tqdm):  # type: ignore[type-arg] # is no generic class where it runs
+class Bar(tqdm):  # type: ignore[misc]
     """A bar that shows a question mark in place of the remaining time until enough is done to judge it."""
 
     @property
