@@ -26,6 +26,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
     `work`: returns the exit code; `errors`: errors of the user besides `UserError` and `OSError`, whose message is
     printed with the exit code 2; `is_confined`: the option ``--confined``. Returns the exit code.
     """
+    _open_closed_streams()
     if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")  # what its encoding lacks ends no command
     try:
@@ -33,8 +34,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
             if is_confined:
                 confine()
             status = work()
-            if sys.stdout is not None:  # None: closed by the shell
-                sys.stdout.flush()
+            sys.stdout.flush()
         return status
     except Stopped as error:
         return _print_end(f"stopped by {error.number.name}", 128 + error.number)
@@ -48,6 +48,17 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
         if message is None:
             raise
         return _print_end(f"error: {shortened(message)}", getattr(error, "status", WRONG_USE))
+
+
+def _open_closed_streams() -> None:
+    """Open standard streams that the shell has closed, as nothing: pipes to processes would take their numbers."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest free number, this one
+        if getattr(sys, name) is None:
+            setattr(sys, name, os.fdopen(number, "r" if name == "stdin" else "w", encoding="utf-8", closefd=False))
 
 
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:

@@ -39,9 +39,9 @@ def atomic_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iter
 
 
 def write_text(file: str | os.PathLike[str], text: str) -> None:
-    """Write a whole text file in UTF-8; see `atomic_file`."""
+    """Write a whole text file in UTF-8, in it bytes of names that are no characters as in JSON; see `atomic_file`."""
     with atomic_file(file) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
 def write_bytes(file: str | os.PathLike[str], content: bytes) -> None:

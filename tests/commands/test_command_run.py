@@ -1,6 +1,7 @@
 """The end of a command: one sentence for an error, one line for Ctrl-C, an exit code."""
 
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -57,6 +58,20 @@ def test_missing_memory_is_named_as_the_cause(
     monkeypatch.setattr(processes, "_SPARE_MEMORY", 1 << 60)
     assert run_command(lambda: raiser(error)) == 2
     assert capsys.readouterr().err.endswith("raise the limit (ulimit -v).\n")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX closes them")
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_streams_that_the_shell_has_closed_are_nothing(closed: str) -> None:
+    """Their numbers are no longer free for pipes, and what is printed there is gone."""
+    work = (
+        "import os, sys; print('out'); print('error', file=sys.stderr); "
+        "sys.exit(0 if min(os.pipe()) > 2 and not sys.stdin.read() else 7)"
+    )
+    code = f"from ali3.command_run import run_command; run_command(lambda: exec({work!r}) or 0)"
+    command = f"{shlex.quote(sys.executable)} -c {shlex.quote(code)} {closed}"
+    done = subprocess.run(["sh", "-c", command], cwd=Path(__file__).parents[2], stdin=subprocess.DEVNULL, timeout=60)
+    assert done.returncode == 0
 
 
 def test_a_current_folder_that_was_deleted_is_the_cause(

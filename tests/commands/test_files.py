@@ -1,5 +1,6 @@
 """Files are written completely or not at all, also by two writers at once; a full disk is reported."""
 
+import json
 import subprocess
 import sys
 import threading
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import mbs
-from ali3.files import FileError, atomic_file, check_writable, make_folder, write_text
+from ali3.files import FileError, atomic_file, check_writable, make_folder, write_json, write_text
 from ali3.folders import atomic_folder
 from ali3.locks import locked
 from fmu_src.native.archive import write_zip
@@ -120,6 +121,11 @@ def test_a_full_disk_names_the_file_and_leaves_nothing(tmp_path: Path) -> None:
     assert done.stderr == ""
     assert file.read_text() == "old"
     assert names(tmp_path) == ["Some.fmu"]
+
+
+def test_a_text_with_a_name_that_is_no_text_is_written(tmp_path: Path) -> None:
+    write_json(tmp_path / "a.json", {"file": "b\udcff ä"})
+    assert json.loads((tmp_path / "a.json").read_text("utf-8")) == {"file": "b\udcff ä"}
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
