@@ -9,7 +9,7 @@ from pathlib import Path
 from ali3.confinement import confine
 from ali3.errors import UserError, reason
 from ali3.extras import missing_module
-from ali3.message_text import shortened
+from ali3.message_text import brief, shortened
 from ali3.processes import is_memory_short
 from ali3.signals import Stopped, stopped_by_signals
 
@@ -69,6 +69,9 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
         return "There is not enough memory for this; close other programs, or raise the limit (ulimit -v)."
     if isinstance(error, RuntimeError) and str(error) == _NO_THREAD:
         return "The system starts no more threads for this user; close other programs, or raise the limit (ulimit -u)."
+    if isinstance(error, UnicodeEncodeError) and error.reason == "surrogates not allowed":
+        near = error.object[max(error.start - 30, 0) : error.end + 30]
+        return f"A name has bytes that are not UTF-8, {brief(near)}; give the file or folder another name."
     if isinstance(error, (UserError, *errors)):
         return str(error)
     return _os_error_text(error) if isinstance(error, OSError) else None

@@ -28,6 +28,11 @@ def raiser(error: BaseException) -> int:
         (ValueError("No such scene."), 2, "error: No such scene.\n"),
         (OSError(28, "No space left on device", "a.csv"), 2, "error: a.csv: no space left on device.\n"),
         (ModuleNotFoundError("No module named 'fmpy.x'", name="fmpy.x"), 2, 'python -m pip install "ali3[hosts]"\n'),
+        (
+            UnicodeEncodeError("utf-8", "out/b\udcff.csv", 5, 6, "surrogates not allowed"),
+            2,
+            "error: A name has bytes that are not UTF-8, 'out/b\\udcff.csv'; give the file or folder another name.\n",
+        ),
         (KeyboardInterrupt(), 130, "stopped by Ctrl-C\n"),
         (MemoryError(), 2, "raise the limit (ulimit -v).\n"),
         (RuntimeError("can't start new thread"), 2, "raise the limit (ulimit -u).\n"),
