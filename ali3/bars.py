@@ -11,12 +11,23 @@ from tqdm import tqdm
 DELAY = 2.0  # s before a bar appears
 _GROWTH = 1.5  # ratio of an interval between lines to the previous one
 _MAX_INTERVAL = 60.0  # s
+_JUDGED = 0.01  # part of the whole after which the remaining time is known
+
+
+class Bar(tqdm):  # type: ignore[misc]
+    """A bar that shows a question mark in place of the remaining time until enough is done to judge it."""
+
+    @property
+    def format_dict(self) -> dict[str, Any]:
+        values: dict[str, Any] = super().format_dict
+        total = values["total"]
+        return values | {"rate": 0.0} if total and values["n"] - values["initial"] < _JUDGED * total else values
 
 
 class _Lines:
     """A stream that writes some states of a bar, and the last one, as lines without control characters."""
 
-    bar: tqdm[Any] | None = None
+    bar: Bar | None = None
     # The interval grows here: tqdm counts some items twice if its own interval changes during an iteration.
     _interval, _due = DELAY, 0.0
 
@@ -32,11 +43,11 @@ class _Lines:
         sys.stderr.flush()
 
 
-def bar(*arguments: Any, **options: Any) -> tqdm[Any]:
+def bar(*arguments: Any, **options: Any) -> Bar:
     """A bar on the standard error stream that appears after two seconds. `arguments`, `options`: see `tqdm.tqdm`."""
     options = {"delay": DELAY} | options
     if sys.stderr.isatty():
-        return tqdm(*arguments, **options)
+        return Bar(*arguments, **options)
     lines = _Lines()
-    lines.bar = tqdm(*arguments, file=lines, ascii=True, mininterval=DELAY, maxinterval=_MAX_INTERVAL, **options)
+    lines.bar = Bar(*arguments, file=lines, ascii=True, mininterval=DELAY, maxinterval=_MAX_INTERVAL, **options)
     return lines.bar

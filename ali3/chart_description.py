@@ -1,4 +1,4 @@
-"""Stores the texts of a chart in its file, so that two versions of a picture can be compared."""
+"""Writes charts as files, which also store their texts, so that two versions of a picture can be compared."""
 
 from __future__ import annotations
 
@@ -6,17 +6,34 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.message_text import clean
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _KEY = "Description"
 """One of the keywords that PNG defines for texts."""
+_PICTURE_DOTS_PER_INCH = 110
 
 
-def png_metadata(figure: Figure) -> dict[str, str | None]:
-    """Metadata of a PNG for `Figure.savefig`; without `Software` all versions of Matplotlib write the same bytes."""
-    return {"Software": None, _KEY: describe(figure)}
+def save_figure(figure: Figure, file: Path) -> None:
+    """Write a figure as the kind of file that its suffix names, without one as a PNG, which has its description."""
+    make_plain(figure)
+    kind = file.suffix[1:].lower() or "png"
+    # without `Software` all versions of Matplotlib write the same bytes
+    metadata = {"Software": None, _KEY: describe(figure)} if kind == "png" else None
+    figure.savefig(file, format=kind, dpi=_PICTURE_DOTS_PER_INCH, metadata=metadata)
+
+
+def make_plain(figure: Figure) -> None:
+    """Show texts of a figure as they are: names of files and columns may look like formulas or not be characters."""
+    from matplotlib.text import Text
+
+    for text in figure.findobj(Text):
+        if content := text.get_text():  # before a figure is drawn, ticks, whose labels are formulas, have none
+            text.set_text(clean(content))
+            text.set_parse_math(False)
 
 
 def describe(figure: Figure) -> str:

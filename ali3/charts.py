@@ -16,13 +16,12 @@ from matplotlib import pyplot as plt
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from ali3.chart_description import describe, png_metadata
+from ali3.chart_description import describe, make_plain, save_figure
 from ali3.files import atomic_file, write_bytes
 from ali3.message_text import clean
 
 _PIXELS_PER_INCH = 96  # of CSS
 _DOTS_PER_INCH = 150  # of parts of an SVG that are drawn as pixels
-_PICTURE_DOTS_PER_INCH = 110  # of PNG files
 MANY_POINTS = 200
 """A curve with more markers is better drawn as pixels (``rasterized``): each marker takes about 80 bytes of SVG."""
 
@@ -57,9 +56,10 @@ def drawing(figure: Figure, message: str) -> Drawing:
     `message`: alternative text; empty: the title of the figure.
     """
     content = io.BytesIO()
+    make_plain(figure)
     figure_text = describe(figure)
     alternative_text = message or figure_text.partition("\n")[0]
-    title, description = (escape(clean(text)) for text in (alternative_text, figure_text))
+    title, description = escape(clean(alternative_text)), escape(figure_text)
     figure.set_dpi(_DOTS_PER_INCH)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _ignore_layout_warning():
         # `savefig` would draw the figure and its layout twice.
@@ -77,5 +77,5 @@ def drawing(figure: Figure, message: str) -> Drawing:
 def save_picture(figure: Figure, file: Path) -> None:
     """Write a figure as PNG with its description, and close it; the same figure gives the same bytes."""
     with atomic_file(file) as temporary, _ignore_layout_warning():
-        figure.savefig(temporary, dpi=_PICTURE_DOTS_PER_INCH, metadata=png_metadata(figure))
+        save_figure(figure, temporary)
     plt.close(figure)

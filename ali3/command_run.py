@@ -4,11 +4,12 @@ import io
 import os
 import sys
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from ali3.confinement import confine
 from ali3.errors import UserError, reason
 from ali3.extras import missing_module
-from ali3.message_text import shortened
+from ali3.message_text import brief, shortened
 from ali3.processes import is_memory_short
 from ali3.signals import Stopped, stopped_by_signals
 
@@ -25,6 +26,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
     `work`: returns the exit code; `errors`: errors of the user besides `UserError` and `OSError`, whose message is
     printed with the exit code 2; `is_confined`: the option ``--confined``. Returns the exit code.
     """
+    _open_closed_streams()
     if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")  # what its encoding lacks ends no command
     try:
@@ -32,8 +34,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
             if is_confined:
                 confine()
             status = work()
-            if sys.stdout is not None:  # None: closed by the shell
-                sys.stdout.flush()
+            sys.stdout.flush()
         return status
     except Stopped as error:
         return _print_end(f"stopped by {error.number.name}", 128 + error.number)
@@ -49,6 +50,17 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
         return _print_end(f"error: {shortened(message)}", getattr(error, "status", WRONG_USE))
 
 
+def _open_closed_streams() -> None:
+    """Open standard streams that the shell has closed, as nothing: pipes to processes would take their numbers."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest free number, this one
+        if getattr(sys, name) is None:
+            setattr(sys, name, os.fdopen(number, "r" if name == "stdin" else "w", encoding="utf-8", closefd=False))
+
+
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:
     """The sentence for a user on an error; None for an error of the program. `errors`: see `run_command`."""
     if isinstance(error, ModuleNotFoundError):
@@ -57,6 +69,9 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
         return "There is not enough memory for this; close other programs, or raise the limit (ulimit -v)."
     if isinstance(error, RuntimeError) and str(error) == _NO_THREAD:
         return "The system starts no more threads for this user; close other programs, or raise the limit (ulimit -u)."
+    if isinstance(error, UnicodeEncodeError) and error.reason == "surrogates not allowed":
+        near = error.object[max(error.start - 30, 0) : error.end + 30]
+        return f"A name has bytes that are not UTF-8, {brief(near)}; give the file or folder another name."
     if isinstance(error, (UserError, *errors)):
         return str(error)
     return _os_error_text(error) if isinstance(error, OSError) else None
@@ -76,5 +91,14 @@ def _print_end(line: str, status: int) -> int:
 
 def _os_error_text(error: OSError) -> str:
     if error.filename is None or error.strerror is None:
-        return str(error)
+        return str(error) if _has_current_folder() else "The current folder has been deleted; change to another one."
     return f"{error.filename}: {reason(error)}."
+
+
+def _has_current_folder() -> bool:
+    """Whether the current folder still exists."""
+    try:
+        Path.cwd()
+    except OSError:
+        return False
+    return True

@@ -39,9 +39,9 @@ def atomic_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iter
 
 
 def write_text(file: str | os.PathLike[str], text: str) -> None:
-    """Write a whole text file in UTF-8; see `atomic_file`."""
+    """Write a whole text file in UTF-8, in it bytes of names that are no characters as in JSON; see `atomic_file`."""
     with atomic_file(file) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
 def write_bytes(file: str | os.PathLike[str], content: bytes) -> None:
@@ -60,8 +60,9 @@ def make_folder(folder: str | os.PathLike[str]) -> Path:
     path = Path(folder)
     try:
         path.mkdir(parents=True, exist_ok=True)
-    except FileExistsError:
-        raise FileError(f"The folder {folder} cannot be made: there is a file of that name.") from None
+    except FileExistsError as error:
+        kind = "a link that leads to no folder" if Path(error.filename).is_symlink() else "a file"
+        raise FileError(f"The folder {folder} cannot be made: {error.filename} is {kind}.") from None
     except OSError as error:
         raise FileError(f"The folder {folder} cannot be made: {reason(error)}.") from None
     return path
@@ -86,6 +87,8 @@ def _check_file(file: str | os.PathLike[str], target: Path) -> None:
     try:
         if target.is_dir():
             raise FileError(f"{file} is a folder; it must be a file.")
+        if target.is_symlink():  # only a loop is left of resolved links
+            raise FileError(f"{file} cannot be written: it is a link that leads back to itself.")
     except FileError:
         raise
     except (OSError, ValueError) as error:

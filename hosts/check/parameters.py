@@ -36,7 +36,7 @@ def report_parameters(fmu: Path, options: FmuOptions, out: Path | None, diff: Pa
     variables = Variables(description)
     settings = settings_of(variables, options)
     if diff is not None:
-        rows = _differences(variables, settings.start, settings_of_file(diff, variables))
+        rows = _differences(variables, settings.start, settings_of_file(diff, variables, str(diff)))
         _print_rows(rows)
         if not rows:
             print(f"{diff} sets nothing to another value than {fmu} has.")

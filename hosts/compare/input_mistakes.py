@@ -6,11 +6,11 @@ An input with the wrong sign inverts signals; a speed in the wrong unit changes 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
-from ali3.units import misread
+from ali3.units import Misread, misread
 from hosts.common.errors import HostError
 from hosts.compare.comparison import ComparedSignal, Comparison
 from hosts.compare.curve import Curve
-from hosts.compare.deviations import deviations
+from hosts.compare.deviations import Deviations, deviations
 from hosts.compare.plausibility import ALIKE, inverted_correlation
 from hosts.compare.replay import Replay
 from hosts.compare.segments import Segment
@@ -67,27 +67,29 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
     begins = any(_SPEED in s.manoeuvre.start for s in task.segments)
     if speed is None or not signals or not begins or any(s.deviations.correlation >= ALIKE for s in signals.values()):
         return ""
+    alike: list[tuple[float, float, Misread]] = []
     for mistake in misread(speed.unit):
-        if not mistake.usual:
-            continue
         try:
             with Replay(task.fmu, [_with_scaled_speed(s, mistake.factor) for s in task.segments], task.step) as replay:
                 result = replay.run()
         except HostError:  # the FMU does not start so fast
             continue
-        values = [_correlation(s, Curve(result, n)) for n, s in signals.items()]
-        if not result.failed_steps and all(r >= ALIKE for r in values):
-            return (
-                f"'{speed.source}' ({speed.name}) looks like {mistake.words}: with a car that starts so the other "
-                f"signals are like those of the simulation (correlation {min(values):.2f} and more), as none is now. "
-                f'unit = "{mistake.unit}" in the alias file.'
-            )
-    return ""
+        found = [_deviations(s, Curve(result, n)) for n, s in signals.items()]
+        if not result.failed_steps and all(d.correlation >= ALIKE for d in found):
+            alike.append((max(d.normalised for d in found), min(d.correlation for d in found), mistake))
+    if not alike:
+        return ""
+    _, correlation, mistake = min(alike, key=lambda one: one[0])  # signals of near speeds correlate, too
+    return (
+        f"'{speed.source}' ({speed.name}) looks like {mistake.words}: with a car that starts so the other "
+        f"signals are like those of the simulation (correlation {correlation:.2f} and more), as none is now. "
+        f'unit = "{mistake.unit}" in the alias file.'
+    )
 
 
-def _correlation(compared: ComparedSignal, curve: Curve) -> float:
+def _deviations(compared: ComparedSignal, curve: Curve) -> Deviations:
     measured = curve.with_nearest_turns(compared.measured.between(0.0, curve.end))
-    return deviations(measured.time, measured.values, curve(measured.time)).correlation
+    return deviations(measured.time, measured.values, curve(measured.time))
 
 
 def _with_scaled_speed(segment: Segment, factor: float) -> Segment:

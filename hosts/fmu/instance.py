@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ali3.call_mark import marked
 from ali3.limits import at_most, raised
-from ali3.message_text import shortened
+from ali3.message_text import clean, shortened
 from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_STATE
 from hosts.common.errors import HostError
@@ -76,7 +76,7 @@ class Instance:
             "guid": token or description.guid,
             "unzipDirectory": str(folder),
             "modelIdentifier": description.coSimulation.modelIdentifier,
-            "instanceName": name,
+            "instanceName": clean(name),
         }
 
         self.raw_messages: deque[str] = deque(maxlen=_MAX_RAW_MESSAGES)

@@ -11,13 +11,13 @@ from hosts.fmu.setting import Setting
 from hosts.fmu.variables import Variable, Variables, kind_text
 
 
-def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
-    """Settings of an SSV file, in the units of the FMU.
+def settings_of_file(file: Path, variables: Variables, source: str) -> list[Setting]:
+    """Settings of an SSV file, in the units of the FMU. `source`: how messages call the file.
 
     Raises `HostError` if a name, value, type or unit is wrong, `ParameterSetError` if it is not a parameter set.
     """
     parameters = read_parameter_set(file)
-    return [_setting_of_entry(entry, parameters, variables, file.name) for entry in parameters.entries]
+    return [_setting_of_entry(entry, parameters, variables, source) for entry in parameters.entries]
 
 
 def _setting_of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, source: str) -> Setting:

@@ -57,9 +57,13 @@ class Settings:
         for v, value in ((s.variable, s.value) for s in settings if not s.changes):
             self._notes.append((v.name, f"{v.with_unit(value)} as in the FMU ({source})"))
 
-    def add_set(self, file: Path) -> None:
-        """Add values of an SSV file; default values of the FMU replace nothing, for a set may list all parameters."""
-        settings, source = settings_of_file(file, self._variables), file.name
+    def add_set(self, file: Path, source: str = "") -> None:
+        """Add values of an SSV file; default values of the FMU replace nothing, for a set may list all parameters.
+
+        `source`: how messages call the file; by default by its name.
+        """
+        source = source or file.name
+        settings = settings_of_file(file, self._variables, source)
         self._put([setting for setting in settings if setting.changes])
         unchanged = {setting.variable.name for setting in settings if not setting.changes}
         for change in (setting for setting in self.changes if setting.variable.name in unchanged):
@@ -77,8 +81,9 @@ class Settings:
 
     def add_options(self, fmu_options: FmuOptions, fidelity: float | None = None) -> None:
         """Add the settings of the command line; see `add_numbers`. `fidelity`: value of ``--fidelity``."""
+        names = [file.name for file in fmu_options.sets]
         for file in fmu_options.sets:
-            self.add_set(file)
+            self.add_set(file, str(file) if names.count(file.name) > 1 else file.name)
         self.add_texts(fmu_options.values, "--set")
         if fidelity is not None:
             if "fidelity" in dict(fmu_options.values):

@@ -6,8 +6,6 @@ import math
 import time
 from collections.abc import Callable
 
-from tqdm import tqdm
-
 from ali3 import bars
 
 _FORM = "{percentage:3.0f} % {bar:40} {remaining} left"
@@ -25,7 +23,7 @@ class Progress:
     ) -> None:
         self._clock, self._from = clock, clock() + delay
         self._everywhere = everywhere
-        self._bar: tqdm[None] | None = None
+        self._bar: bars.Bar | None = None
 
     def __enter__(self) -> Progress:
         return self
@@ -40,7 +38,7 @@ class Progress:
             if self._clock() < self._from:
                 return
             if self._everywhere:
-                self._bar = tqdm(total=1.0, initial=fraction, bar_format=_FORM)
+                self._bar = bars.Bar(total=1.0, initial=fraction, bar_format=_FORM)
             else:
                 self._bar = bars.bar(total=1.0, initial=fraction, bar_format=_FORM, delay=0.0)
         self._bar.update(fraction - self._bar.n)

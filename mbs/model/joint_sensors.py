@@ -136,7 +136,7 @@ def _joint_force(
             f"The joint '{joint.name}' ({joint.type}) has no readable force; shared points, lines, distances, "
             "drop links, drives, gears, racks and screws have one."
         )
-    unit = model._unit(unit, "N m" if joint.type == "gear" else "N")
+    unit = model._unit(unit, joint.force_unit)
     if joint.equations[rows[0]].kind == "driven_distance":
         return _driven_distance_force(model, name, joint, component, unit, description)
     if joint.normals:

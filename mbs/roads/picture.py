@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.chart_description import save_figure
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 
 HALF_LENGTH = 20.0
@@ -44,7 +45,7 @@ def draw_road(
     axes[2].legend(loc="upper right", fontsize="small")
     axes[2].grid(True, alpha=0.3)
     figure.suptitle(f"{name} (beyond its border the values there go on)" if isinstance(road, GridRoad) else name)
-    figure.savefig(file)
+    save_figure(figure, file)
 
 
 def drawn_values(

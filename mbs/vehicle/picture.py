@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ali3.chart_description import png_metadata
+from ali3.chart_description import save_figure
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.places import contact_points
 from mbs.vehicle.section import sections_of
@@ -84,7 +84,7 @@ def draw_car(car: CarContent, file: Path) -> None:
         colour = COLOURS.get(key.split(".", 1)[0], OTHER_COLOUR)
         names.text(*text_position, f"{number:2d} {_short(key)}", fontsize=8, color=colour, va="center")
     names.set_axis_off()
-    figure.savefig(file, dpi=110, metadata=png_metadata(figure) if file.suffix.lower() == ".png" else None)
+    save_figure(figure, file)
 
 
 def _short(key: str) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ali3.chart_description import png_metadata
+from ali3.chart_description import save_figure
 from ali3.scene.base64_numbers import decoded, octets
 
 COLOURS = {
@@ -64,7 +64,7 @@ def draw_map(record: dict[str, Any], file: Path) -> None:
     axes.set_xlabel("x, m")
     axes.set_ylabel("y, m")
     axes.set_title(f"{record['name']}: surfaces, scenery and the places where a car may start")
-    figure.savefig(file, dpi=110, metadata=png_metadata(figure) if file.suffix.lower() == ".png" else None)
+    save_figure(figure, file)
 
 
 def _patch_heights(road: dict[str, Any], bounds: list[float]) -> np.ndarray[Any, np.dtype[np.float64]]:

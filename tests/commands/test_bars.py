@@ -21,3 +21,11 @@ def test_lines_count_each_thing_once_and_become_rarer(
     assert counts[-1] == 40
     assert 2 < len(lines) < 12  # 0.4 s in waits of 0.02 s times 1.5, 1.5 squared, ...
     assert not any(character in line for line in lines for character in "\r\x1b")
+
+
+@pytest.mark.parametrize(("done", "left"), [(0.0, "?"), (1.0, "?"), (49.0, "?"), (50.0, "26:20")])
+def test_no_remaining_time_is_told_before_a_hundredth_is_done(done: float, left: str) -> None:
+    """The first of 5000 s may have waited for a start. A fifth was done before."""
+    with bars.Bar(total=5000.0, initial=1000.0, bar_format="{remaining} to go") as bar:
+        bar.n += done
+        assert bars.Bar.format_meter(**bar.format_dict | {"elapsed": 20.0}) == f"{left} to go"

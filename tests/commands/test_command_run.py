@@ -1,6 +1,7 @@
 """The end of a command: one sentence for an error, one line for Ctrl-C, an exit code."""
 
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -27,6 +28,11 @@ def raiser(error: BaseException) -> int:
         (ValueError("No such scene."), 2, "error: No such scene.\n"),
         (OSError(28, "No space left on device", "a.csv"), 2, "error: a.csv: no space left on device.\n"),
         (ModuleNotFoundError("No module named 'fmpy.x'", name="fmpy.x"), 2, 'python -m pip install "ali3[hosts]"\n'),
+        (
+            UnicodeEncodeError("utf-8", "out/b\udcff.csv", 5, 6, "surrogates not allowed"),
+            2,
+            "error: A name has bytes that are not UTF-8, 'out/b\\udcff.csv'; give the file or folder another name.\n",
+        ),
         (KeyboardInterrupt(), 130, "stopped by Ctrl-C\n"),
         (MemoryError(), 2, "raise the limit (ulimit -v).\n"),
         (RuntimeError("can't start new thread"), 2, "raise the limit (ulimit -u).\n"),
@@ -57,6 +63,34 @@ def test_missing_memory_is_named_as_the_cause(
     monkeypatch.setattr(processes, "_SPARE_MEMORY", 1 << 60)
     assert run_command(lambda: raiser(error)) == 2
     assert capsys.readouterr().err.endswith("raise the limit (ulimit -v).\n")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX closes them")
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_streams_that_the_shell_has_closed_are_nothing(closed: str) -> None:
+    """Their numbers are no longer free for pipes, and what is printed there is gone."""
+    work = (
+        "import os, sys; print('out'); print('error', file=sys.stderr); "
+        "sys.exit(0 if min(os.pipe()) > 2 and not sys.stdin.read() else 7)"
+    )
+    code = f"from ali3.command_run import run_command; run_command(lambda: exec({work!r}) or 0)"
+    command = f"{shlex.quote(sys.executable)} -c {shlex.quote(code)} {closed}"
+    done = subprocess.run(["sh", "-c", command], cwd=Path(__file__).parents[2], stdin=subprocess.DEVNULL, timeout=60)
+    assert done.returncode == 0
+
+
+def test_a_current_folder_that_was_deleted_is_the_cause(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "gone").mkdir()
+    os.chdir("gone")
+    try:
+        (tmp_path / "gone").rmdir()
+    except OSError:
+        pytest.skip("the folder of a process cannot be deleted here")
+    assert run_command(lambda: len(str(Path.cwd()))) == 2
+    assert capsys.readouterr().err == "error: The current folder has been deleted; change to another one.\n"
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])

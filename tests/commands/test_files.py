@@ -1,5 +1,6 @@
 """Files are written completely or not at all, also by two writers at once; a full disk is reported."""
 
+import json
 import subprocess
 import sys
 import threading
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import mbs
-from ali3.files import FileError, atomic_file, check_writable, write_text
+from ali3.files import FileError, atomic_file, check_writable, make_folder, write_json, write_text
 from ali3.folders import atomic_folder
 from ali3.locks import locked
 from fmu_src.native.archive import write_zip
@@ -88,6 +89,13 @@ def test_a_file_that_cannot_be_written_is_named(write: object, tmp_path: Path) -
         write(tmp_path / "folder")
     with pytest.raises(FileError, match=r"^The folder .*in cannot be made"):
         write(tmp_path / "file" / "in" / "x.csv")
+    if sys.platform != "win32":  # links need rights there
+        (tmp_path / "loop").symlink_to(tmp_path / "back")
+        (tmp_path / "back").symlink_to(tmp_path / "loop")
+        with pytest.raises(FileError, match=r"loop cannot be written: it is a link that leads back to itself\.$"):
+            write(tmp_path / "loop")
+        with pytest.raises(FileError, match=r"loop cannot be made: .*loop is a link that leads to no folder\.$"):
+            make_folder(tmp_path / "loop")
     if sys.platform == "linux":
         with pytest.raises(FileError, match=r"^/proc/x\.csv cannot be written: "):
             write(Path("/proc/x.csv"))
@@ -113,6 +121,11 @@ def test_a_full_disk_names_the_file_and_leaves_nothing(tmp_path: Path) -> None:
     assert done.stderr == ""
     assert file.read_text() == "old"
     assert names(tmp_path) == ["Some.fmu"]
+
+
+def test_a_text_with_a_name_that_is_no_text_is_written(tmp_path: Path) -> None:
+    write_json(tmp_path / "a.json", {"file": "b\udcff ä"})
+    assert json.loads((tmp_path / "a.json").read_text("utf-8")) == {"file": "b\udcff ä"}
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")

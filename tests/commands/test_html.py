@@ -4,11 +4,12 @@ import re
 from pathlib import Path
 
 import html5lib
+import pytest
 from lxml import etree
 from matplotlib.figure import Figure
 
 from ali3 import html_elements
-from ali3.chart_description import read_description
+from ali3.chart_description import read_description, save_figure
 from ali3.charts import Drawing, drawing
 from ali3.html_elements import element, picture, table
 
@@ -66,3 +67,16 @@ def test_no_other_room_has_a_frame_or_style_sheet_of_its_own() -> None:
     files = [f for room in ("ali3", "mbs", "fmu_src", "hosts") for f in (ROOT / room).rglob("*.py")]
     results = {f.relative_to(ROOT).as_posix() for f in files if FRAME.search(f.read_text(encoding="utf-8"))}
     assert results <= known, results - known
+
+
+@pytest.mark.parametrize("name", ["a.png", "a"])
+def test_names_of_files_are_texts_of_a_chart_whatever_they_are(name: str, tmp_path: Path) -> None:
+    """What looks like a formula, and a byte that is no character; without a suffix it is a PNG."""
+    figure = Figure()
+    figure.suptitle(r"x$\foo$_y" "\udcff")
+    figure.subplots().semilogy([1.0, 1000.0], label="$a$ and $b")
+    save_figure(figure, tmp_path / name)
+    assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
+    assert read_description(tmp_path / name) == "x$\\foo$_y\ufffd\ncurves $a$ and $b"
+    (label,) = [t for t in figure.axes[0].get_yticklabels() if t.get_position()[1] == 100.0]
+    assert label.get_parse_math()

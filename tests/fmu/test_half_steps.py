@@ -375,4 +375,9 @@ def test_a_stop_that_is_met_late_is_reported_where_it_is_wrong_and_only_there(
     assert warnings[0] == []
     assert len(warnings[1]) == (error > 0.05)
     assert (error > 0.05) == (h > 0.005)
-    assert all("spring.force is off" in m for m in warnings[1])
+    for message in warnings[1]:
+        off, part = re.search(
+            r"spring.force is off by about ([\d.]+) N, ([\d.]+) %+ of the largest load", message
+        ).groups()
+        assert float(off) == pytest.approx(0.01 * float(part) * np.abs(fine).max(), rel=0.05)
+        assert "." in off

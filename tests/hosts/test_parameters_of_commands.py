@@ -104,6 +104,11 @@ def test_hosts_refuse_an_invalid_set_with_the_same_message(
         assert command([str(tuned), *more, "--parameters", str(file)]) == 2
         errors = capsys.readouterr().err
         assert errors == "error: set.ssv: 'spring.damping' is 200 N·s/m; its range is 0 to 20 N·s/m.\n"
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "set.ssv").write_text(ssv("spring.damping=2"))
+    two = ["--parameters", str(Path("other", "set.ssv")), "--parameters", str(file)]
+    assert run([str(tuned), *two]) == 2
+    assert capsys.readouterr().err.startswith(f"error: {file}: 'spring.damping' is 200")
 
 
 def test_a_column_of_whole_numbers_is_held_between_its_rows(

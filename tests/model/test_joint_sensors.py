@@ -196,7 +196,7 @@ def test_the_torque_of_a_drive_is_its_moment():
     m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
     m.drive("motor", m.relative_angle("angle", m.ground, rod), m.guide_time("turn", RISE, unit="rad"))
     m.sense_joint("moment", "motor", "z", "moment")
-    m.sense_joint("force", "motor", "drive")
+    assert m.sense_joint("force", "motor", "drive").unit == "N m"
     run = simulate(compile(m), 0.8, 0.01)
     expected = (0.2 + 0.5) * RISE(run.t, 2) + 2.0 * G * 0.5 * np.cos(RISE(run.t))
     assert np.abs(run["moment"] - expected).max() < 1e-4

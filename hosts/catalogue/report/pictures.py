@@ -66,14 +66,11 @@ def _draw_picture(title: str, plots: Mapping[int, tuple[str, Plot]], many: bool)
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
     axes = figure.add_subplot()
     descriptions = _draw_plots(axes, plots, shared, many)
-    texts = [axes.set_title(title), axes.xaxis.label, axes.yaxis.label]
+    axes.set_title(title)
     if rows:
-        legend = figure.legend(
+        figure.legend(
             loc="lower left", bbox_to_anchor=(0.05 / _WIDTH, 0.0), borderaxespad=0.2, ncols=columns, handlelength=3.4
         )
-        texts += legend.get_texts()
-    for text in texts:
-        text.set_parse_math(False)
     return drawing(figure, f"{title}: {first.y} over {first.x}. {'; '.join(descriptions) or 'No lines'}.")
 
 

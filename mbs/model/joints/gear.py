@@ -46,5 +46,6 @@ def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordin
     else:
         equation = Equation(name, "gear", linear=rotation_from_drawn(model, a) - rotation_from_drawn(model, b) * i)
     joint = Joint(name, "gear", [equation], rows_weight=1.0)
+    joint.force_unit = "N m"
     joint.as_rows, joint.couples = True, (a.index, b.index, i)  # angles are never eliminated
     return joint

@@ -117,6 +117,8 @@ class Joint:
         Switches its rows on and off; None: they are always on.
     rows_weight : float
         Factor of the force on the first body along equation k, ``-rows_weight * lam_k``; 0 without such a force.
+    force_unit : str
+        Unit of the force that sensors read, "N" or "N m".
     normals : sequence of AffineVector
         Unit vectors of the second body along which ``-lam_k`` of the line equations act on the first.
     turning : RotationConditions or None
@@ -154,6 +156,7 @@ class Joint:
         self.type = type
         self.equations = list(equations)
         self.rows_weight = rows_weight
+        self.force_unit = "N"
         self.normals = tuple(normals)
         self.places = places
         self.turn = turn

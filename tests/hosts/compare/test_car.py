@@ -140,16 +140,19 @@ def test_an_inverted_input_is_reported_and_not_the_outputs(
 
 
 @pytest.mark.slow
-def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_it(car: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("unit", "factor"), [("km/h", 1.0), ("mph", 1.609344)])
+def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_it(
+    unit: str, factor: float, car: Path, tmp_path: Path
+) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     file = log.with_suffix(".toml")
     lines = file.read_text("utf-8").splitlines()
     kept = [n for n in lines if not n.startswith(('"chassis.ay', '"chassis.v', '"chassis.x', '"chassis.y'))]
-    named = "\n".join(kept).replace('speed = "v"', 'speed = { name = "v", unit = "m/s" }')
+    named = "\n".join(kept).replace('speed = "v"', f'speed = {{ name = "v", unit = "m/s", factor = {factor} }}')
     file.write_text(named, encoding="utf-8")
     status, record = compared(car, log, signals="speed,chassis.wz")
     assert status == 1
-    assert "'v' (speed) looks like km/h instead of m/s" in "".join(record["problems"])
+    assert f"'v' (speed) looks like {unit} instead of m/s" in "".join(record["problems"])
 
 
 @pytest.mark.proof
