@@ -103,7 +103,7 @@ def test_stepping_page_makes_several_environments(prototype_fmu, tmp_path):
     several = snippets((ROOT / "docs" / "stepping.md").read_text(encoding="utf-8"))[1]
     of_rigid_car = several.replace('-v0", 8)', f'-v0", 8, car={str(prototype_fmu)!r})')
     assert of_rigid_car != several
-    assert run(f"{of_rigid_car}\nprint(seen.shape)", tmp_path).startswith("(8, ")
+    assert run(f"{of_rigid_car}\nprint(observations.shape)", tmp_path).startswith("(8, ")
 
 
 @pytest.mark.slow
