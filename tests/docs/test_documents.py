@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -102,7 +103,7 @@ def test_stepping_page_makes_several_environments(prototype_fmu, tmp_path):
     several = snippets((ROOT / "docs" / "stepping.md").read_text(encoding="utf-8"))[1]
     of_rigid_car = several.replace('-v0", 8)', f'-v0", 8, car={str(prototype_fmu)!r})')
     assert of_rigid_car != several
-    assert run(f"{of_rigid_car}\nprint(seen.shape)", tmp_path).startswith("(8, ")
+    assert run(f"{of_rigid_car}\nprint(observations.shape)", tmp_path).startswith("(8, ")
 
 
 @pytest.mark.slow
@@ -124,6 +125,24 @@ def test_modelling_page_runs(tmp_path):
     assert "after 1 s 100 and -33 rad/s" in printed  # 2 N m on 0.01 + 0.09/9 kg m2
     assert "friction 0.5: slides 0.41 m" in printed  # v^2/(2 mu g)
     assert "friction 0.1: slides 2.04 m" in printed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", ["speed", "roads"])
+def test_examples_of_a_page_run(page, tmp_path):
+    for code in snippets((ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")):
+        assert run(code, tmp_path).strip()
+
+
+@pytest.mark.slow
+def test_the_log_of_the_page_on_measurements_has_the_columns_of_its_alias_file(prototype_fmu, tmp_path):
+    (code,) = snippets((ROOT / "docs" / "compare.md").read_text(encoding="utf-8"))
+    (tmp_path / "dist").mkdir()
+    shutil.copy(prototype_fmu, tmp_path / "dist")
+    run(code, tmp_path)
+    columns = (tmp_path / "drive.csv").read_text(encoding="utf-8").partition("\n")[0].split(";")
+    aliases = tomllib.loads((tmp_path / "drive.toml").read_text(encoding="utf-8"))
+    assert {aliases["time"]["name"], *(entry["name"] for entry in aliases["signals"].values())} == set(columns)
 
 
 def test_pages_list_the_manoeuvres_and_the_scene_of_ones_own():
