@@ -38,7 +38,7 @@ typedef struct {
    * before. */
   bool fills;
   double stable_rate; /* of an explicit method: largest stable step times rate, for negative real rates; otherwise 0 */
-  ali3_round_off round_off;
+  ali3_round_off round_off; /* of its equations */
 } ali3_method;
 
 #define ALI3_METHOD_DECLARED(NAME, name, order) extern const ali3_method ali3_method_##name;

@@ -77,17 +77,17 @@ static void add_to_patch(ali3_tyre_patch *mean, const ali3_contact *c, const rea
   mean->load = ali3_where(presses, total, mean->load);
 }
 
-ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *s) {
+ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *spring) {
   ali3_contact contact[2];
   const real none = {0};
   ali3_tyre_patch mean = {.load = none, .beyond = none};
-  const real hub = ALI3_TYRE_HUB * s->radius;
+  const real hub = ALI3_TYRE_HUB * spring->radius;
   real deepest = ali3_same(-INFINITY), difference[7], switching = none;
   for (int i = 0; i < 7; i++) difference[i] = none;
-  const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, s->radius, contact);
+  const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, spring->radius, contact);
   for (int k = 0; k < count; k++) {
     const ali3_contact *c = &contact[k];
-    const real depth = c->penetration, radius = s->radius - depth, lean = ali3_dot(e, c->normal);
+    const real depth = c->penetration, radius = spring->radius - depth, lean = ali3_dot(e, c->normal);
     const truth touches = depth > 0.0, deeper = depth > deepest;
     const truth hub_reached = radius < hub;
     real rho[3], b[7], rate = none;
@@ -110,8 +110,8 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
     }
     if (!ali3_any(touches)) continue;
     for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
-    const radial_law law = evaluate_radial_law(s, c, rate);
-    add_radial_energy(a, s, &law, touches);
+    const radial_law law = evaluate_radial_law(spring, c, rate);
+    add_radial_energy(a, spring, &law, touches);
     const truth presses = touches & (law.force > 0.0);
     const int32_t shift = ALI3_TYRE_CONTACT_BITS * k;
     ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << shift);
@@ -126,7 +126,7 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
       b[i] = ali3_where(presses, b[i], none);
       difference[i] += k ? -b[i] : b[i];
     }
-    const real tangent = a->wK * radial_stiffness(s, &law, rate) + a->wC * s->damping * law.ramp;
+    const real tangent = a->wK * radial_stiffness(spring, &law, rate) + a->wC * spring->damping * law.ramp;
     ali3_add_outer(a->S, 7, ali3_where(presses, law.share * tangent, none), b);
     switching =
         ali3_where(presses, a->wK * c->switching * (law.spring + law.bottoming * law.bottoming_depth), switching);

@@ -37,7 +37,7 @@ const char *ali3_road_grid_problem(const ali3_road_header *h) {
   return NULL;
 }
 
-int64_t ali3_road_tiles_along(int64_t n) { return (n + ALI3_ROAD_TILE - 1) / ALI3_ROAD_TILE; }
+int64_t ali3_road_tiles_along(int64_t points) { return (points + ALI3_ROAD_TILE - 1) / ALI3_ROAD_TILE; }
 
 size_t ali3_road_tile_bytes(const ali3_road_header *h) {
   return (size_t)h->maps * POINTS * sizeof(double) + ALI3_ROAD_TRAILER;

@@ -95,9 +95,9 @@ enum { ALI3_RATE_NEVER = 0, ALI3_RATE_ALWAYS, ALI3_RATE_BY_FIRST, ALI3_RATE_BY_S
 enum { ALI3_READS_MOTION = 0, ALI3_READS_INPUTS, ALI3_READS_FORCES, ALI3_READS_SOLVER, ALI3_READS_ROWS };
 
 typedef struct {
-  const char *integers;
+  const char *integers; /* letters of the list above */
   int32_t reals, reals_each; /* number of reals, and of further ones per item */
-  int32_t rate, reads;
+  int32_t rate, reads; /* ALI3_RATE_*, ALI3_READS_* */
 } ali3_sensor_type;
 
 extern const ali3_sensor_type ali3_sensor_types[ALI3_SENSOR_TYPE_COUNT];
