@@ -1,5 +1,6 @@
 /* Brake: elastoplastic friction torque between the spin of a wheel and its carrier.
- * f and g are orthonormal on the carrier with f x g along the axis, the rate Omega of the spin is absolute. Inputs are
+ * f and g are orthonormal on the carrier with f x g along the axis, the rate Omega of the spin is absolute; the wheel
+ * turns at w = Omega - (f' . g - g' . f)/2 on its carrier. -tau acts on the wheel, tau on the carrier. Inputs are
  * from 0 to 1; with the integer BY_SIZE the input of the pedal has no upper limit, as a torque or pressure. States:
  * wind-up z rad, z' rad/s.
  *
@@ -13,7 +14,7 @@
 #include "element_math.h"
 
 /* Largest friction torque by pedal and hand brake. */
-static real friction_bound(const ali3_element_args *a) {
+static real find_friction_bound(const ali3_element_args *a) {
   const real none = {0}, one = ali3_same(1.0);
   const real max_pedal = a->nint > BY_SIZE && a->integer[BY_SIZE] ? ali3_same(INFINITY) : one;
   const real *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], none, max_pedal);
@@ -24,7 +25,7 @@ static real friction_bound(const ali3_element_args *a) {
 static void evaluate(ali3_element_args *a) {
   const real *p = a->real, *f = a->u, *g = a->u + 3, *fd = a->ud, *gd = a->ud + 3;
   const real w = a->ud[6] - 0.5 * (ali3_dot(fd, g) - ali3_dot(gd, f));
-  const real bound = friction_bound(a);
+  const real bound = find_friction_bound(a);
   const double half = 0.5 * a->h;
   const real elastic = p[STICK_STIFFNESS] * (a->y_old[0] + half * a->y_old[1]);
   const real D = p[STICK_DAMPING] + half * p[STICK_STIFFNESS], trial = elastic + D * w;

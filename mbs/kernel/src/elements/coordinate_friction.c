@@ -1,5 +1,5 @@
 /* Coulomb friction on one signal, elastoplastic: a spring and a damper in series with a slider, as in brake.c.
- * States: deflection z, z'.
+ * States: deflection z, z'. The force on the signal u is -tau.
  *
  * tau = k z + c z', z' = u' while |tau| is below the bound, otherwise tau is at the bound and z' = (tau - k z)/c.
  * Trapezoidal rule for z, in closed form: see brake.c. */

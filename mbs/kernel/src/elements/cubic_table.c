@@ -1,4 +1,5 @@
-/* Value, derivatives and means of a curve of cubic pieces, and checks of its table. */
+/* Value, derivatives and means of a curve of cubic pieces, and checks of its table. Between two points the cubic has their
+ * values and slopes (Hermite). */
 #include "cubic_table.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@ typedef struct {
 } piece;
 
 /* Number of the piece that contains x: 0 before the first point, n after the last. */
-static int32_t piece_number(const ali3_cubic_table *t, double x) {
+static int32_t find_piece(const ali3_cubic_table *t, double x) {
   int32_t low = 0, high = t->n;
   while (low < high) { /* x[low - 1] <= x < x[high] */
     const int32_t middle = low + (high - low) / 2;
@@ -28,7 +29,7 @@ static int32_t piece_number(const ali3_cubic_table *t, double x) {
 }
 
 /* Coefficients of a piece; 0 and n are straight lines outside the table. */
-static piece piece_of(const ali3_cubic_table *t, int32_t number) {
+static piece make_piece(const ali3_cubic_table *t, int32_t number) {
   const int32_t i = number > 0 ? number - 1 : 0;
   piece p = {t->x[i], t->y[i], t->slope[i], 0.0, 0.0, t->integral != NULL ? t->integral[i] : 0.0};
   if (number == 0 || number == t->n) return p;
@@ -39,38 +40,38 @@ static piece piece_of(const ali3_cubic_table *t, int32_t number) {
 }
 
 /* Value of a piece at x. */
-static double value_at(const piece *p, double x) {
+static double evaluate_piece(const piece *p, double x) {
   const double d = x - p->start;
   return p->y + d * (p->m + d * (p->c + d * p->e));
 }
 
 double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, double *integral) {
-  const piece p = piece_of(t, piece_number(t, x));
+  const piece p = make_piece(t, find_piece(t, x));
   const double d = x - p.start;
   *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
   if (integral != NULL) *integral += p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
-  return value_at(&p, x);
+  return evaluate_piece(&p, x);
 }
 
 double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope, double *curvature) {
-  const piece p = piece_of(t, piece_number(t, x));
+  const piece p = make_piece(t, find_piece(t, x));
   const double d = x - p.start;
   *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
   *curvature = 2.0 * p.c + d * 6.0 * p.e;
-  return value_at(&p, x);
+  return evaluate_piece(&p, x);
 }
 
 /* Simpson's rule is exact on every piece. */
 double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1) {
   const double low = fmin(x0, x1), high = fmax(x0, x1), width = high - low;
-  const int32_t first = piece_number(t, low);
-  piece p = piece_of(t, first);
-  if (!(width > 0.0)) return value_at(&p, low);
+  const int32_t first = find_piece(t, low);
+  piece p = make_piece(t, first);
+  if (!(width > 0.0)) return evaluate_piece(&p, low);
   double mean = 0.0, from = low;
-  for (int32_t k = first; from < high; p = piece_of(t, ++k)) {
+  for (int32_t k = first; from < high; p = make_piece(t, ++k)) {
     const double to = k < t->n && t->x[k] < high ? t->x[k] : high;
-    mean +=
-        (to - from) / width * ((value_at(&p, from) + 4.0 * value_at(&p, 0.5 * (from + to)) + value_at(&p, to)) / 6.0);
+    mean += (to - from) / width *
+            ((evaluate_piece(&p, from) + 4.0 * evaluate_piece(&p, 0.5 * (from + to)) + evaluate_piece(&p, to)) / 6.0);
     if (k >= t->n) break;
     from = to;
   }
@@ -85,7 +86,7 @@ int ali3_cubic_rises(const ali3_cubic_table *t) {
 
 int ali3_cubic_integrals_fit(const ali3_cubic_table *t) {
   for (int32_t i = 0; i + 1 < t->n; i++) {
-    const piece p = piece_of(t, i + 1);
+    const piece p = make_piece(t, i + 1);
     const double d = t->x[i + 1] - p.start;
     const double end = p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
     if (!(fabs(t->integral[i + 1] - end) <= 1e-9 * (fabs(end) + fabs(p.integral) + fabs(d * p.y)))) return 0;

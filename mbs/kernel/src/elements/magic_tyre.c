@@ -33,7 +33,7 @@ typedef struct {
 
 /* Scales F, its derivatives and the safe part of the secant down to the ellipse of the peaks, or to the ellipse through
  * the steady force if it is larger. */
-static uint32_t limit(const double peak[2], const double steady[2], double F[2], double J[2][2], double safe[2]) {
+static uint32_t limit_force(const double peak[2], const double steady[2], double F[2], double J[2][2], double safe[2]) {
   const double demand = ali3_hypot(F[0] / peak[0], F[1] / peak[1]),
                bound = fmax(ali3_hypot(steady[0] / peak[0], steady[1] / peak[1]), 1.0);
   if (!(demand > bound)) return 0u;
@@ -50,8 +50,9 @@ static uint32_t limit(const double peak[2], const double steady[2], double F[2],
 
 /* Steady forces F in ISO axes at a slip velocity with derivatives by the velocity; g: secant damping, N s/m, with
  * derivatives g_by. */
-static ali3_magic_force steady(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
-                               double w, double inclination, double g[2], double g_by[2][2], ali3_magic_state *state) {
+static ali3_magic_force find_steady_forces(ali3_element_args *a, const ali3_tyre_patch *contact,
+                                           const ali3_tyre_motion *m, double w, double inclination, double g[2],
+                                           double g_by[2][2], ali3_magic_state *state) {
   const double *p = a->real, max_load = p[LARGEST_LOAD],
                grip = contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
   const ali3_magic_state s = *state = (ali3_magic_state){
@@ -97,8 +98,8 @@ static ali3_magic_force steady(ali3_element_args *a, const ali3_tyre_patch *cont
 
 /* One step of the carcass: forces, new states and damping matrix (symmetric part, not below the safe part of the
  * secant). */
-static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
-                        double inclination, ali3_tyre_bore *bore) {
+static reaction step_carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
+                             double inclination, ali3_tyre_bore *bore) {
   const double *p = a->real, fast = m->travel[0] / ALI3_TYRE_ROLLS;
   const double sliding_at_rest = (1.0 - ali3_tyre_moving(fabs(m->travel[0]))) * ali3_hypot(m->v[0], m->v[1]);
   const double w = ali3_hypot(ali3_hypot(m->travel[0], ALI3_TYRE_SLOW), sliding_at_rest);
@@ -107,7 +108,7 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
   double g[2] = {0}, g_by[2][2] = {{0}}, J[2][2], safe[2], offset[2], D[2], d[2];
   ali3_magic_force f = {.peak = {1.0, 1.0}, .carcass = {p[STIFFNESS], p[STIFFNESS]}};
   ali3_magic_state s;
-  if (grips) f = steady(a, contact, m, w, inclination, g, g_by, &s);
+  if (grips) f = find_steady_forces(a, contact, m, w, inclination, g, g_by, &s);
   reaction r = {.stiffness = {f.carcass[0], f.carcass[1]}};
   for (int i = 0; i < 2; i++) {
     const double c = f.carcass[i];
@@ -120,7 +121,7 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
     const double by_g = D[i] / (g[i] + D[i]) * ((offset[i] - f.F[i]) / (g[i] + D[i]));
     for (int j = 0; j < 2; j++) J[i][j] = D[i] / (g[i] + D[i]) * f.J[i][j] + by_g * g_by[i][j];
   }
-  if (grips) { a->piece |= limit(f.peak, f.F, r.F, J, safe); }
+  if (grips) { a->piece |= limit_force(f.peak, f.F, r.F, J, safe); }
   if (bore) {
     const ali3_tyre_horizontal_force friction = {.slope = f.cornering * (1.0 - ali3_tyre_moving(fabs(m->travel[0]))),
                                                  .most = grips ? f.peak[1] : 0.0,
@@ -183,7 +184,7 @@ static void evaluate(ali3_element_args *a) {
   const bool has_bore = a->nint > WITH_BORE;
   ali3_tyre_bore bore;
   if (has_bore) bore = ali3_tyre_bore_at(a, p + BORE, n, e, 2.0 * sqrt(radius * deflection));
-  reaction r = carcass(a, &contact, &m, inclination, has_bore ? &bore : 0);
+  reaction r = step_carcass(a, &contact, &m, inclination, has_bore ? &bore : 0);
   if (has_bore) {
     r.Mz += bore.moment;
     a->potential += 0.5 * p[BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];

@@ -1,4 +1,7 @@
-/* Contact of a tyre of any formula: radial spring, axes and velocities of the patch, outputs, depth at a start. */
+/* Contact of a tyre of any formula: radial spring, axes and velocities of the patch, outputs, depth at a start.
+ *
+ * At a depth d in the road the wheel has the force (k + p d) d + kb max(d - db, 0) + c d' min(d/TOUCH_DEPTH, 1) against the
+ * gradient of d, where this is positive: stiffness k, progression p, rim kb beyond the depth db, damping c. */
 #include "tyre_contact.h"
 
 #include "../algebra/elementary.h"
@@ -16,7 +19,7 @@ void ali3_tyre_axis(const real axis[3], real e[3]) {
 
 /* Load-weighted mean of `mean` (load `old`) and `new` (load `load`); total: sum of the loads; first: there is no old
  * load. */
-static real weighted_mean(truth first, real mean, real old, real new, real total, real load) {
+static real update_mean(truth first, real mean, real old, real new, real total, real load) {
   return ali3_where(first, ali3_same(0.0), old / total * mean) + load / total * new;
 }
 
@@ -54,7 +57,7 @@ static void add_radial_energy(ali3_element_args *a, const ali3_tyre_spring *s, c
 }
 
 /* Derivative of the force by the depth, not below 0. */
-static real radial_stiffness(const ali3_tyre_spring *s, const radial_law *r, real rate) {
+static real find_radial_stiffness(const ali3_tyre_spring *s, const radial_law *r, real rate) {
   const real none = {0};
   const real slope = ali3_where(r->softened, none, s->stiffness + 2.0 * s->progression * r->depth) + r->bottoming +
                      ali3_where(r->ramp < 1.0, s->damping * rate / TOUCH_DEPTH, none);
@@ -69,11 +72,10 @@ static void add_to_patch(ali3_tyre_patch *mean, const ali3_contact *c, const rea
   for (int i = 0; i < 3; i++) {
     const real weighted = load * c->normal[i], sum = ali3_where(first, weighted, mean->normal[i] + weighted);
     mean->normal[i] = ali3_where(presses, sum, mean->normal[i]);
-    mean->rho[i] =
-        ali3_where(presses, weighted_mean(first, mean->rho[i], mean->load, rho[i], total, load), mean->rho[i]);
+    mean->rho[i] = ali3_where(presses, update_mean(first, mean->rho[i], mean->load, rho[i], total, load), mean->rho[i]);
   }
   mean->friction =
-      ali3_where(presses, weighted_mean(first, mean->friction, mean->load, c->friction, total, load), mean->friction);
+      ali3_where(presses, update_mean(first, mean->friction, mean->load, c->friction, total, load), mean->friction);
   mean->load = ali3_where(presses, total, mean->load);
 }
 
@@ -126,7 +128,7 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
       b[i] = ali3_where(presses, b[i], none);
       difference[i] += k ? -b[i] : b[i];
     }
-    const real tangent = a->wK * radial_stiffness(spring, &law, rate) + a->wC * spring->damping * law.ramp;
+    const real tangent = a->wK * find_radial_stiffness(spring, &law, rate) + a->wC * spring->damping * law.ramp;
     ali3_add_outer(a->S, 7, ali3_where(presses, law.share * tangent, none), b);
     switching =
         ali3_where(presses, a->wK * c->switching * (law.spring + law.bottoming * law.bottoming_depth), switching);
