@@ -91,9 +91,9 @@ typedef enum {
 } ali3_status;
 typedef enum { ALI3_CAUSE_CALL = 0, ALI3_CAUSE_START, ALI3_CAUSE_STEP, ALI3_CAUSE_EQUATIONS } ali3_cause;
 
-/* How the processor rounds, whether it takes denormal numbers for 0, and which exceptions trap: MXCSR without its flags,
- * FPCR. ali3_float_control_set: to the nearest, denormal numbers kept, no trap; the result is what was before, 0 where
- * that is usual already. ali3_float_control_restore: nothing for 0. Flags of exceptions stay. */
+/* How the processor rounds, whether it takes denormal numbers for 0, and which exceptions trap: MXCSR without its
+ * flags, FPCR. ali3_float_control_set: to the nearest, denormal numbers kept, no trap; the result is what was before, 0
+ * where that is usual already. ali3_float_control_restore: nothing for 0. Flags of exceptions stay. */
 typedef uint64_t ali3_float_control;
 ali3_float_control ali3_float_control_set(void);
 void ali3_float_control_restore(ali3_float_control previous);
@@ -311,13 +311,14 @@ ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, doub
 ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value);
 ALI3_API ali3_status ali3_try_parameter(ali3_instance *in, int32_t index, double value);
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
-/* x, y, z, m, yaw, rad, speed along the heading, speed to its left, m/s, and yaw rate, rad/s, of the origin of the drawing,
- * earth axes. */
+/* x, y, z, m, yaw, rad, speed along the heading, speed to its left, m/s, and yaw rate, rad/s, of the origin of the
+ * drawing, earth axes. */
 #define ALI3_POSE 7
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, const double *pose);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
 /* Rows of a switch on or off: before initialise as drawn; later they hold the values they have at that moment, the
- * velocities are projected, accelerations and multipliers computed again; report.energy_jump is the change of energy. */
+ * velocities are projected, accelerations and multipliers computed again; report.energy_jump is the change of
+ * energy. */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
 /* If the file starts in static equilibrium and parameters of elements or guides differ from the file: that equilibrium
@@ -325,15 +326,15 @@ ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, in
  * (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* After ali3_initialise of a scene that a pose may place: the place along the ground and the velocity of the heaviest
- * point, the heading and the yaw rate of the heaviest direction (in a car that of its chassis) are held for the duration
- * (s) by steps of at most h, with the present inputs, or those of the input function before this time, while all else
- * settles; then the run begins, at the same time and with books at zero. After a failure the scene must be reset.
- * ALI3_BAD_ARGUMENT, too, if no body has a direction. */
+ * point, the heading and the yaw rate of the heaviest direction (in a car that of its chassis) are held for the
+ * duration (s) by steps of at most h, with the present inputs, or those of the input function before this time, while
+ * all else settles; then the run begins, at the same time and with books at zero. After a failure the scene must be
+ * reset. ALI3_BAD_ARGUMENT, too, if no body has a direction. */
 #define ALI3_LONGEST_SETTLING 10.0
 ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
-/* The parts that steps are made in from now on, their iterations, and for each step of ali3_settle ALI3_SETTLING_WORK, as
- * its forces and accelerations are found anew, are taken off *left, which outlives the instance; where nothing is left
- * steps and settlings end with ALI3_TOO_DEAR. NULL, as it begins: they have no bound together. */
+/* The parts that steps are made in from now on, their iterations, and for each step of ali3_settle ALI3_SETTLING_WORK,
+ * as its forces and accelerations are found anew, are taken off *left, which outlives the instance; where nothing is
+ * left steps and settlings end with ALI3_TOO_DEAR. NULL, as it begins: they have no bound together. */
 #define ALI3_SETTLING_WORK 8
 ALI3_API void ali3_count_work(ali3_instance *in, int64_t *left);
 /* After ali3_settle: the largest speed beside the held motion, m/s, of a point or, along the ground, of the end of a
@@ -342,8 +343,8 @@ ALI3_API double ali3_unsettled(const ali3_instance *in);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
 ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);
-/* A scene that a pose may place starts on a road of a file at the height at which it rests on its own: a sentence on how
- * much the last start was raised for that and how far the part that is highest above its place of rest has to sink;
+/* A scene that a pose may place starts on a road of a file at the height at which it rests on its own: a sentence on
+ * how much the last start was raised for that and how far the part that is highest above its place of rest has to sink;
  * empty up to 1 mm, and after ali3_settle. */
 ALI3_API ali3_status ali3_start_text(const ali3_instance *in, char *text, size_t size);
 /* Forces that count as none: 1e-6 of the largest force of gravity on a coordinate, N. */
@@ -354,17 +355,16 @@ ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
  * then as ali3_initialise. */
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
 ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
-/* steps: inputs is (n_steps x nu) row major, the values at the end of each step, to which they go straight from those at
-   its start, or NULL (held); every k-th state's sensors go to out
-   (n_steps/every x ns), its coordinates to positions (n_steps/every x nq) unless they are NULL. *done is the number of
-   accepted steps. */
+/* steps: inputs is (n_steps x nu) row major, the values at the end of each step, to which they go straight from those
+ * at its start, or NULL (held); every k-th state's sensors go to out (n_steps/every x ns), its coordinates to positions
+ * (n_steps/every x nq) unless they are NULL. *done is the number of accepted steps. */
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
                               double *out, double *positions, int64_t *done);
-/* Several instances of one System that advance together, a lane each: every number of a step is a vector of 2, 4 or 8 of
- * them, by the instructions that the processor has. Each lane has the bits of ali3_run. Steps of ALi3-P with projections
- * and the linearised update, of Systems without switches, are made together; other Systems, methods and settings, and
- * what one lane needs and the others do not (halves of a step, a failure, the damped start of a flexible System), are
- * stepped alone and counted. A group belongs to one thread at a time. */
+/* Several instances of one System that advance together, a lane each: every number of a step is a vector of 2, 4 or 8
+ * of them, by the instructions that the processor has. Each lane has the bits of ali3_run. Steps of ALi3-P with
+ * projections and the linearised update, of Systems without switches, are made together; other Systems, methods and
+ * settings, and what one lane needs and the others do not (halves of a step, a failure, the damped start of a flexible
+ * System), are stepped alone and counted. A group belongs to one thread at a time. */
 typedef struct ali3_many ali3_many;
 typedef struct {
   ali3_instance *instance; /* of the System of the lanes, each once, all with the same settings */
@@ -438,8 +438,8 @@ enum { /* units */
        ALI3_JUDGED_N_M,
        ALI3_JUDGED_COUNT
 };
-/* Bits: a position, a length or an angle; a force, held against its largest value, all else against its range; judged in
- * any case, rates and motors are not; an angle from -pi to pi. */
+/* Bits: a position, a length or an angle; a force, held against its largest value, all else against its range; judged
+ * in any case, rates and motors are not; an angle from -pi to pi. */
 enum { ALI3_JUDGED_PLACE = 1, ALI3_JUDGED_LOAD = 2, ALI3_JUDGED_ALWAYS = 4, ALI3_JUDGED_WRAPPED = 8 };
 typedef struct {
   int32_t unit, kind; /* ALI3_JUDGED_M to ALI3_JUDGED_N_M; bits */
@@ -451,8 +451,8 @@ typedef struct { /* of one of them; zero before the first sample */
   double gap, time, latest; /* the largest difference, when, s, and the last one */
   int64_t samples, in_turn; /* all of them; those that were compared since one for ranges only */
 } ali3_compared;
-/* Adds n numbers at so many times (NULL: no matter): of the coarser motion (`one`, NULL: ranges only; NaN: that number is
- * not compared) and of the finer one, row major. */
+/* Adds n numbers at so many times (NULL: no matter): of the coarser motion (`one`, NULL: ranges only; NaN: that number
+ * is not compared) and of the finer one, row major. */
 ALI3_API void ali3_compare(const ali3_judged *judged, int32_t n, int64_t rows, const double *time, const double *one,
                            const double *other, ali3_compared *seen);
 /* What a difference of each is held against, the largest range or force in its unit; 0: it does not count. `length`: of
@@ -468,8 +468,8 @@ ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const 
 #define ALI3_RESOLVED 0.5 /* largest resolved fraction of missed changes of velocity, h w/2 of a vibration of w */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
 #define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
-/* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
-ALI3_API ali3_status ali3_run_status(const ali3_report *report);
+/* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. Not exported. */
+ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty if there is none. */
 ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);

@@ -33,8 +33,8 @@ typedef struct ali3_generated {
   int32_t avx2; /* 1: it has instructions of AVX2 */
   const struct ali3_generated *turned; /* of the same System with all directions of wheel axes; NULL: not generated */
   /* The functions are those of ali3_constraints, ali3_constraint_gamma, ali3_rows_times, ali3_rows_transposed,
-   * ali3_constant_mass_times, ali3_active_signals, ali3_add_forces, the tangent of a step, ali3_factorise and ali3_solve;
-   * rows and gamma without terms of guides and angles. */
+   * ali3_constant_mass_times, ali3_active_signals, ali3_add_forces, the tangent of a step, ali3_factorise and
+   * ali3_solve; rows and gamma without terms of guides and angles. */
   void (*rows)(const double *row_lin, const double *row_const, const double *hess_val, const double *q, double *Phi,
                double *J);
   void (*gamma)(const double *hess_val, const double *qd, double *gamma);

@@ -2,8 +2,8 @@
  * carries them.
  *
  * With throttle p, total ratio i of the gear and mean rate W of the wheels relative to the frame, the turbine of the
- * converter turns at wt = max(i W, 0), the engine at w = sqrt(ws^2 + wt^2), ws between idle and stall speed by p (there is
- * no engine inertia), and both wheels together have the torque
+ * converter turns at wt = max(i W, 0), the engine at w = sqrt(ws^2 + wt^2), ws between idle and stall speed by p (there
+ * is no engine inertia), and both wheels together have the torque
  *   T = i (EFFICIENCY p mu Te - (1 - p) DRAG_TORQUE wt/LIMIT_SPEED) + 2 (1 - p) CREEP_TORQUE (1 - 3 x^2 + 2 x^3),
  *   Te = min(MAX_TORQUE, MAX_POWER/w), which falls to 0 from the limit speed on within LIMITER_WIDTH,
  *   mu = 1 + (STALL_FACTOR - 1)(1 - (wt/w)/COUPLING_RATIO) >= 1, x = W/CREEP_SPEED within 0 to 1.
@@ -21,8 +21,8 @@
  * Gears change only in `accept`, between steps, and the ratio then changes over
  * RAMP seconds, so that the torque is continuous; the time of a shift starts where the wheel rate crossed the shift
  * speed within the step, independent of the length of the step. */
-#include "../algebra/small_vectors.h"
 #include "automatic_drive_fields.h"
+#include "driven_wheels.h"
 #include "element.h"
 #include "selector.h"
 
@@ -37,14 +37,6 @@ enum { TURNS = 1, CONVERTS = 2, BY_POWER = 4, LIMITED = 8, CUT_OFF = 16, IN_GEAR
 
 /* Gear, 1 to `gears`, of a state. */
 static int read_gear(double slot, int gears) { return slot >= gears ? gears : slot >= 1.0 ? (int)slot : 1; }
-
-/* Rotation rate of the carrier about the axle, rad/s. */
-static double frame_rate(const ali3_element_args *a) {
-  return 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
-}
-
-/* Mean rate of both wheels relative to the carrier, rad/s. */
-static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
 
 /* Requested gear, 0 for none. */
 static int read_requested_gear(const ali3_element_args *a) {
@@ -111,7 +103,7 @@ static double find_clutch_fraction(ali3_element_args *a, double ratio, double wh
  * its limit speed. The torque of a slipping clutch does not depend on the speed. */
 static double find_selected_torque(ali3_element_args *a, double ratio, double *slope, double *speed, double *engine,
                                    int *direction) {
-  const double *p = a->real, *q = find_selector_reals(a), throttle = read_throttle(a), W = wheel_rate(a);
+  const double *p = a->real, *q = find_selector_reals(a), throttle = read_throttle(a), W = ali3_wheel_rate(a);
   double engaged;
   *direction =
       ali3_selector_step(a->y_old + STATES, a->y_new + STATES, read_selector(a), a->h / q[ENGAGE_TIME], &engaged);
@@ -133,13 +125,13 @@ static double find_selected_torque(ali3_element_args *a, double ratio, double *s
 /* Transfers torque up to `limit` from the faster wheel to the slower one. */
 static void apply_locking(ali3_element_args *a, double limit) {
   const double x = (a->ud[0] - a->ud[1]) / LOCKING_RATE, w = sqrt(1.0 + x * x), transferred = limit * x / w;
-  const double b[8] = {1.0, -1.0};
+  const double b[ALI3_DRIVEN_SIGNALS] = {1.0, -1.0};
   for (int i = 0; i < 2; i++) {
     a->f[i] -= transferred * b[i];
     a->out[6 + i] -= transferred * b[i];
-    a->out[4 + i] -= transferred * b[i] * (a->ud[i] - frame_rate(a));
+    a->out[4 + i] -= transferred * b[i] * (a->ud[i] - ali3_frame_rate(a));
   }
-  if (a->S) ali3_add_outer(a->S, 8, a->wC * limit / (LOCKING_RATE * w * w * w), b);
+  if (a->S) ali3_add_outer(a->S, ALI3_DRIVEN_SIGNALS, a->wC * limit / (LOCKING_RATE * w * w * w), b);
 }
 
 static void evaluate(ali3_element_args *a) {
@@ -152,21 +144,17 @@ static void evaluate(ali3_element_args *a) {
   double slope, speed, engine;
   int direction = 1;
   const double wheel_torque = a->nint > SELECTOR ? find_selected_torque(a, ratio, &slope, &speed, &engine, &direction)
-                                                 : find_wheel_torque(p, ratio, read_throttle(a), wheel_rate(a), &slope,
-                                                                     &speed, &engine, &a->piece);
+                                                 : find_wheel_torque(p, ratio, read_throttle(a), ali3_wheel_rate(a),
+                                                                     &slope, &speed, &engine, &a->piece);
   a->piece |= (uint32_t)(IN_GEAR * (direction > 0 ? gear : direction < 0 ? gears + 1 : 0));
-  double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
-  for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
-  for (int i = 0; i < 8; i++) a->f[i] = wheel_torque * b[i];
-  /* without the rotation of f, g within the step */
-  if (a->S && slope < 0.0) ali3_add_outer(a->S, 8, -a->wC * slope, b);
+  ali3_drive_wheels(a, wheel_torque, slope);
   a->potential = 0.0;
   a->out[0] = speed;
   a->out[1] = direction > 0 ? gear : direction;
   a->out[2] = 0.5 * wheel_torque;
   a->out[3] = engine;
   for (int i = 0; i < 2; i++) {
-    a->out[4 + i] = 0.5 * wheel_torque * (a->ud[i] - frame_rate(a));
+    a->out[4 + i] = 0.5 * wheel_torque * (a->ud[i] - ali3_frame_rate(a));
     a->out[6 + i] = 0.5 * wheel_torque;
   }
   if (p[LOCKING] > 0.0) apply_locking(a, 0.5 * p[LOCKING] * fabs(wheel_torque));
@@ -189,7 +177,7 @@ static void choose_gear(ali3_element_args *a, int gear, double rate) {
 }
 
 static void accept(ali3_element_args *a) {
-  const double *p = a->real, throttle = read_throttle(a), now = wheel_rate(a), before = a->y_new[3];
+  const double *p = a->real, throttle = read_throttle(a), now = ali3_wheel_rate(a), before = a->y_new[3];
   const int gears = a->integer[GEARS], start = !(a->h > 0.0);
   int gear = read_gear(a->y_new[0], gears), engaged = 0;
   double up, down, limit;

@@ -5,7 +5,7 @@
  * stick spring in the plane of contact and their rates.
  *
  * Normal force: contact_law.h over the depth, with the stiffness K beginning as a parabola over the onset. Friction as
- * in the brake: a spring and damper (k, c) in series with a slider, here in two directions. With z = a + h z'/2 and D =
+ * in slider.h: a spring and damper (k, c) in series with a slider, here in two directions. With z = a + h z'/2 and D =
  * c + h k/2 the trial is T = k a + D v; where |T| exceeds mu N it is scaled to it, and z' = (T - k a)/D. Slip power
  * T.(v - z') >= 0, and a sticking point returns to its position: it does not creep.
  *

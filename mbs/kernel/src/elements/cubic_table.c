@@ -1,5 +1,5 @@
-/* Value, derivatives and means of a curve of cubic pieces, and checks of its table. Between two points the cubic has their
- * values and slopes (Hermite). */
+/* Value, derivatives and means of a curve of cubic pieces, and checks of its table. Between two points the cubic has
+ * their values and slopes (Hermite). */
 #include "cubic_table.h"
 
 #include <math.h>
@@ -9,9 +9,12 @@ ali3_cubic_table ali3_cubic_table_at(const double *real, int32_t n, int integral
   return (ali3_cubic_table){n, real, real + n, real + 2 * (size_t)n, integral ? real + 3 * (size_t)n : NULL};
 }
 
+static const double ROUND_OFF = 1e-9; /* relative difference of an integral in a file and of its curve */
+
 /* A piece y + d (m + d (c + d e)) with d = x - start. */
 typedef struct {
-  double start, y, m, c, e, integral;
+  double start, y, m, c, e;
+  double integral; /* of y from x = 0 to the start */
 } piece;
 
 /* Number of the piece that contains x: 0 before the first point, n after the last. */
@@ -31,7 +34,7 @@ static int32_t find_piece(const ali3_cubic_table *t, double x) {
 /* Coefficients of a piece; 0 and n are straight lines outside the table. */
 static piece make_piece(const ali3_cubic_table *t, int32_t number) {
   const int32_t i = number > 0 ? number - 1 : 0;
-  piece p = {t->x[i], t->y[i], t->slope[i], 0.0, 0.0, t->integral != NULL ? t->integral[i] : 0.0};
+  piece p = {.start = t->x[i], .y = t->y[i], .m = t->slope[i], .integral = t->integral != NULL ? t->integral[i] : 0.0};
   if (number == 0 || number == t->n) return p;
   const double width = t->x[i + 1] - p.start, secant = (t->y[i + 1] - p.y) / width, end = t->slope[i + 1];
   p.c = (3.0 * secant - 2.0 * p.m - end) / width;
@@ -45,11 +48,16 @@ static double evaluate_piece(const piece *p, double x) {
   return p->y + d * (p->m + d * (p->c + d * p->e));
 }
 
+/* Integral of y from x = 0 to a place in a piece, d beyond its start. */
+static double integrate_piece(const piece *p, double d) {
+  return p->integral + d * (p->y + d * (0.5 * p->m + d * (p->c / 3.0 + d * 0.25 * p->e)));
+}
+
 double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, double *integral) {
   const piece p = make_piece(t, find_piece(t, x));
   const double d = x - p.start;
   *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
-  if (integral != NULL) *integral += p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
+  if (integral != NULL) *integral += integrate_piece(&p, d);
   return evaluate_piece(&p, x);
 }
 
@@ -88,11 +96,11 @@ int ali3_cubic_integrals_fit(const ali3_cubic_table *t) {
   for (int32_t i = 0; i + 1 < t->n; i++) {
     const piece p = make_piece(t, i + 1);
     const double d = t->x[i + 1] - p.start;
-    const double end = p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
-    if (!(fabs(t->integral[i + 1] - end) <= 1e-9 * (fabs(end) + fabs(p.integral) + fabs(d * p.y)))) return 0;
+    const double end = integrate_piece(&p, d);
+    if (!(fabs(t->integral[i + 1] - end) <= ROUND_OFF * (fabs(end) + fabs(p.integral) + fabs(d * p.y)))) return 0;
   }
   double slope, integral_at_zero = 0.0, largest = 0.0;
   ali3_cubic_value(t, 0.0, &slope, &integral_at_zero);
   for (int32_t i = 0; i < t->n; i++) largest = fmax(largest, fabs(t->integral[i]));
-  return fabs(integral_at_zero) <= 1e-9 * largest;
+  return fabs(integral_at_zero) <= ROUND_OFF * largest;
 }

@@ -9,7 +9,7 @@
  * wheels together have RATIO times T, times GEAR_EFFICIENCY where the motor drives and divided by it where it brakes.
  * The battery gives T w/EFFICIENCY or takes T w EFFICIENCY. The inertia of the rotor is part of the spins, not of this
  * element. */
-#include "../algebra/small_vectors.h"
+#include "driven_wheels.h"
 #include "electric_drive_fields.h"
 #include "element.h"
 #include "selector.h"
@@ -60,23 +60,16 @@ static torque apply_gear_losses(double efficiency, torque m, double speed) {
                   m.piece | (drives || x < BARELY ? DRIVES : 0u)};
 }
 
-/* Angular velocity of the frame about the axis of the wheels, rad/s. */
-static double frame_rate(const ali3_element_args *a) {
-  return 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
-}
-
-/* Mean angular velocity of both wheels relative to the frame, rad/s. */
-static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
-
 /* -1, 0 or 1: reverse, neutral, drive. */
-static double read_selector(const ali3_element_args *a) { return a->input[a->integer[1]]; }
+static double read_selector(const ali3_element_args *a) { return a->input[a->integer[SELECTOR]]; }
 
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real;
   double engaged = 1.0;
-  const int direction =
-      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, read_selector(a), a->h / p[ENGAGE_TIME], &engaged) : 1;
-  const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
+  const int direction = a->nint > SELECTOR
+                            ? ali3_selector_step(a->y_old, a->y_new, read_selector(a), a->h / p[ENGAGE_TIME], &engaged)
+                            : 1;
+  const double speed = p[RATIO] * ali3_wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
   torque m = {0.0, 0.0, 0u};
   if (direction != 0) {
     m = find_motor_torque(p, throttle, direction * speed, direction < 0);
@@ -86,23 +79,19 @@ static void evaluate(ali3_element_args *a) {
   const double total = p[RATIO] * wheels.value, slope = p[RATIO] * p[RATIO] * wheels.slope;
   const double power = m.value * speed;
   a->piece = wheels.piece + (uint32_t)(DIRECTIONS * (direction + 1));
-  double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
-  for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
-  for (int i = 0; i < 8; i++) a->f[i] = total * b[i];
-  if (a->S && slope < 0.0)
-    ali3_add_outer(a->S, 8, -a->wC * slope, b); /* without the rotation of f, g within the step */
+  ali3_drive_wheels(a, total, slope);
   a->potential = 0.0;
   a->out[0] = speed;
   a->out[1] = m.value;
   a->out[2] = 0.5 * total;
   a->out[3] = power > 0.0 ? power / p[EFFICIENCY] : power * p[EFFICIENCY];
   a->out[4] = direction;
-  for (int i = 0; i < 2; i++) a->out[5 + i] = 0.5 * total * (a->ud[i] - frame_rate(a));
+  for (int i = 0; i < 2; i++) a->out[5 + i] = 0.5 * total * (a->ud[i] - ali3_frame_rate(a));
 }
 
 static void accept(ali3_element_args *a) {
-  if (a->nint > 1)
-    ali3_selector_accept(a->y_new, read_selector(a), wheel_rate(a), a->real[ENGAGE_SPEED], !(a->h > 0.0));
+  if (a->nint > SELECTOR)
+    ali3_selector_accept(a->y_new, read_selector(a), ali3_wheel_rate(a), a->real[ENGAGE_SPEED], !(a->h > 0.0));
 }
 
 const ali3_element_type ali3_electric_drive = {

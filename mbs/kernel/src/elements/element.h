@@ -47,15 +47,16 @@ typedef struct {
   double pressed; /* above 0: depth of a rim in the road beyond what the wheel can carry, m */
 } ali3_start_verdict;
 
-/* Allowed range of a number of an element, and the sentence for one outside; the tables are generated from the classes in
- * Python, see *_fields.h. */
+/* Allowed range of a number of an element, and the sentence for one outside; the tables are generated from the classes
+ * in Python, see *_fields.h. */
 typedef enum { ALI3_IS_ANY, ALI3_IS_NOT_NEGATIVE, ALI3_IS_POSITIVE, ALI3_IS_SHARE, ALI3_IS_FRACTION } ali3_range;
 typedef struct {
   ali3_range range; /* of finite numbers: any; x >= 0; x > 0; 0 < x <= 1; 0 <= x < 1 */
   const char *text; /* sentence without its full stop for a number outside */
 } ali3_field;
 
-/* Allowed range of an integer: not below 0 or `least`, and not above `most` or the last index of the list it refers to. */
+/* Allowed range of an integer: not below 0 or `least`, and not above `most` or the last index of the list it refers
+ * to. */
 typedef enum { ALI3_OF_NUMBERS, ALI3_OF_INPUTS, ALI3_OF_ROADS } ali3_numbered;
 typedef struct {
   ali3_numbered of; /* the integer is a number, or the index of an input or a road */
@@ -64,13 +65,13 @@ typedef struct {
   const char *text; /* sentence without its full stop for an integer outside */
 } ali3_integer;
 
-/* A type of elements. Members that an initialiser does not name are 0 or NULL: the property does not hold, or there is no
- * such function. */
+/* A type of elements. Members that an initialiser does not name are 0 or NULL: the property does not hold, or there is
+ * no such function. */
 typedef struct ali3_element_type {
   ali3_element_function *evaluate; /* forces, tangent, states, outputs and potential at an iterate */
   /* Forces over a step by a discrete gradient, for elements whose potential is not quadratic in their signals:
-   * f . (u1 - u0) = -(V(u1) - V(u0)) minus the dissipation of dampers, exactly. It is called at the middle of the step, u,
-   * with ud = (u1 - u0) / (2 h), its h being half a step. NULL: `evaluate` is exact or accurate enough there. */
+   * f . (u1 - u0) = -(V(u1) - V(u0)) minus the dissipation of dampers, exactly. It is called at the middle of the step,
+   * u, with ud = (u1 - u0) / (2 h), its h being half a step. NULL: `evaluate` is exact or accurate enough there. */
   ali3_element_function *discrete;
   ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
   /* Of springs with end stops, whose first outputs are length and force: whether the length is beyond a stop. */
@@ -107,7 +108,8 @@ typedef struct ali3_element_type {
 bool ali3_element_fits(const ali3_element_type *type, int32_t nsig, int32_t nreal, const int32_t *integer, int32_t nint,
                        int32_t nstate, int32_t nout);
 
-/* NULL or one sentence for bad data: first by the declared ranges of reals and integers, then by the check of the type. */
+/* NULL or one sentence for bad data: first by the declared ranges of reals and integers, then by the check of the
+ * type. */
 const char *ali3_element_check(const ali3_element_type *type, int32_t nsig, const double *real, int32_t nreal,
                                const int32_t *integer, int32_t nint, int32_t n_inputs, int32_t n_roads);
 

@@ -1,15 +1,16 @@
 /* Horizontal exit of a point below the surface of a grid road. Horizontal rays from the point are followed to where the
  * surface falls below it; the nearest such position is the foot, with the direction of the shortest ray refined. The
- * distance is continuous in the point and its gradient is the normal of the face, so that the contact is conservative. It
- * has a kink where two faces are equally distant: there the normal jumps from one to the other, the distance does not. */
+ * distance is continuous in the point and its gradient is the normal of the face, so that the contact is conservative.
+ * It has a kink where two faces are equally distant: there the normal jumps from one to the other, the distance does
+ * not. */
 #include "grid_exit.h"
 
 #include <math.h>
 
 #include "../algebra/elementary.h"
 
-/* Number of rays, most samples on a ray, bisections of a crossing, golden sections of the direction. The distance is that
- * of the tangent plane at the foot, so that errors of position and direction enter it in second order only. */
+/* Number of rays, most samples on a ray, bisections of a crossing, golden sections of the direction. The distance is
+ * that of the tangent plane at the foot, so that errors of position and direction enter it in second order only. */
 enum { RAYS = 16, MAX_SAMPLES = 64, HALVINGS = 24, SECTIONS = 10 };
 
 /* Whether the surface is below the height of the point at horizontal distance r along `direction`. */

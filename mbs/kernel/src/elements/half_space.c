@@ -1,6 +1,6 @@
 /* Contact of a disc with the half-space below a plane. In the plane of the disc, with axis e, the plane through q with
- * normal n is nearest along down = -(n - (n . e) e)/s at the distance n . (centre - q)/s, s = |n - (n . e) e|, the sine of
- * the angle between e and n. */
+ * normal n is nearest along down = -(n - (n . e) e)/s at the distance n . (centre - q)/s, s = |n - (n . e) e|, the sine
+ * of the angle between e and n. */
 #include "half_space.h"
 
 #include "../algebra/small_vectors.h"

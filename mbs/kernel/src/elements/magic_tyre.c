@@ -121,7 +121,7 @@ static reaction step_carcass(ali3_element_args *a, const ali3_tyre_patch *contac
     const double by_g = D[i] / (g[i] + D[i]) * ((offset[i] - f.F[i]) / (g[i] + D[i]));
     for (int j = 0; j < 2; j++) J[i][j] = D[i] / (g[i] + D[i]) * f.J[i][j] + by_g * g_by[i][j];
   }
-  if (grips) { a->piece |= limit_force(f.peak, f.F, r.F, J, safe); }
+  if (grips) a->piece |= limit_force(f.peak, f.F, r.F, J, safe);
   if (bore) {
     const ali3_tyre_horizontal_force friction = {.slope = f.cornering * (1.0 - ali3_tyre_moving(fabs(m->travel[0]))),
                                                  .most = grips ? f.peak[1] : 0.0,
@@ -143,18 +143,12 @@ static reaction step_carcass(ali3_element_args *a, const ali3_tyre_patch *contac
     ali3_magic_moments(&s, acting, &f);
     r.Mx = p[SIGN + CAMBER] * f.Mx, r.My = f.My, r.Mz = p[SIGN + FORCE] * f.Mz;
   }
-  for (int i = 0; i < 2; i++) {
-    a->y_new[i] = a->y_old[i];
-    a->y_new[2 + i] = (r.F[i] - offset[i]) / D[i];
-    if (!(a->h > 0.0)) continue;
-    a->y_new[i] = (r.F[i] - d[i] * a->y_new[2 + i]) / f.carcass[i];
-    /* after a long time in the air, avoids denormals */
-    if (fabs(a->y_new[i]) < 1e-100) a->y_new[i] = a->y_new[2 + i] = 0.0;
-  }
-  r.C[0] = -J[0][0] - safe[0], r.C[1] = -0.5 * (J[0][1] + J[1][0]), r.C[2] = -J[1][1] - safe[1];
-  ali3_tyre_semidefinite(r.C);
-  r.C[0] += safe[0];
-  r.C[2] += safe[1];
+  const ali3_tyre_carcass deflected = {.stiffness = {f.carcass[0], f.carcass[1]},
+                                       .damping = {d[0], d[1]},
+                                       .offset = {offset[0], offset[1]},
+                                       .D = {D[0], D[1]}};
+  ali3_tyre_deflect(a, &deflected, r.F);
+  ali3_tyre_damping(J, safe, r.C);
   return r;
 }
 
@@ -204,7 +198,7 @@ static void evaluate(ali3_element_args *a) {
     ali3_add_symmetric(a->S, 7, 2.0 * a->wC * r.C[1], m.row[0], m.row[1]);
     ali3_add_outer(a->S, 7, a->wC * r.C[2], m.row[1]);
     if (has_bore) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
-    a->S[48] += a->wC * r.My * (1.0 - roll * roll);
+    a->S[6 * 7 + 6] += a->wC * r.My * (1.0 - roll * roll);
   }
   ali3_tyre_outputs(a, &contact, e, &m, radius, ratio, r.F, r.Mz, -r.My * roll);
   a->out[OVERTURNING] = r.Mx;

@@ -10,9 +10,8 @@
 
 /* Contact with a plane. */
 static int find_plane_contact(const real *p, const real centre[3], const real axis[3], real radius, ali3_contact *out) {
-  const real size = ali3_sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
-  const real none = {0}, n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
-             q[3] = {none, none, p[PLANE_HEIGHT]};
+  real n[3], q[3];
+  ali3_plane_frame(p, n, q);
   ali3_half_space(centre, axis, radius, q, n, out);
   out->friction = p[PLANE_FRICTION];
   return 1;

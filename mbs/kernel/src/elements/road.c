@@ -166,9 +166,8 @@ int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clear
   const double *p = find_reals(road);
   int count = 0;
   if (type == ALI3_ROAD_PLANE) {
-    const double size = sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
-    const double n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
-                 q[3] = {0.0, 0.0, p[PLANE_HEIGHT]};
+    double n[3], q[3];
+    ali3_plane_frame(p, n, q);
     find_plane_clearance(n, q, point, out);
     out->friction = p[PLANE_FRICTION];
     count = 1;

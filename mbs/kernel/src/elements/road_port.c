@@ -41,7 +41,8 @@ static void find_slope(const double *given, double by[2]) {
   for (int i = 0; i < 2; i++) by[i] = -n[i] / n[2];
 }
 
-/* Slope of the plane that fits the heights of all answers best; of a single answer its own, of several at one point 0. */
+/* Slope of the plane that fits the heights of all answers best; of a single answer its own, of several at one point
+ * 0. */
 static void fit_slope(const ali3_road *road, double by[2]) {
   if (count_answers(road) == 1) {
     find_slope(find_answer(road, 0), by);

@@ -1,6 +1,6 @@
-/* Linear spring and damper between two points, with optional end stops (end_stops.h, linear or progressive). The signals
- * are d = p2 - p1, earth axes; with l = |d| the tension T = k (l - l0) + c l' + stops pulls the points together: the
- * force conjugate to d is -T d/l. */
+/* Linear spring and damper between two points, with optional end stops (end_stops.h, linear or progressive). The
+ * signals are d = p2 - p1, earth axes; with l = |d| the tension T = k (l - l0) + c l' + stops pulls the points
+ * together: the force conjugate to d is -T d/l. */
 #include "element.h"
 #include "end_stops.h"
 #include "line_force.h"

@@ -1,6 +1,7 @@
-/* Spring and damper between two points, each by a number or by a table, with optional end stops: as spring_damper.c with
- * the tension T = Fk(l - l0) + Fc(l') + stops. The points of the tables follow the numbers, by columns: of the spring stretch from the free length m, tension N, slope
- * N/m, energy from stretch 0 J; of the damper rate m/s, tension N, slope N s/m. Without points the number applies. */
+/* Spring and damper between two points, each by a number or by a table, with optional end stops: as spring_damper.c
+ * with the tension T = Fk(l - l0) + Fc(l') + stops. The points of the tables follow the numbers, by columns: of the
+ * spring stretch from the free length m, tension N, slope N/m, energy from stretch 0 J; of the damper rate m/s, tension
+ * N, slope N s/m. Without points the number applies. */
 #include <stddef.h>
 
 #include "cubic_table.h"

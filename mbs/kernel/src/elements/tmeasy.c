@@ -2,9 +2,9 @@
  *
  * With the slope D at s = 0, the largest force Fm at sm and the force of sliding Fs from ss on:
  *   F = D s/((1 - s/sm)^2 + D s/Fm) up to sm, F = Fm - (Fm - Fs) x^2 (3 - 2 x), x = (s - sm)/(ss - sm), up to ss.
- * Slips of both directions are divided by scale_i = sm_i/(smx + smy) + b_i/(bx + by), b = Fm/D; the curve of the combined
- * slip s at the angle phi has parameters sqrt(px^2 cos^2 phi + py^2 sin^2 phi). The trail over the contact length is n0 at
- * s = 0, 0 at s0 and from se on; with w = s0/se
+ * Slips of both directions are divided by scale_i = sm_i/(smx + smy) + b_i/(bx + by), b = Fm/D; the curve of the
+ * combined slip s at the angle phi has parameters sqrt(px^2 cos^2 phi + py^2 sin^2 phi). The trail over the contact
+ * length is n0 at s = 0, 0 at s0 and from se on; with w = s0/se
  *   n = n0 ((1 - w)(1 - s/s0) + w (1 - (3 - 2 s/s0)(s/s0)^2)) up to s0,
  *   n = -n0 (1 - w)(s/s0 - 1)((se - s)/(se - s0))^2 up to se. */
 #include "tmeasy.h"

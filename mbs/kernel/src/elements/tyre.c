@@ -107,19 +107,10 @@ static void step_carcass(ali3_element_args *a, const ali3_tyre_patch *contact, c
   }
   ALI3_PIECE(&a->piece, loaded & (contact->load > p[TYRE_MAX_LOAD_FACTOR] * p[TYRE_NOMINAL_LOAD]),
              ALI3_TYRE_OVERLOADED);
-  for (int i = 0; i < 2; i++) {
-    a->y_new[i] = a->y_old[i];
-    a->y_new[2 + i] = (F[i] - offset[i]) / D[i];
-    if (!(a->h > 0.0)) continue;
-    a->y_new[i] = (F[i] - d[i] * a->y_new[2 + i]) / c[i];
-    const truth negligible = ali3_abs(a->y_new[i]) < 1e-100; /* after a long time in the air, avoids denormals */
-    a->y_new[i] = ali3_where(negligible, none, a->y_new[i]);
-    a->y_new[2 + i] = ali3_where(negligible, none, a->y_new[2 + i]);
-  }
-  C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
-  ali3_tyre_semidefinite(C);
-  C[0] += safe[0];
-  C[2] += safe[1];
+  const ali3_tyre_carcass deflected = {
+      .stiffness = {c[0], c[1]}, .damping = {d[0], d[1]}, .offset = {offset[0], offset[1]}, .D = {D[0], D[1]}};
+  ali3_tyre_deflect(a, &deflected, F);
+  ali3_tyre_damping(J, safe, C);
 }
 
 /* Trail divided by contact length at the lateral slip s, behind the middle of the patch in the direction of rolling:
@@ -183,7 +174,7 @@ static void evaluate(ali3_element_args *a) {
     ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], m.row[0], m.row[1]);
     ali3_add_outer(a->S, 7, a->wC * C[2], m.row[1]);
     if (has_bore) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
-    a->S[48] += a->wC * resist * (1.0 - roll * roll);
+    a->S[6 * 7 + 6] += a->wC * resist * (1.0 - roll * roll);
   }
   ali3_tyre_outputs(a, &contact, e, &m, p[TYRE_RADIUS], ratio, F, moment,
                     has_camber_slip ? F[1] * by_spin - resist * roll : -resist * roll);

@@ -1,7 +1,7 @@
 /* Contact of a tyre of any formula: radial spring, axes and velocities of the patch, outputs, depth at a start.
  *
- * At a depth d in the road the wheel has the force (k + p d) d + kb max(d - db, 0) + c d' min(d/TOUCH_DEPTH, 1) against the
- * gradient of d, where this is positive: stiffness k, progression p, rim kb beyond the depth db, damping c. */
+ * At a depth d in the road the wheel has the force (k + p d) d + kb max(d - db, 0) + c d' min(d/TOUCH_DEPTH, 1) against
+ * the gradient of d, where this is positive: stiffness k, progression p, rim kb beyond the depth db, damping c. */
 #include "tyre_contact.h"
 
 #include "../algebra/elementary.h"
@@ -10,6 +10,7 @@
 
 #define TOUCH_DEPTH 0.005 /* m: deflection over which the radial damping increases to its full value */
 #define CLEAR 1e-6 /* m: largest depth at a start that is ignored */
+#define MIN_SLIP_SPEED 0.01 /* m/s: speed below which the slips that are reported tend to 0 */
 #define RIM_HOLDS 0.8 /* of the bottoming radius: least distance of the wheel's centre from a face */
 
 void ali3_tyre_axis(const real axis[3], real e[3]) {
@@ -178,7 +179,7 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
   const real none = {0}, hub_reached = contact->beyond;
   const real deflection =
       ali3_where(hub_reached > 0.0, hub_reached, ali3_where(m->loaded < radius, radius - m->loaded, none));
-  const real min_speed = ali3_same(0.01);
+  const real min_speed = ali3_same(MIN_SLIP_SPEED);
   const real drive = -ratio * ali3_dot(m->forward, m->push) * a->ud[6]; /* circumferential speed */
   const real reference_speed =
       ali3_hypot(ali3_where(ali3_abs(drive) > ali3_abs(m->travel[0]), drive, m->travel[0]), min_speed);
@@ -196,7 +197,8 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, contact->normal), m->upright);
 }
 
-void ali3_tyre_semidefinite(real C[3]) {
+/* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
+static void make_semidefinite(real C[3]) {
   const real mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
   const truth semidefinite = mean >= split, splits = split > 0.0;
   if (!ali3_any(ali3_not(semidefinite))) return;
@@ -205,6 +207,26 @@ void ali3_tyre_semidefinite(real C[3]) {
   C[0] = ali3_where(semidefinite, C[0], 0.5 * top * (1.0 + cosine));
   C[1] = ali3_where(semidefinite, C[1], 0.5 * top * sine);
   C[2] = ali3_where(semidefinite, C[2], 0.5 * top * (1.0 - cosine));
+}
+
+void ali3_tyre_damping(real J[2][2], const real safe[2], real C[3]) {
+  C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
+  make_semidefinite(C);
+  C[0] += safe[0];
+  C[2] += safe[1];
+}
+
+void ali3_tyre_deflect(ali3_element_args *a, const ali3_tyre_carcass *carcass, const real F[2]) {
+  const real none = {0};
+  for (int i = 0; i < 2; i++) {
+    a->y_new[i] = a->y_old[i];
+    a->y_new[2 + i] = (F[i] - carcass->offset[i]) / carcass->D[i];
+    if (!(a->h > 0.0)) continue;
+    a->y_new[i] = (F[i] - carcass->damping[i] * a->y_new[2 + i]) / carcass->stiffness[i];
+    const truth negligible = ali3_abs(a->y_new[i]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
+    a->y_new[i] = ali3_where(negligible, none, a->y_new[i]);
+    a->y_new[2 + i] = ali3_where(negligible, none, a->y_new[2 + i]);
+  }
 }
 
 #ifndef ALI3_WIDTH

@@ -17,8 +17,8 @@ ALI3_PER_WIDTH real ali3_projection_work(ali3_instance *in, real *kinetic, real 
  * that of the residual's tolerance. */
 ALI3_PER_WIDTH real ali3_energy_size(const ali3_instance *in, double h, real kinetic);
 /* Adds an energy error to the balance and, if no row is driven, refuses the step, or with limited iterations marks it
- * as capped, if it is large relative to `size`, J, or if it would be with the unbalanced power `open`, W, in a next step
- * of this size. `end`: kinetic energy at its end, J; `weight`: as in ali3_balance_energy. Returns ALI3_OK,
+ * as capped, if it is large relative to `size`, J, or if it would be with the unbalanced power `open`, W, in a next
+ * step of this size. `end`: kinetic energy at its end, J; `weight`: as in ali3_balance_energy. Returns ALI3_OK,
  * ALI3_UNRESOLVED or ALI3_NOT_FINITE. */
 ali3_status ali3_energy_judge(ali3_instance *in, const ali3_request *request, double error, double size, double end,
                               double open, const double *weight);

@@ -17,7 +17,8 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
 /* Makes a step of h from time t, s, that is not halved; after a failure the caller restores the state. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading);
 /* Size of a difference q (nq) of coordinates and qd (nq) of their rates, relative to the length of the control: the
- * largest s_i |q_i| and, for coordinates with mass, s_i |qd_i| / rate, with `scale` s_i and a rate in 1/s; NaN if one is. */
+ * largest s_i |q_i| and, for coordinates with mass, s_i |qd_i| / rate, with `scale` s_i and a rate in 1/s; NaN if one
+ * is. */
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate);
 /* Reference rate of velocities, 1/s: that of the present motion, at least the one of the control. `all`: includes

@@ -18,8 +18,8 @@ typedef struct { /* bytes 16 to 127 of a file, as they stand there */
   double real[ALI3_ROAD_REALS], zero; /* m, earth axes: see road_file.h; 0 */
 } ali3_road_header;
 
-/* NULL, or what is wrong with the first ALI3_ROAD_HEADER bytes of a file of that size, bytes, in words that follow the name
- * of the file. Writes its header, version and checksum. */
+/* NULL, or what is wrong with the first ALI3_ROAD_HEADER bytes of a file of that size, bytes, in words that follow the
+ * name of the file. Writes its header, version and checksum. */
 const char *ali3_road_header_problem(const unsigned char *bytes, int64_t size, ali3_road_header *h, uint32_t *version,
                                      uint32_t *crc);
 /* The same of the numbers of a grid alone. */
