@@ -91,12 +91,12 @@ typedef enum {
 } ali3_status;
 typedef enum { ALI3_CAUSE_CALL = 0, ALI3_CAUSE_START, ALI3_CAUSE_STEP, ALI3_CAUSE_EQUATIONS } ali3_cause;
 
-/* How the processor rounds, whether it takes denormal numbers for 0, and which exceptions trap: MXCSR without its flags,
- * FPCR. ali3_float_control_set: to the nearest, denormal numbers kept, no trap; the result is what was before, 0 where
- * that is usual already. ali3_float_control_restore: nothing for 0. Flags of exceptions stay. */
+/* How the processor rounds, whether it takes denormal numbers for 0, and which exceptions trap: MXCSR without its
+ * flags, FPCR. ali3_float_control_set: to the nearest, denormal numbers kept, no trap; the result is what was before, 0
+ * where that is usual already. ali3_float_control_restore: nothing for 0. Flags of exceptions stay. */
 typedef uint64_t ali3_float_control;
 ali3_float_control ali3_float_control_set(void);
-void ali3_float_control_restore(ali3_float_control before);
+void ali3_float_control_restore(ali3_float_control previous);
 /* Whether it is usual; inlined, as every call of an FMU asks. */
 static inline int ali3_float_control_is_usual(void) {
 #if defined(__x86_64__)
@@ -149,7 +149,7 @@ typedef struct {
   double tolerance_r; /* on max_i |r_i| / m_i, coordinate units (m) */
   double tolerance_phi; /* on the constraint violation, m */
   double rho_infinity; /* generalised-alpha: spectral radius at infinite frequency, 0 to 1 */
-  int32_t max_iterations;
+  int32_t max_iterations; /* of Newton's method in a step or a part of one; it fails beyond */
   int32_t max_halvings; /* depth of step bisection; 0: never */
   int32_t project; /* 1: velocity and acceleration projections (24), (25) */
   int32_t update; /* ALI3_UPDATE_* */
@@ -162,11 +162,11 @@ typedef struct {
 
 typedef struct {
   int64_t steps, iterations, factorizations, solves, halvings, failures; /* since the last initialise */
-  int32_t last_iterations, max_iterations;
-  int32_t last_status, negative_pivots;
+  int32_t last_iterations, max_iterations; /* of the last step; the most of a step since then */
+  int32_t last_status, negative_pivots; /* ali3_status of the last step; pivots of the last factorization */
   double residual, violation; /* of the last step: max |r_i|/m_i, max |Phi| in m */
   double velocity_violation; /* max |Phi_q qd + Phi_t| * row_measure after projection */
-  int32_t worst_row, worst_coordinate;
+  int32_t worst_row, worst_coordinate; /* indices of the row and the coordinate that have these residuals */
   double energy_jump; /* change of the kinetic energy by the last switching, J */
   double energy_error; /* work of constraint forces and projections, J; 0: exact, or not measured */
   /* what says whether the run is right, see ali3_energy_balance; the first three of methods with an energy balance */
@@ -183,12 +183,12 @@ typedef struct {
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
   double energy_floor; /* work of gravity along tolerance_r, J: a smaller energy_error tells nothing */
   /* Systems on which nothing acts but forces with a potential, whose energy stays: states that were looked at, set to 0
-   * where it may jump; the energy of the first, means of their number of steps and of their energy, J, and sums of the
-   * squares and products of what they are off these */
+   * where it may jump; the energy of the first, J, means of their number of steps and of their energy, J, and sums of
+   * the squares and products of what they are off these: 1, J^2, J */
   int64_t free_states;
   double free_start, free_steps, free_energy, free_steps_squares, free_energy_squares, free_product;
-  /* how much deeper than it holds a rim was pressed into a road at the start of a step, m, 0: never; when, s, where, m,
-   * and of which element */
+  /* how much deeper than it holds a rim was pressed into a road at the start of a step, m, 0: never; when, s; centre of
+   * its wheel, m, earth axes; index of the element */
   double rim_pressed, rim_time, rim_x, rim_y;
   int64_t rim_element;
   double largest_force, largest_load; /* of a tyre, a contact or a spring with end stops; load of a tyre, N */
@@ -212,8 +212,13 @@ enum { ALI3_BRANCH_NONE = 0, ALI3_BRANCH_LEFT, ALI3_BRANCH_JUMP }; /* ali3_repor
  * kept may be wrong too. */
 enum { ALI3_BALANCE_KEPT = 0, ALI3_BALANCE_OPEN, ALI3_BALANCE_WRONG };
 
+/* Numbers of the parts of a System, by which the lengths of its vectors are named. */
 typedef struct {
-  int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, n_switch;
+  int32_t nq, nc, nu, ng; /* coordinates, rows, inputs, guides */
+  int32_t ne, ny, ns, np; /* force elements, their states, sensors, parameters */
+  int32_t nout, nf; /* outputs of all elements, fronts */
+  int32_t front_size, nnz_mass, nnz_rows; /* numbers in front storage, entries of M and of Phi_q */
+  int32_t nsig, has_pose, n_switch; /* signals; 1: a pose may place the scene, otherwise 0; switches */
 } ali3_sizes;
 
 /* Words of a status, a sentence without its point; its remedy, a sentence; its cause. */
@@ -228,8 +233,8 @@ ALI3_API ali3_status ali3_system_load(const void *bytes, size_t size, ali3_syste
                                       size_t message_size);
 /* The same with memory of the caller's, for the system and its instances; allocate gives zeroed memory, as calloc. */
 typedef struct {
-  void *(*allocate)(size_t count, size_t size);
-  void (*release)(void *block);
+  void *(*allocate)(size_t count, size_t size); /* NULL: there is no memory */
+  void (*release)(void *block); /* of `allocate` */
 } ali3_memory;
 ALI3_API ali3_status ali3_system_load_with(const void *bytes, size_t size, const ali3_memory *memory, ali3_system **out,
                                            char *message, size_t message_size);
@@ -291,13 +296,13 @@ ALI3_API ali3_status ali3_set_input_breaks(ali3_instance *in, const double *time
  * constant. */
 typedef struct {
   int32_t input; /* its number */
-  int64_t n;
-  const double *time, *value; /* n; times do not decrease */
+  int64_t n; /* points, one at least */
+  const double *time, *value; /* n: s, do not decrease; in the unit of the input */
 } ali3_input_table;
 typedef struct {
   double tolerance; /* s */
-  int32_t n;
-  const ali3_input_table *table;
+  int32_t n; /* tables */
+  const ali3_input_table *table; /* n */
 } ali3_input_tables;
 ALI3_API int32_t ali3_input_of_tables(void *tables, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value);
@@ -307,12 +312,14 @@ ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, doub
 ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value);
 ALI3_API ali3_status ali3_try_parameter(ali3_instance *in, int32_t index, double value);
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
-/* x, y, z, yaw, speed along the heading, speed to its left and yaw rate of the origin of the drawing. */
+/* x, y, z, m, yaw, rad, speed along the heading, speed to its left, m/s, and yaw rate, rad/s, of the origin of the
+ * drawing, earth axes. */
 #define ALI3_POSE 7
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, const double *pose);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
 /* Rows of a switch on or off: before initialise as drawn; later they hold the values they have at that moment, the
- * velocities are projected, accelerations and multipliers computed again; report.energy_jump is the change of energy. */
+ * velocities are projected, accelerations and multipliers computed again; report.energy_jump is the change of
+ * energy. */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
 /* If the file starts in static equilibrium and parameters of elements or guides differ from the file: that equilibrium
@@ -320,15 +327,15 @@ ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, in
  * (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* After ali3_initialise of a scene that a pose may place: the place along the ground and the velocity of the heaviest
- * point, the heading and the yaw rate of the heaviest direction (in a car that of its chassis) are held for the duration
- * (s) by steps of at most h, with the present inputs, or those of the input function before this time, while all else
- * settles; then the run begins, at the same time and with books at zero. After a failure the scene must be reset.
- * ALI3_BAD_ARGUMENT, too, if no body has a direction. */
+ * point, the heading and the yaw rate of the heaviest direction (in a car that of its chassis) are held for the
+ * duration (s) by steps of at most h, with the present inputs, or those of the input function before this time, while
+ * all else settles; then the run begins, at the same time and with books at zero. After a failure the scene must be
+ * reset. ALI3_BAD_ARGUMENT, too, if no body has a direction. */
 #define ALI3_LONGEST_SETTLING 10.0
 ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
-/* The parts that steps are made in from now on, their iterations, and for each step of ali3_settle ALI3_SETTLING_WORK, as
- * its forces and accelerations are found anew, are taken off *left, which outlives the instance; where nothing is left
- * steps and settlings end with ALI3_TOO_DEAR. NULL, as it begins: they have no bound together. */
+/* The parts that steps are made in from now on, their iterations, and for each step of ali3_settle ALI3_SETTLING_WORK,
+ * as its forces and accelerations are found anew, are taken off *left, which outlives the instance; where nothing is
+ * left steps and settlings end with ALI3_TOO_DEAR. NULL, as it begins: they have no bound together. */
 #define ALI3_SETTLING_WORK 8
 ALI3_API void ali3_count_work(ali3_instance *in, int64_t *left);
 /* After ali3_settle: the largest speed beside the held motion, m/s, of a point or, along the ground, of the end of a
@@ -337,8 +344,8 @@ ALI3_API double ali3_unsettled(const ali3_instance *in);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
 ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);
-/* A scene that a pose may place starts on a road of a file at the height at which it rests on its own: a sentence on how
- * much the last start was raised for that and how far the part that is highest above its place of rest has to sink;
+/* A scene that a pose may place starts on a road of a file at the height at which it rests on its own: a sentence on
+ * how much the last start was raised for that and how far the part that is highest above its place of rest has to sink;
  * empty up to 1 mm, and after ali3_settle. */
 ALI3_API ali3_status ali3_start_text(const ali3_instance *in, char *text, size_t size);
 /* Forces that count as none: 1e-6 of the largest force of gravity on a coordinate, N. */
@@ -349,22 +356,21 @@ ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
  * then as ali3_initialise. */
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
 ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
-/* steps: inputs is (n_steps x nu) row major, the values at the end of each step, to which they go straight from those at
-   its start, or NULL (held); every k-th state's sensors go to out
-   (n_steps/every x ns), its coordinates to positions (n_steps/every x nq) unless they are NULL. *done is the number of
-   accepted steps. */
+/* steps: inputs is (n_steps x nu) row major, the values at the end of each step, to which they go straight from those
+ * at its start, or NULL (held); every k-th state's sensors go to out (n_steps/every x ns), its coordinates to positions
+ * (n_steps/every x nq) unless they are NULL. *done is the number of accepted steps. */
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
                               double *out, double *positions, int64_t *done);
-/* Several instances of one System that advance together, a lane each: every number of a step is a vector of 2, 4 or 8 of
- * them, by the instructions that the processor has. Each lane has the bits of ali3_run. Steps of ALi3-P with projections
- * and the linearised update, of Systems without switches, are made together; other Systems, methods and settings, and
- * what one lane needs and the others do not (halves of a step, a failure, the damped start of a flexible System), are
- * stepped alone and counted. A group belongs to one thread at a time. */
+/* Several instances of one System that advance together, a lane each: every number of a step is a vector of 2, 4 or 8
+ * of them, by the instructions that the processor has. Each lane has the bits of ali3_run. Steps of ALi3-P with
+ * projections and the linearised update, of Systems without switches, are made together; other Systems, methods and
+ * settings, and what one lane needs and the others do not (halves of a step, a failure, the damped start of a flexible
+ * System), are stepped alone and counted. A group belongs to one thread at a time. */
 typedef struct ali3_many ali3_many;
 typedef struct {
   ali3_instance *instance; /* of the System of the lanes, each once, all with the same settings */
-  const double *inputs; /* as of ali3_run; so are out and positions */
-  double *out, *positions;
+  const double *inputs; /* as of ali3_run */
+  double *out, *positions; /* likewise */
   int64_t done, alone; /* accepted steps of the call; steps made alone */
   int32_t status; /* ALI3_OK, or why this lane stopped; the others go on */
 } ali3_lane;
@@ -391,10 +397,11 @@ typedef struct {
   int64_t over_share; /* steps with an error above their part of the tolerance and below a fixed limit */
   int64_t side_steps; /* made for a record when no polynomial through the steps was accurate enough */
 } ali3_control;
+/* Times at which a run is recorded, and what is recorded there. */
 typedef struct {
-  int64_t n;
-  const double *time; /* n, ascending, after the present time */
-  double *sensors, *positions; /* n x ns, n x nq; may be NULL */
+  int64_t n; /* times */
+  const double *time; /* n, s, ascending, after the present time */
+  double *sensors, *positions; /* n x ns, n x nq, row major; may be NULL */
 } ali3_record;
 /* At most most_steps steps towards t_end, which is the end of one. Breaks of guides of time are ends of steps; inputs
  * must not jump before t_end. scale (nq): size of a unit of each coordinate, m; NULL: 1. *done counts the rows of the
@@ -407,9 +414,9 @@ ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values 
 /* The same of n sensors by their numbers. */
 ALI3_API ali3_status ali3_some_sensors(ali3_instance *in, int32_t n, const int32_t *number, double *out);
 /* The System with ports that another run follows, ALI3_BAD_ARGUMENT if it does not belong to the other System: takes
- * over its state, accelerations and multipliers and finds the forces at the ports, for ali3_sensors. `without` stays as
+ * over its state, accelerations and multipliers and finds the forces at the ports, for ali3_sensors. `source` stays as
  * it is. */
-ALI3_API ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without);
+ALI3_API ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *source);
 /* First time derivatives of the sensors; known[i] = 0 if sensor i depends on forces or accelerations (rates[i] = 0). */
 ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
@@ -432,11 +439,11 @@ enum { /* units */
        ALI3_JUDGED_N_M,
        ALI3_JUDGED_COUNT
 };
-/* Bits: a position, a length or an angle; a force, held against its largest value, all else against its range; judged in
- * any case, rates and motors are not; an angle from -pi to pi. */
+/* Bits: a position, a length or an angle; a force, held against its largest value, all else against its range; judged
+ * in any case, rates and motors are not; an angle from -pi to pi. */
 enum { ALI3_JUDGED_PLACE = 1, ALI3_JUDGED_LOAD = 2, ALI3_JUDGED_ALWAYS = 4, ALI3_JUDGED_WRAPPED = 8 };
 typedef struct {
-  int32_t unit, kind;
+  int32_t unit, kind; /* ALI3_JUDGED_M to ALI3_JUDGED_N_M; bits */
 } ali3_judged;
 typedef struct { /* of one of them; zero before the first sample */
   double least, most; /* of the finer motion, of an angle without its jumps */
@@ -445,14 +452,14 @@ typedef struct { /* of one of them; zero before the first sample */
   double gap, time, latest; /* the largest difference, when, s, and the last one */
   int64_t samples, in_turn; /* all of them; those that were compared since one for ranges only */
 } ali3_compared;
-/* Adds n numbers at so many times (NULL: no matter): of the coarser motion (`one`, NULL: ranges only; NaN: that number is
- * not compared) and of the finer one, row major. */
-ALI3_API void ali3_compare(const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one,
+/* Adds n numbers at so many times (NULL: no matter): of the coarser motion (`one`, NULL: ranges only; NaN: that number
+ * is not compared) and of the finer one, row major. */
+ALI3_API void ali3_compare(const ali3_judged *judged, int32_t n, int64_t rows, const double *time, const double *one,
                            const double *other, ali3_compared *seen);
 /* What a difference of each is held against, the largest range or force in its unit; 0: it does not count. `length`: of
  * the model, m; `energy`, J: forces that do less work along the length, or moments along a radian, do not count;
  * `guided`: places that are the same in both motions do not move by themselves. */
-ALI3_API void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length,
+ALI3_API void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compared *seen, double length,
                                   double energy, int32_t guided, double *size);
 /* The largest difference, or the largest of the last sample, relative to its size; *worst: whose, -1: none. */
 ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *size, int32_t latest,
@@ -462,8 +469,8 @@ ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const 
 #define ALI3_RESOLVED 0.5 /* largest resolved fraction of missed changes of velocity, h w/2 of a vibration of w */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
 #define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
-/* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
-ALI3_API ali3_status ali3_run_status(const ali3_report *report);
+/* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. Not exported. */
+ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty if there is none. */
 ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);

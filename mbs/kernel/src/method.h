@@ -34,11 +34,11 @@ typedef struct {
   void (*after_sampled)(ali3_instance *in);
   int32_t owner; /* ALI3_METHOD_* in the history of the state after its steps: its own, or a shared one */
   bool relative; /* its steps are in relative coordinates: in->next is not a copy and is filled when it is read */
-  /* Its steps write all of q, qd, qdd and lam of in->next and, of rigid Systems, past_a and past_lam, which are not copied
-   * before. */
+  /* Its steps write all of q, qd, qdd and lam of in->next and, of rigid Systems, past_a and past_lam, which are not
+   * copied before. */
   bool fills;
   double stable_rate; /* of an explicit method: largest stable step times rate, for negative real rates; otherwise 0 */
-  ali3_round_off round_off;
+  ali3_round_off round_off; /* of its equations */
 } ali3_method;
 
 #define ALI3_METHOD_DECLARED(NAME, name, order) extern const ali3_method ali3_method_##name;

@@ -68,22 +68,23 @@
   X(BYTES, drawing, MAY, ANY, TEXT, \
     "JSON, UTF-8: what is drawn (below); the kernel does not read it, and Python hands Systems to the kernel and " \
     "to FMUs without it") \
-  X(REALS, q0, MUST, nq, FINITE, "consistent initial position") \
-  X(REALS, qd0, MUST, nq, FINITE, "consistent initial velocity") \
-  X(REALS, y0, MUST, ny, FINITE, "initial element states") \
+  X(REALS, q0, MUST, nq, FINITE, \
+    "consistent initial position: m of points, 1 of directions, rad of angles, earth axes") \
+  X(REALS, qd0, MUST, nq, FINITE, "consistent initial velocity: units of `q0` per s") \
+  X(REALS, y0, MUST, ny, FINITE, "initial element states, units by the element type") \
   X(INTEGERS, mass_ptr, MUST, nq + 1, OFFSETS(mass_col), "constant mass matrix, CSR, both triangles: its rows") \
   X(INTEGERS, mass_col, MUST, n_mass, BELOW(nq), "its columns, ascending in a row") \
-  X(REALS, mass_val, MUST, n_mass, FINITE, "its entries") \
+  X(REALS, mass_val, MUST, n_mass, FINITE, "its entries: kg, kg m, kg m²; the kinetic energy is qd' M qd/2, J") \
   X(INTEGERS, mass_pos, MUST, n_mass, RELATED, \
     "index into front storage of entry (row, col) when row >= col, otherwise -1") \
   X(REALS, gravity_force, MUST, nq, FINITE, \
-    "constant generalised force of gravity; potential = gravity_const - gravity_force . q") \
-  X(REALS, gravity_const, MUST, 1, FINITE, "J") \
+    "constant generalised force of gravity, N or N m; potential = gravity_const - gravity_force . q") \
+  X(REALS, gravity_const, MUST, 1, FINITE, "constant part of that potential, J") \
   /* Rows */ \
   X(INTEGERS, row_ptr, MUST, nc + 1, OFFSETS(row_col), "pattern of Phi_q, CSR") \
   X(INTEGERS, row_col, MUST, n_row, BELOW(nq), "its columns, ascending in a row") \
-  X(REALS, row_lin, MUST, n_row, FINITE, "linear coefficients") \
-  X(REALS, row_const, MUST, nc, FINITE, "constant term") \
+  X(REALS, row_lin, MUST, n_row, FINITE, "linear coefficients of Phi_stored") \
+  X(REALS, row_const, MUST, nc, FINITE, "constant term of Phi_stored") \
   X(REALS, row_scale, MUST, nc, FINITE, \
     "Phi_stored = row_scale * Phi_user, lam_user = row_scale * lam_stored; M qdd + Phi_q' lam = Q, so a row puts " \
     "the force -Phi_q' lam on its coordinates") \
@@ -97,7 +98,7 @@
     "terms h * q[col(a)] * q[col(b)] of a row, one entry per unordered pair") \
   X(INTEGERS, quad_a, MUST, n_quad, RELATED, "a, a position within the row's pattern (0-based within the row)") \
   X(INTEGERS, quad_b, MUST, n_quad, RELATED, "b, another, a >= b") \
-  X(REALS, quad_h, MUST, n_quad, FINITE, "h") \
+  X(REALS, quad_h, MUST, n_quad, FINITE, "h, of Phi_stored") \
   X(INTEGERS, angle_row, MUST, n_angle, BELOW(nc), \
     "rows of kind angle: Phi = scale*(cos(theta) S - sin(theta) C) + the quadratic part of the row") \
   X(INTEGERS, angle_theta, MUST, n_angle, RELATED, "position of theta within the row's pattern") \
@@ -112,14 +113,14 @@
   X(INTEGERS, gterm_power, MUST, n_gterm, WITHIN(1, 2), "power") \
   X(INTEGERS, gterm_a, MUST, n_gterm, RELATED, "a, a position within the row's pattern, -1 as in `angle_a`") \
   X(INTEGERS, gterm_b, MUST, n_gterm, RELATED, "b, another, -1 as in `angle_b`") \
-  X(REALS, gterm_h, MUST, n_gterm, FINITE, "h") \
+  X(REALS, gterm_h, MUST, n_gterm, FINITE, "h, of Phi_stored") \
   X(INTEGERS, velocity_row, MUST, n_velocity, BELOW(nc), \
     "rows that are conditions on velocities, ascending: sum over b of A_b qd_b = 0. They have no constant, " \
     "quadratic, angle or guide terms; their `row_lin` are constant parts of A") \
   X(INTEGERS, velocity_ptr, MUST, n_velocity + 1, OFFSETS(velocity_a), "terms A_b += h * q_a of such a row") \
   X(INTEGERS, velocity_a, MUST, n_velocity_term, RELATED, "a, a position within the row's pattern") \
   X(INTEGERS, velocity_b, MUST, n_velocity_term, RELATED, "b, another") \
-  X(REALS, velocity_h, MUST, n_velocity_term, FINITE, "h") \
+  X(REALS, velocity_h, MUST, n_velocity_term, FINITE, "h, of Phi_stored") \
   X(INTEGERS, row_switch, MUST, nc, WITHIN(-1, n_switch - 1), \
     "switch of the row, -1: always on. A switched row has no angle") \
   X(INTEGERS, switch_start, MUST, n_switch, BELOW(2), "state at the start, 1: on; every switch has a row") \
@@ -139,15 +140,15 @@
   /* Signals and force elements */ \
   X(INTEGERS, sig_ptr, MUST, nsig + 1, OFFSETS(sig_col), "affine signals u = sum val*q[col] + const") \
   X(INTEGERS, sig_col, MUST, n_entry, RELATED, "coordinate, or a dependent of a table if not below nq") \
-  X(REALS, sig_val, MUST, n_entry, FINITE, "val") \
-  X(REALS, sig_const, MUST, nsig, FINITE, "const") \
+  X(REALS, sig_val, MUST, n_entry, FINITE, "val: unit of the signal per unit of the coordinate") \
+  X(REALS, sig_const, MUST, nsig, FINITE, "const, unit of the signal") \
   X(INTEGERS, el_type, MUST, ne, RELATED, \
     "element type, numbered in `mbs/kernel/src/elements/element_types.h`; what its signals and data mean stands " \
     "in the C file of its name, or in `_fields.h` beside it") \
   X(INTEGERS, el_sig_ptr, MUST, ne + 1, OFFSETS(el_sig), "signals of the element") \
   X(INTEGERS, el_sig, MUST, ANY, BELOW(nsig), "these, in the order its type defines") \
   X(INTEGERS, el_real_ptr, MUST, ne + 1, OFFSETS(el_real), "its data: numbers") \
-  X(REALS, el_real, MUST, ANY, FINITE, "these") \
+  X(REALS, el_real, MUST, ANY, FINITE, "these; units by the element type") \
   X(INTEGERS, el_int_ptr, MUST, ne + 1, OFFSETS(el_int), "its data: integers") \
   X(INTEGERS, el_int, MUST, ANY, RELATED, "these") \
   X(INTEGERS, el_state_ptr, MUST, ne + 1, OFFSETS(y0), "its slots in y") \
@@ -158,9 +159,9 @@
   X(INTEGERS, el_loc, MUST, ANY, RELATED, \
     "local index of each signal entry in that front (concatenated over the element's signals in order)") \
   /* Inputs, guides and roads */ \
-  X(REALS, input_start, MUST, nu, FINITE, "value at the start") \
-  X(REALS, input_min, MUST, nu, OR_INFINITE, "lowest value") \
-  X(REALS, input_max, MUST, nu, OR_INFINITE, "highest value") \
+  X(REALS, input_start, MUST, nu, FINITE, "value at the start, in the unit that `meta` names") \
+  X(REALS, input_min, MUST, nu, OR_INFINITE, "lowest value, same unit") \
+  X(REALS, input_max, MUST, nu, OR_INFINITE, "highest value, same unit") \
   X(INTEGERS, guide_type, MUST, ng, BELOW(ALI3_GUIDE_TYPE_COUNT), \
     "0: polynomial pieces of time; 1: an input through a filter; 2: two inputs through a filter; 3: a curve over " \
     "an earlier guide") \
@@ -176,11 +177,11 @@
   X(INTEGERS, road_type, MUST, nr, RELATED, "see `mbs/kernel/src/elements/road.h`") \
   X(INTEGERS, road_real_ptr, MUST, nr + 1, OFFSETS(road_real), "reals of a road") \
   X(REALS, road_real, MUST, ANY, FINITE, \
-    "these; a plane of four numbers and a kerb of five have the friction factor 1") \
+    "these, m and earth axes; a plane of four numbers and a kerb of five have the friction factor 1") \
   /* Parameters */ \
-  X(REALS, par_value, MUST, np, FINITE, "value of the parameter") \
-  X(REALS, par_min, MUST, np, OR_INFINITE, "lowest value") \
-  X(REALS, par_max, MUST, np, OR_INFINITE, "highest value") \
+  X(REALS, par_value, MUST, np, FINITE, "value of the parameter, in the unit that `meta` names") \
+  X(REALS, par_min, MUST, np, OR_INFINITE, "lowest value, same unit") \
+  X(REALS, par_max, MUST, np, OR_INFINITE, "highest value, same unit") \
   X(INTEGERS, par_ptr, MUST, np + 1, OFFSETS(par_target), \
     "what the parameter writes: value*scale + offset to element `index` of the target") \
   X(INTEGERS, par_target, MUST, n_write, BELOW(ALI3_TARGET_COUNT), \
@@ -195,28 +196,29 @@
     "1: the parameter can be set before the start only; by default 0") \
   /* Masses that parameters write */ \
   X(REALS, payload_mass, MAY, n_payload, FINITE, \
-    "point masses: M and gravity of an instance are those above plus m C'C and m C'g. Only a fixed parameter " \
+    "point masses, kg: M and gravity of an instance are those above plus m C'C and m C'g. Only a fixed parameter " \
     "writes a mass") \
   X(INTEGERS, payload_signal, MAY, 3 * n_payload, BELOW(nsig), \
-    "signals of each; the pattern of `mass_col` has their places") \
-  X(REALS, payload_gravity, MAY, IF_ANY(n_payload, 3), FINITE, "acceleration of gravity") \
+    "signals of x, y, z of each, m, earth axes; the pattern of `mass_col` has their places") \
+  X(REALS, payload_gravity, MAY, IF_ANY(n_payload, 3), FINITE, "acceleration of gravity, m/s², earth axes") \
   X(INTEGERS, armature_col, MAY, n_armature, BELOW(nq), \
     "coordinate; what turns `ratio` times as fast as it, with an inertia of its own, where a parameter writes the" \
     " ratio") \
   X(REALS, armature_inertia, MAY, n_armature, FINITE, \
-    "inertia; `mass_val` has inertia*ratio^2, an instance what its own ratio makes of it") \
-  X(REALS, armature_ratio, MAY, n_armature, FINITE, "ratio") \
+    "inertia, kg m²; `mass_val` has inertia*ratio^2, an instance what its own ratio makes of it") \
+  X(REALS, armature_ratio, MAY, n_armature, FINITE, "ratio of both speeds") \
   X(REALS, inertia_real, MAY, 10 * n_inertia, FINITE, \
     "bodies whose inertia fixed parameters write: mass, centre of mass, moments xx, yy, zz and entries xy, xz, yz" \
     " of the inertia tensor about it, as drawn, which `mass_val` has; an instance has what its own numbers change") \
   X(INTEGERS, inertia_signal, MAY, 12 * n_inertia, BELOW(nsig), \
     "signals of the centre of mass as drawn and of the axes; the pattern of `mass_col` has their places") \
-  X(REALS, inertia_gravity, MAY, IF_ANY(n_inertia, 3), FINITE, "acceleration of gravity") \
+  X(REALS, inertia_gravity, MAY, IF_ANY(n_inertia, 3), FINITE, "acceleration of gravity, m/s², earth axes") \
   X(REALS, axis_real, MAY, 2 * n_axis, FINITE, \
-    "wheels whose axes fixed parameters write: azimuth and elevation as drawn") \
-  X(REALS, axis_vector, MAY, 9 * n_axis, FINITE, "f, g and the axis e = f x g in the drawing") \
-  X(REALS, axis_inertia, MAY, n_axis, FINITE, "diametral inertia") \
-  X(REALS, axis_rolling, MAY, 2 * n_axis, FINITE, "rolling radius and its growth by 1/cos(elevation)") \
+    "wheels whose axes fixed parameters write: azimuth and elevation as drawn, rad") \
+  X(REALS, axis_vector, MAY, 9 * n_axis, FINITE, \
+    "unit vectors f, g and the axis e = f x g in the drawing, earth axes") \
+  X(REALS, axis_inertia, MAY, n_axis, FINITE, "diametral inertia, kg m²") \
+  X(REALS, axis_rolling, MAY, 2 * n_axis, FINITE, "rolling radius, m, and its growth by 1/cos(elevation)") \
   X(INTEGERS, axis_frame, MAY, 9 * n_axis, BELOW(nsig), "signals of the carrier's axes") \
   X(INTEGERS, axis_signal, MAY, 9 * n_axis, BELOW(nsig), \
     "signals of f, g and e, which have entries for all coordinates of those") \
@@ -229,15 +231,16 @@
   X(INTEGERS, tabled_param, MAY, 2 * n_tabled, WITHIN(-1, nq - 1), "coordinates that are the variables, -1: none") \
   X(INTEGERS, tabled_frame, MAY, 12 * n_tabled, WITHIN(-1, nq - 1), \
     "of a body the coordinates of its base, r, a, b, c, -1: the earth") \
-  X(REALS, tabled_axis, MAY, 4 * n_tabled, FINITE, "place of the first point and spacing along both variables") \
+  X(REALS, tabled_axis, MAY, 4 * n_tabled, FINITE, "first point and spacing along both variables, in their units") \
   X(REALS, tabled_coef, MAY, RELATED_LENGTH, FINITE, \
     "control points of uniform cubic B-splines, functions fastest, then the second variable: p and R's columns " \
     "along the axes of the base; as many as `tabled_size` says") \
   X(REALS, tabled_mass, MAY, 10 * n_tabled, FINITE, \
-    "mass, first moments, second moments xx, yy, zz, yz, zx, xy of a body about r + X_0 along its axes") \
+    "mass, kg, first moments, kg m, second moments xx, yy, zz, yz, zx, xy, kg m², of a body about r + X_0 along " \
+    "its axes") \
   X(REALS, tabled_gravity, MAY, 3 * n_tabled, FINITE, \
-    "acceleration of gravity. Dependents, 12 of a body and 1 of a number, follow each other; `sig_col` may name " \
-    "them from nq on") \
+    "acceleration of gravity, m/s², earth axes. Dependents, 12 of a body and 1 of a number, follow each other; " \
+    "`sig_col` may name them from nq on") \
   /* Ports */ \
   X(INTEGERS, ported_ptr, MAY, ANY, OFFSETS(ported_row), \
     "of a System with ports: its coordinates by those of the same model without them, q = const + T q', T by " \
@@ -263,7 +266,7 @@
   X(REALS, pose_x, MUST, n_pose, FINITE, "factor of x") \
   X(REALS, pose_y, MUST, n_pose, FINITE, "factor of y") \
   X(REALS, pose_z, MUST, n_pose, FINITE, "factor of z") \
-  X(REALS, pose_speed, MUST, n_pose, FINITE, "carries the wheel spins per m/s") \
+  X(REALS, pose_speed, MUST, n_pose, FINITE, "spins of the wheels per speed, rad/m") \
   X(INTEGERS, pose_partner, MAY, OR_NONE(n_pose), WITHIN(-nsig, nsig), \
     "of an x component minus, of a y component plus (the signal of the other one + 1), or 0: how a pose turns a" \
     " scene that starts elsewhere than at `q0`") \
@@ -279,7 +282,7 @@
   X(INTEGERS, sen_int_ptr, MUST, ns + 1, OFFSETS(sen_int), "integers of a sensor") \
   X(INTEGERS, sen_int, MUST, ANY, RELATED, "these") \
   X(INTEGERS, sen_real_ptr, MUST, ns + 1, OFFSETS(sen_real), "reals of a sensor") \
-  X(REALS, sen_real, MUST, ANY, FINITE, "these") \
+  X(REALS, sen_real, MUST, ANY, FINITE, "these; meaning by the type") \
   /* Flexible bodies */ \
   X(INTEGERS, flex_mode_ptr, MUST, nb + 1, OFFSETS(flex_mode), \
     "modes of a body: n = flex_mode_ptr[b+1] - flex_mode_ptr[b] >= 1") \
@@ -287,8 +290,9 @@
   X(INTEGERS, flex_mode, MUST, n_mode, BELOW(nq), "coordinates of the amplitudes, ascending within a body") \
   X(INTEGERS, flex_front, MUST, nb, BELOW(nf), "front that holds them all") \
   X(INTEGERS, flex_loc, MUST, 12 * nb + n_mode, RELATED, "local indices there, per body frame, then modes") \
-  X(REALS, flex_gravity, MUST, 3 * nb, FINITE, "acceleration of gravity") \
-  X(REALS, flex_P, MUST, 3 * n_mode, FINITE, "per body 3 rows of n: sum m phi_j") \
+  X(REALS, flex_gravity, MUST, 3 * nb, FINITE, "acceleration of gravity, m/s², earth axes") \
+  X(REALS, flex_P, MUST, 3 * n_mode, FINITE, \
+    "per body 3 rows of n: sum m phi_j over the nodes, kg times the unit of phi") \
   X(REALS, flex_c, MUST, 9 * n_mode, FINITE, "per body rows xx, xy, .. zz of n: sum m x_i phi_kj") \
   X(REALS, flex_T, MUST, RELATED_LENGTH, FINITE, \
     "per body nine n x n matrices by columns. With G_ik = sum m phi_ij phi_kl: G_xx, G_yy, G_zz, (G_yz + G_zy)/2," \
@@ -298,21 +302,22 @@
   /* Trees */ \
   X(INTEGERS, tree_parent, MUST, n_joint, RELATED, "parent, before the body") \
   X(INTEGERS, tree_slides, MUST, n_joint, BELOW(2), "0 revolute, 1 prismatic") \
-  X(REALS, tree_base, MUST, 12 * n_joint, FINITE, "joint's frame on the parent: origin, then columns x, y, z") \
-  X(REALS, tree_mass, MUST, n_joint, FINITE, "mass") \
-  X(REALS, tree_centre, MUST, 3 * n_joint, FINITE, "centre of mass") \
+  X(REALS, tree_base, MUST, 12 * n_joint, FINITE, "joint's frame on the parent: origin, m, then columns x, y, z") \
+  X(REALS, tree_mass, MUST, n_joint, FINITE, "mass, kg") \
+  X(REALS, tree_centre, MUST, 3 * n_joint, FINITE, "centre of mass, m, axes of the body") \
   X(REALS, tree_inertia, MUST, 9 * n_joint, FINITE, \
-    "j, k1, e1 (3), k2, e2 (3): j 1 + k1 e1 e1' + k2 e2 e2' about the centre of mass") \
-  X(REALS, tree_gravity, MUST, IF_ANY(n_joint, 3), FINITE, "acceleration of gravity") \
+    "j, k1, e1 (3), k2, e2 (3): j 1 + k1 e1 e1' + k2 e2 e2' about the centre of mass, kg m², axes of the body") \
+  X(REALS, tree_gravity, MUST, IF_ANY(n_joint, 3), FINITE, "acceleration of gravity, m/s², earth axes") \
   X(INTEGERS, tree_frame, MUST, 12 * n_joint, BELOW(nsig), "signals of the frame in earth axes: origin, x, y, z") \
   X(INTEGERS, tree_out_body, MUST, ANY_IF(n_joint), WITHIN(1, n_joint), \
     "points and vectors whose components are the coordinates: body") \
-  X(REALS, tree_out_local, MUST, 4 * n_out, FINITE, "1 (point) or 0 (vector) and its components") \
+  X(REALS, tree_out_local, MUST, 4 * n_out, FINITE, \
+    "1 (point) or 0 (vector) and its components, m or 1, axes of the body") \
   X(INTEGERS, tree_out_col, MUST, 3 * n_out, WITHIN(-1, nq - 1), "coordinates of x, y, z or -1") \
   X(INTEGERS, tree_cut_body, MUST, IF_ANY(n_joint, 2 * n_cut), WITHIN(0, n_joint), "bodies of a cut joint") \
   X(INTEGERS, tree_cut_rows, MUST, 2 * n_cut, RELATED, "rows of its point (0 to 3) and of its axis (0 to 2)") \
   X(REALS, tree_cut_place, MUST, 15 * n_cut, FINITE, \
-    "point and two normals of the axis on the first body, point and axis on the second") \
+    "point, m, and two normals of the axis on the first body, point and axis on the second") \
   X(INTEGERS, tree_angle_col, MUST, ANY_IF(n_joint), BELOW(nq), "relative angles that are coordinates") \
   X(INTEGERS, tree_angle_ptr, MUST, IF_ANY(n_joint, n_sum + 1), OFFSETS(tree_angle_joint), \
     "joints whose coordinates, with their signs, add up to each angle") \
@@ -320,7 +325,8 @@
   X(REALS, tree_angle_sign, MUST, n_summand, FINITE, "sign") \
   X(REALS, tree_angle_inertia, MUST, n_sum, FINITE, "inertia that turns with the angle, kg m²") \
   X(INTEGERS, tree_payload_body, MAY, IF_ANY(n_joint, n_payload), WITHIN(1, n_joint), "body of each payload") \
-  X(REALS, tree_payload_place, MAY, IF_ANY(n_joint, 3 * n_payload), FINITE, "place of each payload") \
+  X(REALS, tree_payload_place, MAY, IF_ANY(n_joint, 3 * n_payload), FINITE, \
+    "place of each payload, m, axes of the body") \
   /* Assembly modes */ \
   X(INTEGERS, mode_triad_ptr, MAY, ANY, OFFSETS(mode_triad), "triads of a loop, at most 15") \
   X(INTEGERS, mode_triad, MAY, ANY, RELATED, \

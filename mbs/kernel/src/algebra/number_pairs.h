@@ -188,11 +188,6 @@ static inline real ali3_largest(const real *x, int64_t n) {
   return most;
 }
 
-/* sum plus the dot product of three components of a point or a direction. */
-static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
-  return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-
 /* Three numbers in registers: of one instance a vector of four, whose last number is the next one in memory. It is read
  * and not used, so that arrays passed here have one number more (`ali3_pool_padded`). */
 #ifdef ALI3_WIDTH
@@ -251,7 +246,7 @@ static inline double ali3_three_sum(double sum, const ali3_three *a, const doubl
 /* sum plus the dot product of the components of a point in Phi_q and in coordinates. */
 static inline real ali3_points_sum(real sum, const real *x, const real *y) {
 #ifdef ALI3_WIDTH
-  return ali3_triple_sum(sum, x, y);
+  return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 #else
   return ali3_three_sum(sum, (const ali3_three *)x, y);
 #endif

@@ -64,9 +64,9 @@ static inline real ali3_floor(real x) {
 #endif
 }
 
-/* Counters of the report belong to the lanes at work. */
 /* Lanes do not report the pieces of laws. */
 #define ALI3_PIECE(piece, c, bits) ((void)(piece), (void)(c), (void)(bits))
+/* Counters of the report belong to the lanes at work. */
 #define ALI3_AT_WORK(in, lanes) (*(in)->at_work = (lanes))
 #define ALI3_OF_LANES(lanes, a, b) ali3_where(lanes, a, b)
 #define ALI3_AT_WORK_OF(in, lanes) (*(in)->at_work & (lanes))

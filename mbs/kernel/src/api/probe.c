@@ -12,6 +12,9 @@
 #include "../rows/guides.h"
 #include "../state/road_files.h"
 
+static const double LONGEST_STEP = 1e6; /* s */
+
+/* Copies n numbers, unless they are not asked for. */
 static void copy(double *to, const double *from, int64_t n) {
   if (to != NULL && n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
@@ -93,7 +96,7 @@ ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) 
 }
 
 ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense) {
-  if (in == NULL || dense == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+  if (in == NULL || dense == NULL || !(h > 0.0) || !(h <= LONGEST_STEP)) return ALI3_BAD_ARGUMENT;
   if (lam != NULL && !ali3_finite(lam, in->system->size.nc)) return ALI3_BAD_ARGUMENT;
   const double c = 0.25 * h * h;
   const ali3_vectors *v = &in->now;
@@ -121,7 +124,7 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
 
 ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old, double h,
                               double *y_new, double *force) {
-  if (in == NULL || q == NULL || qd == NULL || !(h >= 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+  if (in == NULL || q == NULL || qd == NULL || !(h >= 0.0) || !(h <= LONGEST_STEP)) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &in->system->size;
   if (!ali3_finite(q, z->nq) || !ali3_finite(qd, z->nq) || (y_old != NULL && !ali3_finite(y_old, z->ny)))
     return ALI3_BAD_ARGUMENT;

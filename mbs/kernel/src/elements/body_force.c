@@ -1,4 +1,5 @@
-/* Force at a point of a body by inputs along the axes of a frame that may move with the body. In the plane the second
+/* Force F = F_1 a + F_2 b + F_3 c, N, at a point of a body by inputs along the axes a, b, c of a frame that may move
+ * with the body; earth axes. Signals: point, then a, b, c, on which there is no force. In the plane only a: the second
  * axis is the first rotated to the left. */
 #include "body_force_fields.h"
 #include "element.h"

@@ -1,4 +1,4 @@
-/* Normal force, loss and exact means of the contact law over the penetration. */
+/* Normal force, loss and exact means of the contact law over the penetration x; contact_law.h has its equations. */
 #include "contact_law.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *
 
 #ifndef ALI3_WIDTH
 /* Conservative force at penetration x. */
-static double force_at(const ali3_contact_law *law, double x) {
+static double find_force(const ali3_contact_law *law, double x) {
   double slope = 0.0, energy = 0.0;
   return ali3_contact_force(law, x, &slope, &energy);
 }
@@ -34,7 +34,7 @@ static double force_at(const ali3_contact_law *law, double x) {
 /* Between these points the force is a polynomial of degree three at most, for which Simpson's rule is exact. */
 double ali3_contact_mean(const ali3_contact_law *law, double x0, double x1) {
   const double low = fmin(x0, x1), high = fmax(x0, x1), width = high - low;
-  if (!(width > 0.0)) return force_at(law, x0);
+  if (!(width > 0.0)) return find_force(law, x0);
   const int hard = law->hard_stiffness > 0.0;
   const double joint[5] = {low, 0.0, hard ? law->end : 0.0, hard ? law->end + law->onset : 0.0, high};
   double mean = 0.0, from = low;
@@ -42,7 +42,7 @@ double ali3_contact_mean(const ali3_contact_law *law, double x0, double x1) {
     const double to = fmin(fmax(joint[i], from), high);
     if (to > from)
       mean += (to - from) / width *
-              ((force_at(law, from) + 4.0 * force_at(law, 0.5 * (from + to)) + force_at(law, to)) / 6.0);
+              ((find_force(law, from) + 4.0 * find_force(law, 0.5 * (from + to)) + find_force(law, to)) / 6.0);
     from = to;
   }
   return mean;

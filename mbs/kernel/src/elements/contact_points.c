@@ -5,7 +5,7 @@
  * stick spring in the plane of contact and their rates.
  *
  * Normal force: contact_law.h over the depth, with the stiffness K beginning as a parabola over the onset. Friction as
- * in the brake: a spring and damper (k, c) in series with a slider, here in two directions. With z = a + h z'/2 and D =
+ * in slider.h: a spring and damper (k, c) in series with a slider, here in two directions. With z = a + h z'/2 and D =
  * c + h k/2 the trial is T = k a + D v; where |T| exceeds mu N it is scaled to it, and z' = (T - k a)/D. Slip power
  * T.(v - z') >= 0, and a sticking point returns to its position: it does not creep.
  *
@@ -30,7 +30,7 @@ static void transform(const double *u, const double p[3], double out[3]) {
 }
 
 /* Row b of the derivatives of g . (o + X p) by the signals. */
-static void gradient_row(const double g[3], const double p[3], double b[SIGNALS]) {
+static void write_gradient_row(const double g[3], const double p[3], double b[SIGNALS]) {
   for (int i = 0; i < 3; i++) {
     b[i] = g[i];
     for (int k = 0; k < 3; k++) b[3 + 3 * k + i] = p[k] * g[i];
@@ -38,7 +38,7 @@ static void gradient_row(const double g[3], const double p[3], double b[SIGNALS]
 }
 
 /* Whether the box around the points is above the road below it. */
-static int far_above(const ali3_element_args *a) {
+static int is_far_above(const ali3_element_args *a) {
   const double *p = a->real, *u = a->u;
   double centre[3], half[3], lowest = 0.0, reach = p[RADIUS];
   for (int k = 0; k < 3; k++) {
@@ -60,8 +60,8 @@ typedef struct {
 
 /* Distances and gradient for a step from u - h ud to u + h ud: the gradient g in the middle, corrected along the path
  * so that g . (p1 - p0) is the difference of the distances. */
-static void discrete_clearance(const ali3_road *road, const double point[3], const double velocity[3], double h, int k,
-                               ali3_clearance *c, double depth[2], double radius) {
+static void find_discrete_clearance(const ali3_road *road, const double point[3], const double velocity[3], double h,
+                                    int k, ali3_clearance *c, double depth[2], double radius) {
   double from[3], to[3], path2 = 0.0, along = 0.0;
   ali3_clearance end[2];
   for (int i = 0; i < 3; i++) {
@@ -81,7 +81,7 @@ static void discrete_clearance(const ali3_road *road, const double point[3], con
 }
 
 /* Normal forces of a point on the one or two parts of the road. */
-static normal_contact normal_forces(ali3_element_args *a, const double local[3], int by_gradients) {
+static normal_contact add_normal_forces(ali3_element_args *a, const double local[3], int by_gradients) {
   const double *p = a->real;
   const ali3_road *road = &a->roads[a->integer[ROAD]];
   const ali3_contact_law law = {0.0, 0.0, 0.0, p[STIFFNESS], p[ONSET], p[LOSS], p[RESTITUTION]};
@@ -94,7 +94,7 @@ static normal_contact normal_forces(ali3_element_args *a, const double local[3],
   for (int k = 0; k < count; k++) {
     ali3_clearance *c = &clearance[k];
     double depth[2] = {p[RADIUS] - c->distance, p[RADIUS] - c->distance}, slope = 0.0, loss_slope, b[SIGNALS];
-    if (by_gradients) discrete_clearance(road, point, velocity, a->h, k, c, depth, p[RADIUS]);
+    if (by_gradients) find_discrete_clearance(road, point, velocity, a->h, k, c, depth, p[RADIUS]);
     if (!(depth[0] > 0.0 || depth[1] > 0.0)) continue;
     const double now = ali3_contact_force(&law, depth[1], &slope, &a->potential);
     const double mean = by_gradients ? ali3_contact_mean(&law, depth[0], depth[1]) : now;
@@ -102,7 +102,7 @@ static normal_contact normal_forces(ali3_element_args *a, const double local[3],
     const double factor = ali3_contact_loss(&law, -ali3_dot(c->gradient, velocity), &loss_slope);
     const double size = ali3_norm(c->gradient), force = mean * factor, load = force * size;
     if (!(load > 0.0)) continue;
-    gradient_row(c->gradient, local, b);
+    write_gradient_row(c->gradient, local, b);
     for (int i = 0; i < SIGNALS; i++) a->f[i] += force * b[i];
     for (int i = 0; i < 3; i++) {
       t.normal[i] += force * c->gradient[i];
@@ -117,8 +117,8 @@ static normal_contact normal_forces(ali3_element_args *a, const double local[3],
 }
 
 /* Friction of a point under its load, in the plane of contact. */
-static void friction_force(ali3_element_args *a, const double local[3], const normal_contact *t, const double *y_old,
-                           double *y_new) {
+static void add_friction(ali3_element_args *a, const double local[3], const normal_contact *t, const double *y_old,
+                         double *y_new) {
   const double *p = a->real, k = p[STICK_STIFFNESS], c = p[STICK_DAMPING], half = 0.5 * a->h, D = c + half * k;
   const double bound = t->friction * p[FRICTION_FACTOR] * t->load, size = ali3_norm(t->normal);
   double n[3] = {0.0, 0.0, 1.0}, first[3], second[3], foot[3], velocity[3], row[2][SIGNALS], elastic[2], trial[2];
@@ -136,7 +136,7 @@ static void friction_force(ali3_element_args *a, const double local[3], const no
   for (int i = 0; i < 2; i++) {
     elastic[i] = k * (y_old[i] + half * y_old[2 + i]);
     trial[i] = elastic[i] + D * ali3_dot(plane[i], velocity);
-    gradient_row(plane[i], foot, row[i]);
+    write_gradient_row(plane[i], foot, row[i]);
   }
   const double trial_size = ali3_hypot(trial[0], trial[1]), scale = trial_size > bound ? bound / trial_size : 1.0;
   a->piece += scale < 1.0 ? SLIPS : STICKS;
@@ -172,23 +172,23 @@ static void evaluate_points(ali3_element_args *a, int by_gradients) {
   memset(a->out, 0, OUTPUTS * sizeof(double));
   a->potential = 0.0;
   /* a step by gradients may start in contact and have its middle above the road */
-  if (!by_gradients && far_above(a)) {
+  if (!by_gradients && is_far_above(a)) {
     a->idle = 1;
     return;
   }
   for (int32_t i = 0; i < a->integer[POINTS]; i++) {
     const double *local = a->real + HEAD + 3 * i;
-    const normal_contact t = normal_forces(a, local, by_gradients);
+    const normal_contact t = add_normal_forces(a, local, by_gradients);
     a->piece *= PIECES; /* one digit for each point; with many points a checksum */
     /* a point that leaves the road loses its deflection, which has decreased with the load */
     if (!(t.load > 0.0)) continue;
-    friction_force(a, local, &t, a->y_old + STATES * i, a->y_new + STATES * i);
+    add_friction(a, local, &t, a->y_old + STATES * i, a->y_new + STATES * i);
     a->out[NORMAL_FORCE] += t.load;
     a->out[TOUCHING] += 1.0;
   }
 }
 
-static double depth(const ali3_element_args *a, double raised, double *part) {
+static double find_depth(const ali3_element_args *a, double raised, double *part) {
   const double *p = a->real;
   double deepest = -INFINITY, point[3];
   ali3_clearance clearance[2];
@@ -204,7 +204,7 @@ static double depth(const ali3_element_args *a, double raised, double *part) {
 
 static void evaluate(ali3_element_args *a) { evaluate_points(a, 0); }
 
-static void discrete(ali3_element_args *a) { evaluate_points(a, 1); }
+static void evaluate_discrete(ali3_element_args *a) { evaluate_points(a, 1); }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
   (void)nsig, (void)nreal, (void)nint;
@@ -217,6 +217,6 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_contact_points = {
-    ALI3_CONTACT_POINTS,  .evaluate = evaluate, .discrete = discrete, .depth = depth,
-    .first_force = FORCE, .n_forces = 3,        .check = check,
+    ALI3_CONTACT_POINTS, .evaluate = evaluate, .discrete = evaluate_discrete, .depth = find_depth, .first_force = FORCE,
+    .n_forces = 3,       .check = check,
 };

@@ -14,7 +14,7 @@ typedef struct {
 static double evaluate(const cubic *p, double s) { return ((p->a * s + p->b) * s + p->c) * s + p->d; }
 
 /* Root of the cubic between `from` and `to`, where it is monotone and changes its sign. */
-static double root(const cubic *p, double from, double to) {
+static double find_root(const cubic *p, double from, double to) {
   const bool above = evaluate(p, from) > 0.0;
   for (int i = 0; i < BISECTIONS; i++) {
     const double middle = 0.5 * (from + to);
@@ -41,7 +41,7 @@ double ali3_crossing(double h, const double gap[2], const double rate[2]) {
   for (int i = 1, from = 0; i < 4; i++) {
     if (!(stationary[i] > stationary[from] && stationary[i] <= stationary[3])) continue;
     if ((evaluate(&p, stationary[from]) > 0.0) != (evaluate(&p, stationary[i]) > 0.0))
-      return root(&p, stationary[from], stationary[i]);
+      return find_root(&p, stationary[from], stationary[i]);
     from = i;
   }
   return 1.0;

@@ -23,7 +23,7 @@ double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1);
 
 /* Fraction of the way from x0 to x1, to x1 or a point of the table, on which values and slopes at both ends tell y: no
  * point departs from the cubic through them by more than `share` of the largest of |y| and `least`. */
-double ali3_cubic_told(const ali3_cubic_table *t, double x0, double x1, double share, double least);
+double ali3_cubic_resolved(const ali3_cubic_table *t, double x0, double x1, double share, double least);
 
 /* Whether x rises. */
 int ali3_cubic_rises(const ali3_cubic_table *t);

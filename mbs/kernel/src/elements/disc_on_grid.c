@@ -34,32 +34,32 @@ typedef struct {
 static int is_inclined(const profile *p) { return !(fabs(p->up[0]) + fabs(p->up[1]) < TOLERANCE); }
 
 /* Distance along `up` from the centre to a height, m. */
-static double distance_up(const profile *p, double height) { return (height - p->centre[2]) / p->up[2]; }
+static double find_distance_up(const profile *p, double height) { return (height - p->centre[2]) / p->up[2]; }
 
 /* Position at the distance s ahead. The plane of an inclined disc meets the surface beside it, so that it is
  * refined. */
-static void position_at(const profile *p, double s, double position[2]) {
+static void find_position(const profile *p, double s, double position[2]) {
   double w = 0.0;
   for (int pass = 0, refinements = is_inclined(p) ? 2 : 0; pass <= refinements; pass++) {
     for (int i = 0; i < 2; i++) position[i] = p->centre[i] + s * p->ahead[i] + w * p->up[i];
-    if (pass < refinements) w = distance_up(p, ali3_grid_height(p->grid, p->cell, position[0], position[1]));
+    if (pass < refinements) w = find_distance_up(p, ali3_grid_height(p->grid, p->cell, position[0], position[1]));
   }
 }
 
 /* Squared distance of the centre to the surface at the distance s ahead, m^2. */
-static double distance2_at(const profile *p, double s) {
+static double find_distance2(const profile *p, double s) {
   double position[2];
-  position_at(p, s, position);
-  const double w = distance_up(p, ali3_grid_height(p->grid, p->cell, position[0], position[1]));
+  find_position(p, s, position);
+  const double w = find_distance_up(p, ali3_grid_height(p->grid, p->cell, position[0], position[1]));
   return s * s + w * w;
 }
 
 /* Surface at the distance s ahead, with the derivative of the squared distance. */
 static surface_point evaluate_at(const profile *p, double s) {
   surface_point n = {.s = s};
-  position_at(p, s, n.position);
+  find_position(p, s, n.position);
   const ali3_surface f = ali3_grid_near(p->grid, p->cell, n.position[0], n.position[1]);
-  const double w = distance_up(p, f.height);
+  const double w = find_distance_up(p, f.height);
   const double slope = -ali3_dot(f.normal, p->ahead) / ali3_dot(f.normal, p->up);
   n.position[2] = f.height;
   for (int i = 0; i < 3; i++) n.normal[i] = f.normal[i];
@@ -109,13 +109,13 @@ static surface_point find_minimum(const profile *p, surface_point low, surface_p
 }
 
 /* Distance between grid lines in the direction `ahead`, m. */
-static double spacing_along(const ali3_grid *g, const double ahead[3]) {
+static double find_spacing(const ali3_grid *g, const double ahead[3]) {
   return 1.0 / (fabs(ahead[0]) / g->dx + fabs(ahead[1]) / g->dy);
 }
 
 /* Whether second differences of heights under the disc exceed BEND_LIMIT / radius. */
 static int is_bent(const profile *p, double radius) {
-  const double step = fmax(spacing_along(p->grid, p->ahead), 2.0 * radius / (MAX_SAMPLES - 4));
+  const double step = fmax(find_spacing(p->grid, p->ahead), 2.0 * radius / (MAX_SAMPLES - 4));
   const int half = (int)(radius / step) + 1;
   const double most = BEND_LIMIT * step * step / radius;
   double last = 0.0, before = 0.0;
@@ -129,7 +129,7 @@ static int is_bent(const profile *p, double radius) {
 }
 
 /* Contact with the tangent plane of the surface, found in three passes. */
-static int tangent_planes(const profile *p, const double axis[3], double radius, ali3_contact *out) {
+static int find_tangent_contact(const profile *p, const double axis[3], double radius, ali3_contact *out) {
   double x = p->centre[0], y = p->centre[1];
   for (int pass = 0; pass < 3; pass++) {
     const ali3_surface under = ali3_grid_near(p->grid, p->cell, x, y);
@@ -159,13 +159,13 @@ static int blend_contacts(ali3_contact out[2]) {
 
 /* Writes contacts at the two deepest minima; 0: the centre is not above the surface. */
 static int search_profile(const profile *p, const double axis[3], double radius, ali3_contact out[2]) {
-  const int parts = (int)ali3_clamp(2.0 * radius / spacing_along(p->grid, p->ahead), MIN_PARTS, MAX_PARTS);
+  const int parts = (int)ali3_clamp(2.0 * radius / find_spacing(p->grid, p->ahead), MIN_PARTS, MAX_PARTS);
   surface_point deepest[2];
   if (!(evaluate_at(p, 0.0).position[2] < p->centre[2])) return 0;
-  double last[2] = {distance2_at(p, radius * (-parts - 1) / parts), distance2_at(p, radius * -parts / parts)};
+  double last[2] = {find_distance2(p, radius * (-parts - 1) / parts), find_distance2(p, radius * -parts / parts)};
   int count = 0;
   for (int k = -parts + 1; k <= parts + 1; k++) {
-    const double next = distance2_at(p, radius * k / parts);
+    const double next = find_distance2(p, radius * k / parts);
     if (last[1] <= last[0] && last[1] < next) {
       const surface_point one =
           find_minimum(p, evaluate_at(p, radius * (k - 2) / parts), evaluate_at(p, radius * (k - 1) / parts),
@@ -203,5 +203,5 @@ int ali3_disc_on_grid(const ali3_grid *g, const double centre[3], const double a
     const int count = is_bent(&p, radius) ? search_profile(&p, axis, radius, out) : 0;
     if (count > 0) return count;
   }
-  return tangent_planes(&p, axis, radius, out);
+  return find_tangent_contact(&p, axis, radius, out);
 }

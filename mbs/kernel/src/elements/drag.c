@@ -1,4 +1,4 @@
-/* Aerodynamic drag F = -rho CdA |v| v / 2 at a point in still air. */
+/* Aerodynamic drag F = -rho CdA |v| v / 2, N, at a point with the velocity v in still air; earth axes. */
 #include "../algebra/small_vectors.h"
 #include "drag_fields.h"
 #include "element.h"

@@ -3,11 +3,13 @@
  * f and g are orthonormal on the frame, the rates of both wheels absolute about the axis f x g. Integers: throttle
  * input (0..1), and a selector input (-1, 0, 1) or none. States: none, with a selector as in selector.h.
  *
- * In the direction engaged the torque is throttle times min(max torque, max power / speed), which fades beyond the
- * limit speed, minus (1 - throttle) times the regeneration torque, which has the sign of the speed and fades to zero
- * around standstill. Gears and motor have losses in both directions of the power. The inertia of the rotor is part of
- * the spins, not of this element. */
-#include "../algebra/small_vectors.h"
+ * With throttle p and the speed w of the motor, both positive in the direction engaged, the motor has the torque
+ *   T = p min(MAX_TORQUE, MAX_POWER/|w|) - (1 - p) min(REGENERATION_TORQUE, REGENERATION_POWER/|w|) x (3 - x^2)/2,
+ * x = w/REGENERATION_SPEED within -1 to 1; the first part falls to 0 from the limit speed on within LIMITER_WIDTH. Both
+ * wheels together have RATIO times T, times GEAR_EFFICIENCY where the motor drives and divided by it where it brakes.
+ * The battery gives T w/EFFICIENCY or takes T w EFFICIENCY. The inertia of the rotor is part of the spins, not of this
+ * element. */
+#include "driven_wheels.h"
 #include "electric_drive_fields.h"
 #include "element.h"
 #include "selector.h"
@@ -24,23 +26,23 @@ typedef struct {
 } torque;
 
 /* min(largest, power / |speed|) */
-static torque envelope(double largest, double power, double speed) {
+static torque limit_by_power(double largest, double power, double speed) {
   const double w = fabs(speed);
   if (!(largest * w > power)) return (torque){largest, 0.0, 0u};
   return (torque){power / w, -power / w / speed, BY_POWER};
 }
 
 /* Torque of the motor against its speed, both positive in the direction engaged. */
-static torque motor(const double *p, double throttle, double speed, int reverse) {
+static torque find_motor_torque(const double *p, double throttle, double speed, int reverse) {
   const double limit = reverse ? p[REVERSE_SPEED] : p[LIMIT_SPEED], width = LIMITER_WIDTH * limit;
-  torque full = envelope(p[MAX_TORQUE] * (reverse ? p[REVERSE_TORQUE] : 1.0), p[MAX_POWER], speed);
+  torque full = limit_by_power(p[MAX_TORQUE] * (reverse ? p[REVERSE_TORQUE] : 1.0), p[MAX_POWER], speed);
   const double over = (speed - limit) / width;
   if (over >= 1.0) {
     full = (torque){0.0, 0.0, CUT_OFF};
   } else if (over > 0.0) {
     full = (torque){full.value * (1.0 - over), full.slope * (1.0 - over) - full.value / width, full.piece | LIMITED};
   }
-  const torque regeneration = envelope(p[REGENERATION_TORQUE], p[REGENERATION_POWER], speed);
+  const torque regeneration = limit_by_power(p[REGENERATION_TORQUE], p[REGENERATION_POWER], speed);
   const double x = ali3_clamp(speed / p[REGENERATION_SPEED], -1.0, 1.0), fade = 0.5 * x * (3.0 - x * x);
   const double fade_slope = 1.5 * (1.0 - x * x) / p[REGENERATION_SPEED], closed = 1.0 - throttle;
   return (torque){throttle * full.value - closed * regeneration.value * fade,
@@ -49,7 +51,7 @@ static torque motor(const double *p, double throttle, double speed, int reverse)
 }
 
 /* Torque at the output of the gears, divided by their ratio: they lose power in both directions of the power. */
-static torque geared(double efficiency, torque m, double speed) {
+static torque apply_gear_losses(double efficiency, torque m, double speed) {
   const int drives = m.value > 0.0 ? speed >= 0.0 : speed <= 0.0;
   const double x = ali3_clamp(fabs(speed) / GEAR_FADE, 0.0, 1.0), sign = speed < 0.0 ? -1.0 : 1.0;
   const double change = drives ? efficiency - 1.0 : 1.0 / efficiency - 1.0;
@@ -58,49 +60,38 @@ static torque geared(double efficiency, torque m, double speed) {
                   m.piece | (drives || x < BARELY ? DRIVES : 0u)};
 }
 
-/* Angular velocity of the frame about the axis of the wheels, rad/s. */
-static double frame_rate(const ali3_element_args *a) {
-  return 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
-}
-
-/* Mean angular velocity of both wheels relative to the frame, rad/s. */
-static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
-
 /* -1, 0 or 1: reverse, neutral, drive. */
-static double selector_input(const ali3_element_args *a) { return a->input[a->integer[1]]; }
+static double read_selector(const ali3_element_args *a) { return a->input[a->integer[SELECTOR]]; }
 
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real;
   double engaged = 1.0;
-  const int direction =
-      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_input(a), a->h / p[ENGAGE_TIME], &engaged) : 1;
-  const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
+  const int direction = a->nint > SELECTOR
+                            ? ali3_selector_step(a->y_old, a->y_new, read_selector(a), a->h / p[ENGAGE_TIME], &engaged)
+                            : 1;
+  const double speed = p[RATIO] * ali3_wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
   torque m = {0.0, 0.0, 0u};
   if (direction != 0) {
-    m = motor(p, throttle, direction * speed, direction < 0);
+    m = find_motor_torque(p, throttle, direction * speed, direction < 0);
     m = (torque){direction * engaged * m.value, engaged * m.slope, m.piece};
   }
-  const torque wheels = geared(p[GEAR_EFFICIENCY], m, speed);
+  const torque wheels = apply_gear_losses(p[GEAR_EFFICIENCY], m, speed);
   const double total = p[RATIO] * wheels.value, slope = p[RATIO] * p[RATIO] * wheels.slope;
   const double power = m.value * speed;
   a->piece = wheels.piece + (uint32_t)(DIRECTIONS * (direction + 1));
-  double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
-  for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
-  for (int i = 0; i < 8; i++) a->f[i] = total * b[i];
-  if (a->S && slope < 0.0)
-    ali3_add_outer(a->S, 8, -a->wC * slope, b); /* without the rotation of f, g within the step */
+  ali3_drive_wheels(a, total, slope);
   a->potential = 0.0;
   a->out[0] = speed;
   a->out[1] = m.value;
   a->out[2] = 0.5 * total;
   a->out[3] = power > 0.0 ? power / p[EFFICIENCY] : power * p[EFFICIENCY];
   a->out[4] = direction;
-  for (int i = 0; i < 2; i++) a->out[5 + i] = 0.5 * total * (a->ud[i] - frame_rate(a));
+  for (int i = 0; i < 2; i++) a->out[5 + i] = 0.5 * total * (a->ud[i] - ali3_frame_rate(a));
 }
 
 static void accept(ali3_element_args *a) {
-  if (a->nint > 1)
-    ali3_selector_accept(a->y_new, selector_input(a), wheel_rate(a), a->real[ENGAGE_SPEED], !(a->h > 0.0));
+  if (a->nint > SELECTOR)
+    ali3_selector_accept(a->y_new, read_selector(a), ali3_wheel_rate(a), a->real[ENGAGE_SPEED], !(a->h > 0.0));
 }
 
 const ali3_element_type ali3_electric_drive = {

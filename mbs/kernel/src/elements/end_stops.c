@@ -1,4 +1,5 @@
-/* Forces of bump and rebound stops: at a length, as the mean over a step, and the time of contact. */
+/* Forces of bump and rebound stops: at a length, as the mean over a step, and the time of contact. Their tension is
+ * F(l - rebound length) - F(bump length - l), each with the loss of its rate, F and loss as in contact_law.h. */
 #include "end_stops.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 #include "crossing.h"
 
 /* Laws of the bump stop and the rebound stop over the length beyond them. */
-static void stop_laws(const real *p, int progressive, ali3_contact_law law[2]) {
+static void read_stop_laws(const real *p, int progressive, ali3_contact_law law[2]) {
   const real none = {0};
   for (int side = 0; side < 2; side++) {
     law[side].stiffness = p[side ? ALI3_REBOUND_STIFFNESS : ALI3_BUMP_STIFFNESS];
@@ -28,7 +29,7 @@ void ali3_end_stops_at(const real *p, int progressive, real length, real rate, a
     if (!ali3_any(ali3_not(open))) continue;
     const double sign = side ? 1.0 : -1.0;
     ali3_contact_law law[2];
-    stop_laws(p, progressive, law);
+    read_stop_laws(p, progressive, law);
     real slope = {0}, loss_slope;
     const real force = ali3_contact_force(&law[side], beyond[side], &slope, &t->potential);
     const real factor = ali3_contact_loss(&law[side], sign * rate, &loss_slope);
@@ -58,7 +59,7 @@ static void add_mean(const ali3_contact_law *law, double sign, double x0, double
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t) {
   const double bump = p[ALI3_BUMP_LENGTH], rebound = p[ALI3_REBOUND_LENGTH];
   ali3_contact_law law[2];
-  stop_laws(p, progressive, law);
+  read_stop_laws(p, progressive, law);
   add_mean(&law[0], -1.0, bump - l0, bump - l1, rate, t);
   add_mean(&law[1], 1.0, l0 - rebound, l1 - rebound, rate, t);
 }

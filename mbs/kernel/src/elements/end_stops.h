@@ -20,11 +20,11 @@ enum {
   ALI3_STOP_LOSS
 };
 
-/* A tension, N: its elastic and dissipative parts, its slopes by length, N/m, and rate, N s/m, and its energy, J. */
+/* A tension, positive where it pulls the ends together. */
 typedef struct {
-  real elastic, lost;
-  real stiffness, damping;
-  real potential;
+  real elastic, lost; /* N: its conservative and its dissipative part */
+  real stiffness, damping; /* its slopes by the length, N/m, and by the rate, N s/m */
+  real potential; /* J: energy of the elastic part */
   uint32_t piece; /* bits: bump stop, rebound stop in contact */
 } ali3_tension;
 

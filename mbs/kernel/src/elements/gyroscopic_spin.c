@@ -1,6 +1,7 @@
-/* Gyroscopic moment -I Omega d(f x g)/dt of an axisymmetric wheel reduced to one coordinate on its carrier.
- * f and g are orthonormal on the carrier with f x g along the spin axis, the rate of the spin is absolute. It does no
- * work. */
+/* Gyroscopic moment -I Omega d(f x g)/dt on the carrier of an axisymmetric wheel that is reduced to its spin: the rate
+ * of its angular momentum I Omega (f x g), without the part I Omega' along the axis, which belongs to the spin. Its
+ * generalised forces are -I Omega g' on f and I Omega f' on g, which do no work.
+ * f and g are orthonormal on the carrier with f x g along the axis, the rate Omega of the spin is absolute. */
 #include "element.h"
 #include "gyroscopic_spin_fields.h"
 

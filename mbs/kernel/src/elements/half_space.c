@@ -1,4 +1,6 @@
-/* Contact of a disc with the half-space below a plane. */
+/* Contact of a disc with the half-space below a plane. In the plane of the disc, with axis e, the plane through q with
+ * normal n is nearest along down = -(n - (n . e) e)/s at the distance n . (centre - q)/s, s = |n - (n . e) e|, the sine
+ * of the angle between e and n. */
 #include "half_space.h"
 
 #include "../algebra/small_vectors.h"
@@ -8,7 +10,7 @@
 #define LYING 0.5
 
 /* Divisor instead of the sine, and its slope: the sine, below LYING a parabola with the same slope there. */
-static real divisor(real sine, real *slope) {
+static real find_divisor(real sine, real *slope) {
   const real ratio = sine / LYING;
   const truth is_lying = ratio < 1.0;
   *slope = ali3_where(is_lying, ratio, ali3_same(1.0));
@@ -24,7 +26,7 @@ real ali3_half_space(const real centre[3], const real axis[3], real radius, cons
   }
   real size = ali3_norm(inplane);
   const truth is_flat = size < 1e-9;
-  out->cosine = divisor(ali3_where(is_flat, ali3_same(0.0), size), &out->leaning);
+  out->cosine = find_divisor(ali3_where(is_flat, ali3_same(0.0), size), &out->leaning);
   if (ali3_any(is_flat)) { /* any direction in the plane of the wheel */
     const real none = {0}, one = ali3_same(1.0);
     const truth steep = ali3_abs(axis[0]) < 0.6;

@@ -1,5 +1,5 @@
-/* Force and moment on the hub of a wheel by inputs in earth axes, instead of a tyre. The moment about the axis acts on
- * the spin (signal 6), the force (signals 0 to 2) and the rest of the moment (3 to 5) on the carrier. */
+/* Force F, N, and moment M, N m, on the hub of a wheel by inputs in earth axes, instead of a tyre. Generalised forces:
+ * F on the centre (signals 0 to 2) and M x e on the axis e (3 to 5), both on the carrier, M . e on the spin (6). */
 #include "element.h"
 #include "element_math.h"
 #include "hub_wrench_fields.h"

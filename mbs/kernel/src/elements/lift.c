@@ -1,5 +1,6 @@
-/* Aerodynamic lift rho A v^2 / 2 at a point of a body in still air, along its upward axis; v is the speed of the point
- * along the forward axis. With integers, see moving_air.h, v is relative to moving air. */
+/* Aerodynamic lift F = rho A v^2 / 2 up, N, at a point of a body in still air, along its upward axis `up`; v is the
+ * velocity of the point along the forward axis; earth axes. With integers, see moving_air.h, v is relative to moving
+ * air. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
 #include "lift_fields.h"

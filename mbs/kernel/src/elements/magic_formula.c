@@ -83,19 +83,19 @@ static operating_point make_operating_point(const ali3_magic_state *s) {
 }
 
 /* 4.E8 with A_mu = 10: shifts vanish more slowly than friction. */
-static double shift_friction(const operating_point *op, double lambda_mu) {
+static double find_shift_friction(const operating_point *op, double lambda_mu) {
   return op->is_mf6 ? 10.0 * lambda_mu / (1.0 + 9.0 * lambda_mu) : lambda_mu;
 }
 
 /* Force from coefficients and slip, 4.E9, 4.E19. */
-static void evaluate_curve(pure_slip *p) {
+static void evaluate_sine_curve(pure_slip *p) {
   const dual arg = magic_argument(constant(p->B), p->C, p->E, p->slip);
   p->force_without_SV = scale(sine(arg), p->D);
   p->force = add_constant(p->force_without_SV, p->SV);
 }
 
 /* Longitudinal force at pure slip, 4.E9 to 4.E18. */
-static pure_slip longitudinal_force(const ali3_magic_state *s, const operating_point *op, dual kappa) {
+static pure_slip evaluate_longitudinal_force(const ali3_magic_state *s, const operating_point *op, dual kappa) {
   const double *c = s->c, dfz = op->dfz, dpi = op->dpi, gamma = op->gamma_star * (op->is_mf6 ? 1.0 : c[ALI3_MF_LGAX]);
   const double lambda_mu = c[ALI3_MF_LMUX] * s->friction[0] * op->sliding_factor;
   pure_slip p;
@@ -108,20 +108,21 @@ static pure_slip longitudinal_force(const ali3_magic_state *s, const operating_p
         (1.0 + c[ALI3_MF_PPX1] * dpi + c[ALI3_MF_PPX2] * dpi * dpi) * c[ALI3_MF_LKX] * s->stiffness[0];
   p.B = p.K / (p.C * p.D);
   p.SH = s->moving * (c[ALI3_MF_PHX1] + c[ALI3_MF_PHX2] * dfz) * c[ALI3_MF_LHX];
-  p.SV =
-      s->moving * s->load * (c[ALI3_MF_PVX1] + c[ALI3_MF_PVX2] * dfz) * c[ALI3_MF_LVX] * shift_friction(op, lambda_mu);
+  p.SV = s->moving * s->load * (c[ALI3_MF_PVX1] + c[ALI3_MF_PVX2] * dfz) * c[ALI3_MF_LVX] *
+         find_shift_friction(op, lambda_mu);
   p.slip = add_constant(kappa, p.SH);
   p.E = at_most_one((c[ALI3_MF_PEX1] + c[ALI3_MF_PEX2] * dfz + c[ALI3_MF_PEX3] * dfz * dfz) *
                     (1.0 - c[ALI3_MF_PEX4] * sign(p.slip.v)) * c[ALI3_MF_LEX]);
-  evaluate_curve(&p);
+  evaluate_sine_curve(&p);
   return p;
 }
 
 /* Lateral force at pure slip, 4.E19 to 4.E30; PAC2002 writes the shifts by camber as PHY3 and PVY3. */
-static pure_slip lateral_force(const ali3_magic_state *s, const operating_point *op, double camber, dual alpha) {
+static pure_slip evaluate_lateral_force(const ali3_magic_state *s, const operating_point *op, double camber,
+                                        dual alpha) {
   const double *c = s->c, dfz = op->dfz, dpi = op->dpi, gamma = camber * (op->is_mf6 ? 1.0 : c[ALI3_MF_LGAY]);
   const double lambda_mu = c[ALI3_MF_LMUY] * s->friction[1] * op->sliding_factor,
-               shift_factor = shift_friction(op, lambda_mu);
+               shift_factor = find_shift_friction(op, lambda_mu);
   const double peak_load = (c[ALI3_MF_PKY2] + c[ALI3_MF_PKY5] * gamma * gamma) * (1.0 + c[ALI3_MF_PPY2] * dpi);
   pure_slip p;
   p.C = c[ALI3_MF_PCY1] * c[ALI3_MF_LCY];
@@ -148,13 +149,13 @@ static pure_slip lateral_force(const ali3_magic_state *s, const operating_point 
       (c[ALI3_MF_PEY1] + c[ALI3_MF_PEY2] * dfz) *
       (1.0 + c[ALI3_MF_PEY5] * gamma * gamma - (c[ALI3_MF_PEY3] + c[ALI3_MF_PEY4] * gamma) * sign(p.slip.v)) *
       c[ALI3_MF_LEY]);
-  evaluate_curve(&p);
+  evaluate_sine_curve(&p);
   return p;
 }
 
 /* Weight of combined slip: cos(C atan(...)) at the shifted slip, divided by its value at the shift alone; 4.E51 and
  * 4.E59. */
-static dual weight(dual B, double C, double E, dual slip, double shift) {
+static dual evaluate_weight(dual B, double C, double E, dual slip, double shift) {
   const dual numerator = cosine(magic_argument(B, C, E, add_constant(slip, shift)));
   if (shift == 0.0) return numerator;
   const dual denominator = cosine(magic_argument(B, C, E, constant(shift)));
@@ -162,21 +163,22 @@ static dual weight(dual B, double C, double E, dual slip, double shift) {
 }
 
 /* Weight of the longitudinal force by the slip angle, 4.E51 to 4.E57. */
-static dual longitudinal_weight(const ali3_magic_state *s, const operating_point *op, dual kappa, dual alpha) {
+static dual evaluate_longitudinal_weight(const ali3_magic_state *s, const operating_point *op, dual kappa, dual alpha) {
   const double *c = s->c, gamma = op->is_mf6 ? op->gamma_star : 0.0;
   const dual B = scale(cos_atan(scale(kappa, c[ALI3_MF_RBX2])),
                        (c[ALI3_MF_RBX1] + c[ALI3_MF_RBX3] * gamma * gamma) * c[ALI3_MF_LXAL]);
-  return weight(B, c[ALI3_MF_RCX1], at_most_one(c[ALI3_MF_REX1] + c[ALI3_MF_REX2] * op->dfz), alpha, c[ALI3_MF_RHX1]);
+  return evaluate_weight(B, c[ALI3_MF_RCX1], at_most_one(c[ALI3_MF_REX1] + c[ALI3_MF_REX2] * op->dfz), alpha,
+                         c[ALI3_MF_RHX1]);
 }
 
 /* Weight of the lateral force by the longitudinal slip, 4.E59 to 4.E65. */
-static dual lateral_weight(const ali3_magic_state *s, const operating_point *op, double camber, dual kappa,
-                           dual alpha) {
+static dual evaluate_lateral_weight(const ali3_magic_state *s, const operating_point *op, double camber, dual kappa,
+                                    dual alpha) {
   const double *c = s->c, gamma = op->is_mf6 ? camber : 0.0;
   const dual B = scale(cos_atan(scale(add_constant(alpha, -c[ALI3_MF_RBY3]), c[ALI3_MF_RBY2])),
                        (c[ALI3_MF_RBY1] + c[ALI3_MF_RBY4] * gamma * gamma) * c[ALI3_MF_LYKA]);
-  return weight(B, c[ALI3_MF_RCY1], at_most_one(c[ALI3_MF_REY1] + c[ALI3_MF_REY2] * op->dfz), kappa,
-                c[ALI3_MF_RHY1] + c[ALI3_MF_RHY2] * op->dfz);
+  return evaluate_weight(B, c[ALI3_MF_RCY1], at_most_one(c[ALI3_MF_REY1] + c[ALI3_MF_REY2] * op->dfz), kappa,
+                         c[ALI3_MF_RHY1] + c[ALI3_MF_RHY2] * op->dfz);
 }
 
 /* Lateral force induced by longitudinal slip, 4.E66, 4.E67. */
@@ -193,7 +195,7 @@ static dual induced_lateral_force(const ali3_magic_state *s, const operating_poi
 
 /* Factor of the friction ellipse of PAC2002 (FE_METHOD) on the force `own`: 1 / sqrt(1 + (F_own s_other / (D_other
  * s_own))^2), with F_own at pure slip. */
-static dual ellipse(const pure_slip *own, const pure_slip *other, dual own_slip, dual other_slip) {
+static dual evaluate_ellipse(const pure_slip *own, const pure_slip *other, dual own_slip, dual other_slip) {
   const dual friction_ratio = scale(own->force_without_SV, 1.0 / other->D);
   const double own2 = own_slip.v * own_slip.v + SMALL_SLIP * SMALL_SLIP;
   const dual inverse_square = (dual){1.0 / own2, -2.0 * own_slip.v * own_slip.k / (own2 * own2),
@@ -210,14 +212,15 @@ typedef struct { /* terms that the trail and the residual moment have in common 
 } aligning_terms;
 
 /* Slip of the trail and of the residual moment, longitudinal slip included; 4.E77, 4.E78. */
-static double equivalent_slip(const operating_point *op, const aligning_terms *m, double slip) {
+static double find_equivalent_slip(const operating_point *op, const aligning_terms *m, double slip) {
   if (op->is_mf6) return sign(slip) * sqrt(slip * slip + m->longitudinal * m->longitudinal);
   const double tangent = ali3_sin(slip) / ali3_cos(slip);
   return sign(slip) * ali3_atan2(sqrt(tangent * tangent + m->longitudinal * m->longitudinal), 1.0);
 }
 
 /* Pneumatic trail, m. */
-static double trail(const ali3_magic_state *s, const operating_point *op, const aligning_terms *m, double alpha) {
+static double evaluate_trail(const ali3_magic_state *s, const operating_point *op, const aligning_terms *m,
+                             double alpha) {
   const double *c = s->c, dfz = op->dfz, gamma = m->gamma, camber = op->is_mf6 ? fabs(gamma) : gamma;
   const double shift = c[ALI3_MF_QHZ1] + c[ALI3_MF_QHZ2] * dfz + (c[ALI3_MF_QHZ3] + c[ALI3_MF_QHZ4] * dfz) * gamma;
   const double alpha_t = alpha + shift;
@@ -230,13 +233,13 @@ static double trail(const ali3_magic_state *s, const operating_point *op, const 
   const double E = at_most_one((c[ALI3_MF_QEZ1] + c[ALI3_MF_QEZ2] * dfz + c[ALI3_MF_QEZ3] * dfz * dfz) *
                                (1.0 + (c[ALI3_MF_QEZ4] + c[ALI3_MF_QEZ5] * gamma) * (2.0 / PI) *
                                           ali3_atan2(B * c[ALI3_MF_QCZ1] * alpha_t, 1.0)));
-  const dual slip = constant(equivalent_slip(op, m, alpha_t));
+  const dual slip = constant(find_equivalent_slip(op, m, alpha_t));
   return D * cosine(magic_argument(constant(B), c[ALI3_MF_QCZ1], E, slip)).v * m->cosine_alpha;
 }
 
 /* Residual moment, N m. */
-static double residual_moment(const ali3_magic_state *s, const operating_point *op, const aligning_terms *m,
-                              const pure_slip *y, double alpha) {
+static double evaluate_residual_moment(const ali3_magic_state *s, const operating_point *op, const aligning_terms *m,
+                                       const pure_slip *y, double alpha) {
   const double *c = s->c, dfz = op->dfz, alpha_r = alpha + y->SH + y->SV / y->K;
   const double B = c[ALI3_MF_QBZ9] * m->stiffness + c[ALI3_MF_QBZ10] * y->B * y->C;
   const double D = s->load * s->radius * m->lambda_mu * m->direction *
@@ -244,14 +247,14 @@ static double residual_moment(const ali3_magic_state *s, const operating_point *
                     ((c[ALI3_MF_QDZ8] + c[ALI3_MF_QDZ9] * dfz) * (1.0 + c[ALI3_MF_PPZ2] * op->dpi) +
                      (c[ALI3_MF_QDZ10] + c[ALI3_MF_QDZ11] * dfz) * fabs(m->gamma)) *
                         m->gamma * c[ALI3_MF_LKZC]);
-  return D * cos_atan(constant(B * equivalent_slip(op, m, alpha_r))).v * m->cosine_alpha;
+  return D * cos_atan(constant(B * find_equivalent_slip(op, m, alpha_r))).v * m->cosine_alpha;
 }
 
 /* Aligning moment, trail and lever of the longitudinal force, 4.E71 to 4.E78. trail_force: lateral force, N, that acts
  * at the trail. */
-static void aligning_moment(const ali3_magic_state *s, const operating_point *op, const pure_slip *x,
-                            const pure_slip *y, double kappa, double alpha, double cosine_alpha, double trail_force,
-                            ali3_magic_force *out) {
+static void write_aligning_moment(const ali3_magic_state *s, const operating_point *op, const pure_slip *x,
+                                  const pure_slip *y, double kappa, double alpha, double cosine_alpha,
+                                  double trail_force, ali3_magic_force *out) {
   const double *c = s->c, lambda_mu = c[ALI3_MF_LMUY] * s->friction[1] * op->sliding_factor;
   const double stiffness_ratio = s->combined == ALI3_MAGIC_WEIGHTED ? x->K / y->K : 0.0;
   const aligning_terms m = {.gamma = op->gamma_star * (op->is_mf6 ? 1.0 : c[ALI3_MF_LGAZ]),
@@ -260,16 +263,16 @@ static void aligning_moment(const ali3_magic_state *s, const operating_point *op
                             .direction = s->direction * s->moving,
                             .cosine_alpha = cosine_alpha,
                             .longitudinal = stiffness_ratio * kappa};
-  out->trail = trail(s, op, &m, alpha);
+  out->trail = evaluate_trail(s, op, &m, alpha);
   out->arm = s->moving * s->radius * c[ALI3_MF_LS] *
              (c[ALI3_MF_SSZ1] + c[ALI3_MF_SSZ2] * out->F[1] / op->nominal +
               (c[ALI3_MF_SSZ3] + c[ALI3_MF_SSZ4] * op->dfz) * op->gamma_star);
-  out->Mz = -out->trail * trail_force + residual_moment(s, op, &m, y, alpha) + out->arm * out->F[0];
+  out->Mz = -out->trail * trail_force + evaluate_residual_moment(s, op, &m, y, alpha) + out->arm * out->F[0];
 }
 
 /* Overturning moment, 4.E69, N m; QSX12 to QSX14 are of version 6.2. As in 4.E70, LFZO does not scale the nominal
  * load. */
-static double overturning_moment(const ali3_magic_state *s, const operating_point *op, double Fy) {
+static double evaluate_overturning_moment(const ali3_magic_state *s, const operating_point *op, double Fy) {
   const double *c = s->c, gamma = s->camber, lateral_ratio = Fy / s->nominal_load, load = s->load / s->nominal_load;
   const double term =
       c[ALI3_MF_QSX4] == 0.0
@@ -299,7 +302,7 @@ static double power(double x, double p) { return p == 0.0 ? 1.0 : ali3_exp(p * l
 
 /* Rolling resistance moment, N m, >= 0: 4.E70 for PAC2002 and without QSY7; otherwise eq. (A48) of Besselink et al.,
  * whose exponent of the load is reduced by one because the sum is multiplied by the load here. */
-static double rolling_resistance(const ali3_magic_state *s, const operating_point *op, double Fx) {
+static double evaluate_rolling_resistance(const ali3_magic_state *s, const operating_point *op, double Fx) {
   const double *c = s->c, gamma2 = s->camber * s->camber, load = s->load / s->nominal_load;
   const double v = s->speed / c[ALI3_MF_LONGVL];
   const double load_exponent = op->is_mf6 && c[ALI3_MF_QSY7] != 0.0 ? c[ALI3_MF_QSY7] - 1.0 : c[ALI3_MF_QSY7];
@@ -312,8 +315,8 @@ static double rolling_resistance(const ali3_magic_state *s, const operating_poin
 
 /* Carcass stiffness, N/m: from the stiffnesses of the file (Besselink et al., eqs. 13 and 14), otherwise slip stiffness
  * divided by the relaxation length of the file, or by a default one. */
-static void carcass_stiffness(const ali3_magic_state *s, const operating_point *op, const pure_slip *x,
-                              const pure_slip *y, double out[2]) {
+static void write_carcass_stiffness(const ali3_magic_state *s, const operating_point *op, const pure_slip *x,
+                                    const pure_slip *y, double out[2]) {
   const double *c = s->c, dfz = op->dfz, load = s->load / op->nominal;
   const double stiffness[2] = {c[ALI3_MF_LONGITUDINAL_STIFFNESS], c[ALI3_MF_LATERAL_STIFFNESS]};
   const double *factors[2] = {&c[ALI3_MF_PCFX1], &c[ALI3_MF_PCFY1]};
@@ -342,19 +345,19 @@ static void combine(const ali3_magic_state *s, const operating_point *op, const 
   factor[0] = factor[1] = constant(1.0);
   *induced = constant(0.0);
   if (s->combined == ALI3_MAGIC_WEIGHTED) {
-    factor[0] = longitudinal_weight(s, op, kappa, alpha);
-    factor[1] = lateral_weight(s, op, op->gamma_star, kappa, alpha);
+    factor[0] = evaluate_longitudinal_weight(s, op, kappa, alpha);
+    factor[1] = evaluate_lateral_weight(s, op, op->gamma_star, kappa, alpha);
     *induced = induced_lateral_force(s, op, y, kappa, alpha);
   } else if (s->combined == ALI3_MAGIC_ELLIPSE) {
     const dual along = add_constant(kappa, x->SH + x->SV / x->K);
     const dual across = sine(add_constant(alpha, y->SH + y->SV / y->K));
-    factor[0] = ellipse(x, y, along, across);
-    factor[1] = ellipse(y, x, across, along);
+    factor[0] = evaluate_ellipse(x, y, along, across);
+    factor[1] = evaluate_ellipse(y, x, across, along);
   }
 }
 
 /* Secant of the force of a direction without shifts, for the damping of the carcass. */
-static dual damping_secant(const pure_slip *p, dual factor) {
+static dual find_damping_secant(const pure_slip *p, dual factor) {
   const dual weight = factor.v > MIN_WEIGHT ? factor : constant(MIN_WEIGHT);
   return multiply(secant(p->force_without_SV, p->slip, p->K), weight);
 }
@@ -371,11 +374,12 @@ static void write_force(ali3_magic_force *out, int i, dual force, dual per_slip,
 }
 
 /* Lateral force that acts at the trail, N: without the induced part, 4.E74, from 6.1 without camber. */
-static double trail_force(const ali3_magic_state *s, const operating_point *op, double Fy, double induced, double kappa,
-                          double alpha, double factor) {
+static double find_trail_force(const ali3_magic_state *s, const operating_point *op, double Fy, double induced,
+                               double kappa, double alpha, double factor) {
   if (!op->is_mf6 || op->gamma_star == 0.0) return Fy - induced;
-  const pure_slip upright = lateral_force(s, op, 0.0, constant(alpha));
-  if (s->combined == ALI3_MAGIC_WEIGHTED) factor = lateral_weight(s, op, 0.0, constant(kappa), constant(alpha)).v;
+  const pure_slip upright = evaluate_lateral_force(s, op, 0.0, constant(alpha));
+  if (s->combined == ALI3_MAGIC_WEIGHTED)
+    factor = evaluate_lateral_weight(s, op, 0.0, constant(kappa), constant(alpha)).v;
   return upright.force.v * factor;
 }
 
@@ -385,24 +389,25 @@ void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, 
   const dual slip = {kappa, 1.0, 0.0}, tangential = {tangent, 0.0, 1.0};
   const dual alpha = op.is_mf6 ? tangential : arctan(tangential); /* 4.E3 */
   const dual alpha_per_tangent = secant(alpha, tangential, 1.0);
-  const pure_slip x = longitudinal_force(s, &op, slip), y = lateral_force(s, &op, op.gamma_star, alpha);
+  const pure_slip x = evaluate_longitudinal_force(s, &op, slip),
+                  y = evaluate_lateral_force(s, &op, op.gamma_star, alpha);
   dual factor[2], induced;
   combine(s, &op, &x, &y, slip, alpha, factor, &induced);
-  write_force(out, 0, multiply(x.force, factor[0]), damping_secant(&x, factor[0]), 1.0);
+  write_force(out, 0, multiply(x.force, factor[0]), find_damping_secant(&x, factor[0]), 1.0);
   write_force(out, 1, add(multiply(y.force, factor[1]), induced),
-              multiply(damping_secant(&y, factor[1]), alpha_per_tangent), sign(y.K));
+              multiply(find_damping_secant(&y, factor[1]), alpha_per_tangent), sign(y.K));
   out->cornering = fabs(y.K);
   out->peak[0] = fabs(x.D) + fabs(x.SV);
   out->peak[1] = fabs(y.D) + fabs(y.SV);
-  carcass_stiffness(s, &op, &x, &y, out->carcass);
-  const double at_trail = trail_force(s, &op, out->F[1], induced.v, kappa, alpha.v, factor[1].v);
-  aligning_moment(s, &op, &x, &y, kappa, alpha.v, cosine_alpha, at_trail, out);
+  write_carcass_stiffness(s, &op, &x, &y, out->carcass);
+  const double at_trail = find_trail_force(s, &op, out->F[1], induced.v, kappa, alpha.v, factor[1].v);
+  write_aligning_moment(s, &op, &x, &y, kappa, alpha.v, cosine_alpha, at_trail, out);
 }
 
 void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_magic_force *out) {
   const operating_point op = make_operating_point(s);
-  out->Mx = overturning_moment(s, &op, acting[1]);
-  out->My = rolling_resistance(s, &op, acting[0]);
+  out->Mx = evaluate_overturning_moment(s, &op, acting[1]);
+  out->My = evaluate_rolling_resistance(s, &op, acting[0]);
   out->Mz += out->arm * (acting[0] - out->F[0]) - out->trail * (acting[1] - out->F[1]);
 }
 

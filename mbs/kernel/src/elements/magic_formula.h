@@ -39,11 +39,12 @@ enum {
 };
 
 enum { ALI3_MAGIC_PAC2002 = 52, ALI3_MAGIC_61 = 61, ALI3_MAGIC_62 = 62 };
+/* Combined slip: none (pure slip of each direction), weighting functions of the formula, friction ellipse. */
 enum { ALI3_MAGIC_UNCOMBINED, ALI3_MAGIC_WEIGHTED, ALI3_MAGIC_ELLIPSE, ALI3_MAGIC_COMBINATIONS };
 
 typedef struct {
   const double *c; /* coefficients by ALI3_MF_... */
-  int32_t version, combined;
+  int32_t version, combined; /* ALI3_MAGIC_PAC2002, _61 or _62; ALI3_MAGIC_UNCOMBINED, _WEIGHTED or _ELLIPSE */
   double nominal_load, radius; /* N, m: FNOMIN, UNLOADED_RADIUS */
   double load, camber, pressure; /* N, > 0; rad, axes of the file; pressure / nominal pressure - 1 */
   double friction[2]; /* factors on the peaks of the forces, beside LMUX and LMUY */

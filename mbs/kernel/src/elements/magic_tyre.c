@@ -33,7 +33,7 @@ typedef struct {
 
 /* Scales F, its derivatives and the safe part of the secant down to the ellipse of the peaks, or to the ellipse through
  * the steady force if it is larger. */
-static uint32_t limit(const double peak[2], const double steady[2], double F[2], double J[2][2], double safe[2]) {
+static uint32_t limit_force(const double peak[2], const double steady[2], double F[2], double J[2][2], double safe[2]) {
   const double demand = ali3_hypot(F[0] / peak[0], F[1] / peak[1]),
                bound = fmax(ali3_hypot(steady[0] / peak[0], steady[1] / peak[1]), 1.0);
   if (!(demand > bound)) return 0u;
@@ -50,8 +50,9 @@ static uint32_t limit(const double peak[2], const double steady[2], double F[2],
 
 /* Steady forces F in ISO axes at a slip velocity with derivatives by the velocity; g: secant damping, N s/m, with
  * derivatives g_by. */
-static ali3_magic_force steady(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
-                               double w, double inclination, double g[2], double g_by[2][2], ali3_magic_state *state) {
+static ali3_magic_force find_steady_forces(ali3_element_args *a, const ali3_tyre_patch *contact,
+                                           const ali3_tyre_motion *m, double w, double inclination, double g[2],
+                                           double g_by[2][2], ali3_magic_state *state) {
   const double *p = a->real, max_load = p[LARGEST_LOAD],
                grip = contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
   const ali3_magic_state s = *state = (ali3_magic_state){
@@ -97,8 +98,8 @@ static ali3_magic_force steady(ali3_element_args *a, const ali3_tyre_patch *cont
 
 /* One step of the carcass: forces, new states and damping matrix (symmetric part, not below the safe part of the
  * secant). */
-static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
-                        double inclination, ali3_tyre_bore *bore) {
+static reaction step_carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
+                             double inclination, ali3_tyre_bore *bore) {
   const double *p = a->real, fast = m->travel[0] / ALI3_TYRE_ROLLS;
   const double sliding_at_rest = (1.0 - ali3_tyre_moving(fabs(m->travel[0]))) * ali3_hypot(m->v[0], m->v[1]);
   const double w = ali3_hypot(ali3_hypot(m->travel[0], ALI3_TYRE_SLOW), sliding_at_rest);
@@ -107,7 +108,7 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
   double g[2] = {0}, g_by[2][2] = {{0}}, J[2][2], safe[2], offset[2], D[2], d[2];
   ali3_magic_force f = {.peak = {1.0, 1.0}, .carcass = {p[STIFFNESS], p[STIFFNESS]}};
   ali3_magic_state s;
-  if (grips) f = steady(a, contact, m, w, inclination, g, g_by, &s);
+  if (grips) f = find_steady_forces(a, contact, m, w, inclination, g, g_by, &s);
   reaction r = {.stiffness = {f.carcass[0], f.carcass[1]}};
   for (int i = 0; i < 2; i++) {
     const double c = f.carcass[i];
@@ -120,7 +121,7 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
     const double by_g = D[i] / (g[i] + D[i]) * ((offset[i] - f.F[i]) / (g[i] + D[i]));
     for (int j = 0; j < 2; j++) J[i][j] = D[i] / (g[i] + D[i]) * f.J[i][j] + by_g * g_by[i][j];
   }
-  if (grips) { a->piece |= limit(f.peak, f.F, r.F, J, safe); }
+  if (grips) a->piece |= limit_force(f.peak, f.F, r.F, J, safe);
   if (bore) {
     const ali3_tyre_horizontal_force friction = {.slope = f.cornering * (1.0 - ali3_tyre_moving(fabs(m->travel[0]))),
                                                  .most = grips ? f.peak[1] : 0.0,
@@ -142,18 +143,12 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
     ali3_magic_moments(&s, acting, &f);
     r.Mx = p[SIGN + CAMBER] * f.Mx, r.My = f.My, r.Mz = p[SIGN + FORCE] * f.Mz;
   }
-  for (int i = 0; i < 2; i++) {
-    a->y_new[i] = a->y_old[i];
-    a->y_new[2 + i] = (r.F[i] - offset[i]) / D[i];
-    if (!(a->h > 0.0)) continue;
-    a->y_new[i] = (r.F[i] - d[i] * a->y_new[2 + i]) / f.carcass[i];
-    /* after a long time in the air, avoids denormals */
-    if (fabs(a->y_new[i]) < 1e-100) a->y_new[i] = a->y_new[2 + i] = 0.0;
-  }
-  r.C[0] = -J[0][0] - safe[0], r.C[1] = -0.5 * (J[0][1] + J[1][0]), r.C[2] = -J[1][1] - safe[1];
-  ali3_tyre_semidefinite(r.C);
-  r.C[0] += safe[0];
-  r.C[2] += safe[1];
+  const ali3_tyre_carcass deflected = {.stiffness = {f.carcass[0], f.carcass[1]},
+                                       .damping = {d[0], d[1]},
+                                       .offset = {offset[0], offset[1]},
+                                       .D = {D[0], D[1]}};
+  ali3_tyre_deflect(a, &deflected, r.F);
+  ali3_tyre_damping(J, safe, r.C);
   return r;
 }
 
@@ -183,7 +178,7 @@ static void evaluate(ali3_element_args *a) {
   const bool has_bore = a->nint > WITH_BORE;
   ali3_tyre_bore bore;
   if (has_bore) bore = ali3_tyre_bore_at(a, p + BORE, n, e, 2.0 * sqrt(radius * deflection));
-  reaction r = carcass(a, &contact, &m, inclination, has_bore ? &bore : 0);
+  reaction r = step_carcass(a, &contact, &m, inclination, has_bore ? &bore : 0);
   if (has_bore) {
     r.Mz += bore.moment;
     a->potential += 0.5 * p[BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];
@@ -203,7 +198,7 @@ static void evaluate(ali3_element_args *a) {
     ali3_add_symmetric(a->S, 7, 2.0 * a->wC * r.C[1], m.row[0], m.row[1]);
     ali3_add_outer(a->S, 7, a->wC * r.C[2], m.row[1]);
     if (has_bore) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
-    a->S[48] += a->wC * r.My * (1.0 - roll * roll);
+    a->S[6 * 7 + 6] += a->wC * r.My * (1.0 - roll * roll);
   }
   ali3_tyre_outputs(a, &contact, e, &m, radius, ratio, r.F, r.Mz, -r.My * roll);
   a->out[OVERTURNING] = r.Mx;

@@ -10,16 +10,16 @@
 
 /* Contact with a plane. */
 static int find_plane_contact(const real *p, const real centre[3], const real axis[3], real radius, ali3_contact *out) {
-  const real size = ali3_sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
-  const real none = {0}, n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
-             q[3] = {none, none, p[PLANE_HEIGHT]};
+  real n[3], q[3];
+  ali3_plane_frame(p, n, q);
   ali3_half_space(centre, axis, radius, q, n, out);
   out->friction = p[PLANE_FRICTION];
   return 1;
 }
 
 /* Contact with the line x = edge[0], z = edge[2]. False if the wheel plane is nearly parallel to it. */
-static truth edge_line(const real centre[3], const real axis[3], real radius, const real edge[3], ali3_contact *out) {
+static truth find_edge_contact(const real centre[3], const real axis[3], real radius, const real edge[3],
+                               ali3_contact *out) {
   const real none = {0};
   real offset[3] = {edge[0] - centre[0], none, edge[2] - centre[2]};
   offset[1] = -(offset[0] * axis[0] + offset[2] * axis[2]) / axis[1];
@@ -48,7 +48,8 @@ static void replace_where(truth mask, const ali3_contact *from, ali3_contact *to
 
 /* First contact: the upper quarter space (the nearest of plane, edge and face, with a C1 distance); second: the lower
  * plane. Where the wheel plane misses the edge, only the lower plane, as the first contact. */
-static int kerb(const real *p, const real centre[3], const real axis[3], real radius, ali3_contact out[2]) {
+static int find_kerb_contacts(const real *p, const real centre[3], const real axis[3], real radius,
+                              ali3_contact out[2]) {
   const real none = {0}, one = ali3_same(1.0), side = ali3_where(p[KERB_SIDE] >= 0.0, one, -one);
   const real edge[3] = {p[KERB_X], none, p[KERB_LOWER] + p[KERB_STEP]}, low[3] = {none, none, p[KERB_LOWER]};
   const real up[3] = {none, none, one}, face[3] = {side, none, none};
@@ -65,7 +66,7 @@ static int kerb(const real *p, const real centre[3], const real axis[3], real ra
   ali3_half_space(centre, axis, radius, low, up, &out[1]);
   truth misses = {0};
   if (ali3_any(corner)) {
-    misses = corner & ali3_not(edge_line(centre, axis, radius, edge, &other));
+    misses = corner & ali3_not(find_edge_contact(centre, axis, radius, edge, &other));
     replace_where(corner, &other, &out[0]);
     replace_where(misses, &out[1], &out[0]);
   }
@@ -79,8 +80,8 @@ static int kerb(const real *p, const real centre[3], const real axis[3], real ra
 
 int ali3_plane_or_kerb_contacts(int32_t type, const real *p, real friction_factor, const real centre[3],
                                 const real axis[3], real radius, ali3_contact out[2]) {
-  const int count =
-      type == ALI3_ROAD_PLANE ? find_plane_contact(p, centre, axis, radius, out) : kerb(p, centre, axis, radius, out);
+  const int count = type == ALI3_ROAD_PLANE ? find_plane_contact(p, centre, axis, radius, out)
+                                            : find_kerb_contacts(p, centre, axis, radius, out);
   for (int i = 0; i < count; i++) {
     out[i].friction = ali3_friction_product(friction_factor, out[i].friction);
     out[i].yielded = out[i].switching = ali3_same(0.0);

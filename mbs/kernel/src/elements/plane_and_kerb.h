@@ -12,6 +12,13 @@ enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_FACTOR, KER
 ALI3_PER_WIDTH int ali3_plane_or_kerb_contacts(int32_t type, const real *p, real friction_factor, const real centre[3],
                                                const real axis[3], real radius, ali3_contact out[2]);
 
+/* Unit normal n of a plane, upwards, and a point q of it, m. */
+static inline void ali3_plane_frame(const real *p, real n[3], real q[3]) {
+  const real size = ali3_sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
+  n[0] = -p[PLANE_GRADE_X] / size, n[1] = -p[PLANE_GRADE_Y] / size, n[2] = 1.0 / size;
+  q[0] = q[1] = ali3_same(0.0), q[2] = p[PLANE_HEIGHT];
+}
+
 /* Product of friction and its factor; 0 if negative or NaN. */
 static inline real ali3_friction_product(real factor, real friction) {
   const real product = factor * friction;

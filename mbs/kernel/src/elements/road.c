@@ -12,7 +12,7 @@
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
 
 /* Reads the number of points of a grid; 0: its numbers are invalid. */
-static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
+static int read_grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   const double a = p[GRID_NX], b = p[GRID_NY];
   if (!(a >= 2.0 && a <= 1e6 && b >= 2.0 && b <= 1e6 && GRID_DATA + 2.0 * a * b <= (double)nreal)) return 0;
   if (!(p[GRID_DX] > 0.0 && p[GRID_DY] > 0.0)) return 0;
@@ -22,17 +22,17 @@ static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
 }
 
 /* Type of a road: from its file, otherwise its own. */
-static int32_t type_of(const ali3_road *road) {
+static int32_t find_type(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_kind(road->file) : road->type;
 }
 
 /* Numbers of a road: of its file, otherwise its own. */
-static const double *reals_of(const ali3_road *road) {
+static const double *find_reals(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_reals(road->file) : road->real;
 }
 
 /* Factor on the friction; 1 for a plane or kerb without one. */
-static double factor_of(const ali3_road *road) {
+static double find_factor(const ali3_road *road) {
   if (road->type == ALI3_ROAD_GRID) return road->real[GRID_FRICTION];
   if (road->type == ALI3_ROAD_PORT) return 1.0;
   const int32_t index = road->type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
@@ -40,7 +40,7 @@ static double factor_of(const ali3_road *road) {
 }
 
 /* Grid of a road; false if a parameter made its header invalid. */
-static int grid_of(const ali3_road *road, ali3_grid *g) {
+static int make_grid(const ali3_road *road, ali3_grid *g) {
   const double *p = road->real;
   if (road->file != NULL) {
     const double *header = ali3_road_file_reals(road->file);
@@ -50,7 +50,7 @@ static int grid_of(const ali3_road *road, ali3_grid *g) {
     return 1;
   }
   int nx, ny;
-  if (!grid_size(p, road->nreal, &nx, &ny)) return 0;
+  if (!read_grid_size(p, road->nreal, &nx, &ny)) return 0;
   const double *z = p + GRID_DATA;
   const ali3_grid grid = {.nx = nx,
                           .ny = ny,
@@ -68,31 +68,32 @@ static int grid_of(const ali3_road *road, ali3_grid *g) {
 static int find_grid_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
                               ali3_contact out[2]) {
   ali3_grid g;
-  if (!grid_of(road, &g)) return 0;
+  if (!make_grid(road, &g)) return 0;
   return ali3_disc_on_grid(&g, centre, axis, radius, out);
 }
 
 int ali3_road_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
                        ali3_contact out[2]) {
-  const int32_t type = type_of(road);
-  const double factor = factor_of(road);
+  const int32_t type = find_type(road);
+  const double factor = find_factor(road);
   if (type == ALI3_ROAD_PORT) return ali3_port_contact(road, centre, axis, radius, out);
   if (type != ALI3_ROAD_GRID)
-    return ali3_plane_or_kerb_contacts(type, reals_of(road), factor, centre, axis, radius, out);
+    return ali3_plane_or_kerb_contacts(type, find_reals(road), factor, centre, axis, radius, out);
   const int count = find_grid_contacts(road, centre, axis, radius, out);
   for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor, out[i].friction);
   return count;
 }
 
 int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBERS], double *friction_factor) {
-  const int32_t type = type_of(road), n = type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
-  *friction_factor = factor_of(road);
-  for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++) numbers[i] = type < ALI3_ROAD_GRID && i < n ? reals_of(road)[i] : 0.0;
+  const int32_t type = find_type(road), n = type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
+  *friction_factor = find_factor(road);
+  for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++)
+    numbers[i] = type < ALI3_ROAD_GRID && i < n ? find_reals(road)[i] : 0.0;
   return type;
 }
 
 /* Distance of a point from the plane through q with unit normal n, m, and its gradient. */
-static void plane_clearance(const double n[3], const double q[3], const double point[3], ali3_clearance *out) {
+static void find_plane_clearance(const double n[3], const double q[3], const double point[3], ali3_clearance *out) {
   out->distance = 0.0;
   for (int i = 0; i < 3; i++) {
     out->gradient[i] = n[i];
@@ -103,7 +104,7 @@ static void plane_clearance(const double n[3], const double q[3], const double p
 /* Step and lower level. Outside the step the distance is exact. Inside, a below its top and b behind its face, it is
  * -(a + b - sqrt(a^2 + b^2)) (Fischer and Burmeister): close to -min(a, b) near either surface, but without a kink
  * between them, so that a point deep inside the edge is not pushed alternately to both sides. */
-static int kerb_clearance(const double *p, const double point[3], ali3_clearance out[2]) {
+static int find_kerb_clearance(const double *p, const double point[3], ali3_clearance out[2]) {
   const double side = p[KERB_SIDE] >= 0.0 ? 1.0 : -1.0, up[3] = {0.0, 0.0, 1.0}, low[3] = {0.0, 0.0, p[KERB_LOWER]};
   const double a = p[KERB_LOWER] + p[KERB_STEP] - point[2], b = -side * (point[0] - p[KERB_X]);
   const double corner = ali3_hypot(a, b);
@@ -123,7 +124,7 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
   out[0].gradient[0] = -side * by_b;
   out[0].gradient[1] = 0.0;
   out[0].gradient[2] = -by_a;
-  plane_clearance(up, low, point, &out[1]);
+  find_plane_clearance(up, low, point, &out[1]);
   out[0].friction = out[1].friction = p[KERB_FRICTION];
   return 2;
 }
@@ -134,15 +135,15 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
 
 /* Distance to the surface by the tangent plane under the point, evaluated twice more at its foot; inside a wall, the
  * distance to the nearest face if that is less deep. */
-static int grid_clearance(const ali3_road *road, const double point[3], ali3_clearance *out) {
+static int find_grid_clearance(const ali3_road *road, const double point[3], ali3_clearance *out) {
   ali3_grid g;
-  if (!grid_of(road, &g)) return 0;
+  if (!make_grid(road, &g)) return 0;
   double x = point[0], y = point[1];
   ali3_cell cell = {0};
   for (int pass = 0; pass < 3; pass++) {
     const ali3_surface under = ali3_grid_near(&g, &cell, x, y);
     const double q[3] = {x, y, under.height};
-    plane_clearance(under.normal, q, point, out);
+    find_plane_clearance(under.normal, q, point, out);
     out->friction = under.friction;
     if (out->distance > NEAR) return 1;
     const double reach = ali3_clamp(out->distance, -NEAR, NEAR);
@@ -154,47 +155,46 @@ static int grid_clearance(const ali3_road *road, const double point[3], ali3_cle
     const ali3_surface face = ali3_grid_at(&g, nearest[0], nearest[1]);
     const double q[3] = {nearest[0], nearest[1], face.height};
     ali3_clearance at_face = {.friction = face.friction};
-    plane_clearance(face.normal, q, point, &at_face);
+    find_plane_clearance(face.normal, q, point, &at_face);
     if (at_face.distance > out->distance) *out = at_face;
   }
   return 1;
 }
 
 int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clearance out[2]) {
-  const int32_t type = type_of(road);
-  const double *p = reals_of(road);
+  const int32_t type = find_type(road);
+  const double *p = find_reals(road);
   int count = 0;
   if (type == ALI3_ROAD_PLANE) {
-    const double size = sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
-    const double n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
-                 q[3] = {0.0, 0.0, p[PLANE_HEIGHT]};
-    plane_clearance(n, q, point, out);
+    double n[3], q[3];
+    ali3_plane_frame(p, n, q);
+    find_plane_clearance(n, q, point, out);
     out->friction = p[PLANE_FRICTION];
     count = 1;
   }
-  if (type == ALI3_ROAD_KERB) count = kerb_clearance(p, point, out);
-  if (type == ALI3_ROAD_GRID) count = grid_clearance(road, point, out);
+  if (type == ALI3_ROAD_KERB) count = find_kerb_clearance(p, point, out);
+  if (type == ALI3_ROAD_GRID) count = find_grid_clearance(road, point, out);
   if (type == ALI3_ROAD_PORT) {
     double nearest[3];
     const ali3_surface under = ali3_port_surface(road, point, nearest);
-    plane_clearance(under.normal, nearest, point, out);
+    find_plane_clearance(under.normal, nearest, point, out);
     out->friction = under.friction;
     count = 1;
   }
-  for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor_of(road), out[i].friction);
+  for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(find_factor(road), out[i].friction);
   return count;
 }
 
 int ali3_road_spacing(const ali3_road *road, double spacing[2]) {
   ali3_grid g;
-  if (type_of(road) != ALI3_ROAD_GRID || !grid_of(road, &g)) return 0;
+  if (find_type(road) != ALI3_ROAD_GRID || !make_grid(road, &g)) return 0;
   spacing[0] = g.dx, spacing[1] = g.dy;
   return 1;
 }
 
 double ali3_road_top(const ali3_road *road, const double place[3], double reach) {
-  const int32_t type = type_of(road);
-  const double *p = reals_of(road);
+  const int32_t type = find_type(road);
+  const double *p = find_reals(road);
   ali3_grid g;
   if (type == ALI3_ROAD_PLANE)
     return p[PLANE_HEIGHT] + p[PLANE_GRADE_X] * place[0] + p[PLANE_GRADE_Y] * place[1] +
@@ -202,7 +202,7 @@ double ali3_road_top(const ali3_road *road, const double place[3], double reach)
   if (type == ALI3_ROAD_KERB)
     return p[KERB_LOWER] + (p[KERB_SIDE] * (place[0] - p[KERB_X]) > reach ? 0.0 : p[KERB_STEP]);
   if (type == ALI3_ROAD_PORT) return ali3_port_top(road, place, reach);
-  return grid_of(road, &g) ? ali3_grid_top(&g, place, reach) : -INFINITY;
+  return make_grid(road, &g) ? ali3_grid_top(&g, place, reach) : -INFINITY;
 }
 
 const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {
@@ -220,7 +220,7 @@ const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {
     if (real[KERB_SIDE] != 1.0 && real[KERB_SIDE] != -1.0) return "the side of a kerb must be 1 or -1";
     return real[KERB_FRICTION] < 0.0 || (nreal == KERB_REALS && real[KERB_FACTOR] < 0.0) ? negative : 0;
   case ALI3_ROAD_GRID:
-    if (nreal < GRID_DATA || !grid_size(real, nreal, &nx, &ny))
+    if (nreal < GRID_DATA || !read_grid_size(real, nreal, &nx, &ny))
       return "a grid road needs at least 2 x 2 points at positive spacing";
     if (nx != real[GRID_NX] || ny != real[GRID_NY] || GRID_DATA + 2 * (int64_t)nx * ny != nreal)
       return "a grid road needs one height and one friction per point";

@@ -9,8 +9,8 @@ typedef struct ali3_road_file ali3_road_file; /* roads/road_file.h */
 
 #ifndef ALI3_WIDTH
 struct ali3_road { /* typedef in element.h */
-  int32_t type, nreal;
-  const double *real;
+  int32_t type, nreal; /* ALI3_ROAD_*; length of `real` */
+  const double *real; /* as ALI3_ROAD_* lists them: m, earth axes */
   ali3_road_file *file; /* replaces the road's numbers except its friction factor; NULL: none */
   const double *const *input; /* inputs of the System, read by a road at a port */
 };
@@ -34,7 +34,7 @@ typedef struct {
   /* -normal . down = sine of the angle between wheel axis and normal; limited from below if the wheel is nearly flat on
    * the road */
   real cosine;
-  real friction;
+  real friction; /* coefficient of the road, including its factor */
   real leaning; /* d(cosine)/d(sine between axis and normal): 1, less if the wheel is nearly flat on the road */
   /* 0 to 1: fraction of the load borne by the other contact, on a grid, where only the deepest bears; otherwise 0 */
   real yielded;
@@ -60,7 +60,7 @@ int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBER
 typedef struct {
   double distance; /* distance of a point from the road, m; < 0 below it */
   double gradient[3]; /* gradient of the distance: the unit normal; shorter inside a kerb near its edge */
-  double friction;
+  double friction; /* as of ali3_contact */
 } ali3_clearance;
 
 /* Writes one or two clearances of a point (kerb: step and lower level) and returns their number. */

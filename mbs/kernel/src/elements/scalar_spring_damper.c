@@ -14,7 +14,7 @@ static void evaluate(ali3_element_args *a) {
   if (a->S) a->S[0] = a->wK * k + a->wC * c;
 }
 
-static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
+static bool is_lossy(const double *real, int32_t nreal, const int32_t *integer) {
   (void)nreal, (void)integer;
   return real[DAMPING] * real[DAMPING_FACTOR] != 0.0;
 }
@@ -23,5 +23,5 @@ const ali3_element_type ali3_scalar_spring_damper = {
     ALI3_SCALAR_SPRING_DAMPER,
     .evaluate = evaluate,
     .conservative = true,
-    .lossy = lossy,
+    .lossy = is_lossy,
 };

@@ -17,7 +17,7 @@ enum { TURN, F, G = F + 3, STATES = G + 3 };
 #define OPPOSITE 1e-9 /* least 1 + e0 . e1: the angle is undefined if the axis reverses within a step */
 
 /* Rotation of the carrier about the axis from the last step to the present one, rad. */
-static real carrier_turn(const real *last, const real *f, const real *g) {
+static real find_carrier_turn(const real *last, const real *f, const real *g) {
   real e0[3], e1[3], transported[3];
   ali3_cross(last + F, last + G, e0);
   ali3_cross(f, g, e1);
@@ -31,7 +31,7 @@ static void evaluate(ali3_element_args *a) {
   const real *f = a->u, *g = a->u + 3;
   for (int i = 0; i < STATES; i++) a->y_new[i] = a->y_old[i];
   if (a->h != 0.0) {
-    a->y_new[TURN] -= carrier_turn(a->y_old, f, g);
+    a->y_new[TURN] -= find_carrier_turn(a->y_old, f, g);
     for (int i = 0; i < 3; i++) a->y_new[F + i] = f[i], a->y_new[G + i] = g[i];
   }
   a->out[0] = a->u[6] + a->y_new[TURN];

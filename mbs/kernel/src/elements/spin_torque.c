@@ -1,4 +1,5 @@
-/* Torque by an input between a wheel's spin and its carrier, which takes the reaction.
+/* Torque T = GAIN times an input, N m, on a wheel's spin about its axis; the carrier takes the reaction -T, by
+ * generalised forces -T g/2 on f and T f/2 on g.
  * f and g are orthonormal on the carrier with f x g along the axis; the rate of the spin is absolute. */
 #include "element.h"
 #include "element_math.h"

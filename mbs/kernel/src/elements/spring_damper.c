@@ -1,5 +1,6 @@
-/* Linear spring and damper between two points, with optional end stops (end_stops.h, linear or progressive). d = p2 -
- * p1. */
+/* Linear spring and damper between two points, with optional end stops (end_stops.h, linear or progressive). The
+ * signals are d = p2 - p1, earth axes; with l = |d| the tension T = k (l - l0) + c l' + stops pulls the points
+ * together: the force conjugate to d is -T d/l. */
 #include "element.h"
 #include "end_stops.h"
 #include "line_force.h"
@@ -27,7 +28,7 @@ static void evaluate(ali3_element_args *a) {
 }
 
 #ifndef ALI3_WIDTH
-static void discrete(ali3_element_args *a) {
+static void evaluate_discrete(ali3_element_args *a) {
   const double *p = a->real;
   const double k = p[STIFFNESS] * p[STIFFNESS_FACTOR];
   const double c = p[DAMPING] * p[DAMPING_FACTOR];
@@ -38,17 +39,19 @@ static void discrete(ali3_element_args *a) {
   ali3_line_force(a, &line, t.elastic + c * line.rate, t.stiffness, t.damping);
 }
 
-static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
+static bool is_lossy(const double *real, int32_t nreal, const int32_t *integer) {
   (void)integer;
   const double *loss = real + STOPS + ALI3_STOP_LOSS;
   return real[DAMPING] * real[DAMPING_FACTOR] != 0.0 ||
          (has_progressive_stops(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
 }
 
-static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
+static bool is_beyond_stop(const double *real, const double *out) {
+  return ali3_end_stops_beyond(real + STOPS, out[0]);
+}
 
 /* The onset of progressive stops has no kink and is not an event. */
-static double event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
+static double find_event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
   if (has_progressive_stops(nreal)) return 1.0;
   return ali3_end_stops_event(real + STOPS, (double[]){from[0], to[0]}, (double[]){from[2], to[2]}, h);
 }
@@ -59,7 +62,9 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_spring_damper = {
-    ALI3_SPRING_DAMPER, .evaluate = evaluate, .discrete = discrete, .conservative = true, .lossy = lossy,
-    .stops = stops,     .first_force = 1,     .n_forces = 1,        .event = event,       .check = check,
+    ALI3_SPRING_DAMPER,   .evaluate = evaluate, .discrete = evaluate_discrete,
+    .conservative = true, .lossy = is_lossy,    .stops = is_beyond_stop,
+    .first_force = 1,     .n_forces = 1,        .event = find_event,
+    .check = check,
 };
 #endif

@@ -32,7 +32,8 @@
 
 /* Radial return of F to the largest force of its direction, in TMeasy hypot(Fxm cos, Fym sin); adapts J and the safe
  * part of the secant. */
-static void limit(ali3_element_args *a, truth loaded, const real max_force[2], real F[2], real J[2][2], real safe[2]) {
+static void limit_force(ali3_element_args *a, truth loaded, const real max_force[2], real F[2], real J[2][2],
+                        real safe[2]) {
   const real weight[2] = {max_force[0] * max_force[0], max_force[1] * max_force[1]};
   const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(max_force[0] * F[0], max_force[1] * F[1]);
   const truth exceeds = loaded & (bound > 0.0) & (size2 > bound);
@@ -50,21 +51,22 @@ static void limit(ali3_element_args *a, truth loaded, const real max_force[2], r
 }
 
 /* Load relative to the nominal load, limited. */
-static real load_factor(const real *p, const ali3_tyre_patch *contact) {
+static real find_load_factor(const real *p, const ali3_tyre_patch *contact) {
   return ali3_clamp(contact->load / p[TYRE_NOMINAL_LOAD], ali3_same(0.0), p[TYRE_MAX_LOAD_FACTOR]);
 }
 
 /* Friction of the road relative to the friction of the measured tyre. */
-static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
+static real find_friction_ratio(const real *p, const ali3_tyre_patch *contact) {
   return contact->friction * p[TYRE_FRICTION_FACTOR] / p[TYRE_REFERENCE_FRICTION];
 }
 
 /* One step of the carcass with slip velocity v and transport speed w, m/s: force F, new states, and damping matrix C =
  * -dF/dv (symmetric part, not below the safe part of the secant) as xx, xy, yy. */
-static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2], real C[3],
-                    real g[2], ali3_tyre_bore *bore) {
-  const real *p = a->real, *c = p + TYRE_CARCASS_STIFFNESS, *d = p + TYRE_CARCASS_DAMPING, q = load_factor(p, contact);
-  const real grip = friction_ratio(p, contact);
+static void step_carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2],
+                         real C[3], real g[2], ali3_tyre_bore *bore) {
+  const real *p = a->real, *c = p + TYRE_CARCASS_STIFFNESS, *d = p + TYRE_CARCASS_DAMPING,
+             q = find_load_factor(p, contact);
+  const real grip = find_friction_ratio(p, contact);
   const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + TYRE_LONGITUDINAL, p + TYRE_LATERAL, q, grip);
   const real n[2] = {v[0] / (t.scale[0] * w), v[1] / (t.scale[1] * w)};
   real gradient[2], J[2][2], safe[2], offset[2], D[2], max_force[2];
@@ -86,7 +88,7 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
       J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g[i] / (g[i] + D[i]) * D[i] : none);
   }
   const truth loaded = contact->load > ALI3_TYRE_NO_LOAD;
-  limit(a, loaded, max_force, F, J, safe);
+  limit_force(a, loaded, max_force, F, J, safe);
   if (bore) {
     const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(max_force[0] * F[0], max_force[1] * F[1]);
     const ali3_tyre_horizontal_force by = {.slope = q * ali3_tmeasy_at(p + TYRE_LATERAL, q, grip).slope,
@@ -105,25 +107,17 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
   }
   ALI3_PIECE(&a->piece, loaded & (contact->load > p[TYRE_MAX_LOAD_FACTOR] * p[TYRE_NOMINAL_LOAD]),
              ALI3_TYRE_OVERLOADED);
-  for (int i = 0; i < 2; i++) {
-    a->y_new[i] = a->y_old[i];
-    a->y_new[2 + i] = (F[i] - offset[i]) / D[i];
-    if (!(a->h > 0.0)) continue;
-    a->y_new[i] = (F[i] - d[i] * a->y_new[2 + i]) / c[i];
-    const truth negligible = ali3_abs(a->y_new[i]) < 1e-100; /* after a long time in the air, avoids denormals */
-    a->y_new[i] = ali3_where(negligible, none, a->y_new[i]);
-    a->y_new[2 + i] = ali3_where(negligible, none, a->y_new[2 + i]);
-  }
-  C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
-  ali3_tyre_semidefinite(C);
-  C[0] += safe[0];
-  C[2] += safe[1];
+  const ali3_tyre_carcass deflected = {
+      .stiffness = {c[0], c[1]}, .damping = {d[0], d[1]}, .offset = {offset[0], offset[1]}, .D = {D[0], D[1]}};
+  ali3_tyre_deflect(a, &deflected, F);
+  ali3_tyre_damping(J, safe, C);
 }
 
 /* Trail divided by contact length at the lateral slip s, behind the middle of the patch in the direction of rolling:
  * the tread deflects from its leading edge, which in reverse is the other edge. */
-static real relative_trail(const real *p, const ali3_tyre_patch *contact, real s, real omega) {
-  const real trail = ali3_tmeasy_trail(p + TYRE_TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
+static real find_relative_trail(const real *p, const ali3_tyre_patch *contact, real s, real omega) {
+  const real trail =
+      ali3_tmeasy_trail(p + TYRE_TRAIL, find_load_factor(p, contact), find_friction_ratio(p, contact), s);
   return ali3_where(omega < 0.0, -trail, trail);
 }
 
@@ -159,7 +153,7 @@ static void evaluate(ali3_element_args *a) {
     m.row[1][6] += by_spin;
   }
   if (has_bore) bore = ali3_tyre_bore_at(a, p + TYRE_BORE, n, e, length);
-  carcass(a, &contact, v, w, F, C, g, has_bore ? &bore : 0);
+  step_carcass(a, &contact, v, w, F, C, g, has_bore ? &bore : 0);
   a->potential += 0.5 * (p[TYRE_CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] +
                          p[TYRE_CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
   if (has_bore)
@@ -167,7 +161,7 @@ static void evaluate(ali3_element_args *a) {
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
 
   const real trail_force = has_camber_slip ? F[1] + g[1] * camber_velocity : F[1];
-  real moment = -moving * length * relative_trail(p, &contact, ali3_abs(m.v[1]) / w, omega) * trail_force;
+  real moment = -moving * length * find_relative_trail(p, &contact, ali3_abs(m.v[1]) / w, omega) * trail_force;
   if (has_bore) moment += bore.moment;
   const real resist = p[TYRE_ROLLING_RESISTANCE] * contact.load * p[TYRE_RADIUS], roll = ali3_tanh(omega);
   real twist[3];
@@ -180,7 +174,7 @@ static void evaluate(ali3_element_args *a) {
     ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], m.row[0], m.row[1]);
     ali3_add_outer(a->S, 7, a->wC * C[2], m.row[1]);
     if (has_bore) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
-    a->S[48] += a->wC * resist * (1.0 - roll * roll);
+    a->S[6 * 7 + 6] += a->wC * resist * (1.0 - roll * roll);
   }
   ali3_tyre_outputs(a, &contact, e, &m, p[TYRE_RADIUS], ratio, F, moment,
                     has_camber_slip ? F[1] * by_spin - resist * roll : -resist * roll);

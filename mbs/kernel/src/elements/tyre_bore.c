@@ -40,7 +40,7 @@ real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyr
   new[1] = (b->moment - offset) / D;
   if (!(a->h > 0.0)) return remaining;
   new[0] = (b->moment - d * new[1]) / c;
-  const truth negligible = ali3_abs(new[0]) < 1e-100; /* after a long time in the air, avoids denormals */
+  const truth negligible = ali3_abs(new[0]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
   for (int i = 0; i < 2; i++) new[i] = ali3_where(negligible, none, new[i]);
   return remaining;
 }

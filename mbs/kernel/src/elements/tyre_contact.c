@@ -1,4 +1,7 @@
-/* Contact of a tyre of any formula: radial spring, axes and velocities of the patch, outputs, depth at a start. */
+/* Contact of a tyre of any formula: radial spring, axes and velocities of the patch, outputs, depth at a start.
+ *
+ * At a depth d in the road the wheel has the force (k + p d) d + kb max(d - db, 0) + c d' min(d/TOUCH_DEPTH, 1) against
+ * the gradient of d, where this is positive: stiffness k, progression p, rim kb beyond the depth db, damping c. */
 #include "tyre_contact.h"
 
 #include "../algebra/elementary.h"
@@ -7,6 +10,7 @@
 
 #define TOUCH_DEPTH 0.005 /* m: deflection over which the radial damping increases to its full value */
 #define CLEAR 1e-6 /* m: largest depth at a start that is ignored */
+#define MIN_SLIP_SPEED 0.01 /* m/s: speed below which the slips that are reported tend to 0 */
 #define RIM_HOLDS 0.8 /* of the bottoming radius: least distance of the wheel's centre from a face */
 
 void ali3_tyre_axis(const real axis[3], real e[3]) {
@@ -16,7 +20,7 @@ void ali3_tyre_axis(const real axis[3], real e[3]) {
 
 /* Load-weighted mean of `mean` (load `old`) and `new` (load `load`); total: sum of the loads; first: there is no old
  * load. */
-static real weighted_mean(truth first, real mean, real old, real new, real total, real load) {
+static real update_mean(truth first, real mean, real old, real new, real total, real load) {
   return ali3_where(first, ali3_same(0.0), old / total * mean) + load / total * new;
 }
 
@@ -54,7 +58,7 @@ static void add_radial_energy(ali3_element_args *a, const ali3_tyre_spring *s, c
 }
 
 /* Derivative of the force by the depth, not below 0. */
-static real radial_stiffness(const ali3_tyre_spring *s, const radial_law *r, real rate) {
+static real find_radial_stiffness(const ali3_tyre_spring *s, const radial_law *r, real rate) {
   const real none = {0};
   const real slope = ali3_where(r->softened, none, s->stiffness + 2.0 * s->progression * r->depth) + r->bottoming +
                      ali3_where(r->ramp < 1.0, s->damping * rate / TOUCH_DEPTH, none);
@@ -69,25 +73,24 @@ static void add_to_patch(ali3_tyre_patch *mean, const ali3_contact *c, const rea
   for (int i = 0; i < 3; i++) {
     const real weighted = load * c->normal[i], sum = ali3_where(first, weighted, mean->normal[i] + weighted);
     mean->normal[i] = ali3_where(presses, sum, mean->normal[i]);
-    mean->rho[i] =
-        ali3_where(presses, weighted_mean(first, mean->rho[i], mean->load, rho[i], total, load), mean->rho[i]);
+    mean->rho[i] = ali3_where(presses, update_mean(first, mean->rho[i], mean->load, rho[i], total, load), mean->rho[i]);
   }
   mean->friction =
-      ali3_where(presses, weighted_mean(first, mean->friction, mean->load, c->friction, total, load), mean->friction);
+      ali3_where(presses, update_mean(first, mean->friction, mean->load, c->friction, total, load), mean->friction);
   mean->load = ali3_where(presses, total, mean->load);
 }
 
-ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *s) {
+ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *spring) {
   ali3_contact contact[2];
   const real none = {0};
   ali3_tyre_patch mean = {.load = none, .beyond = none};
-  const real hub = ALI3_TYRE_HUB * s->radius;
+  const real hub = ALI3_TYRE_HUB * spring->radius;
   real deepest = ali3_same(-INFINITY), difference[7], switching = none;
   for (int i = 0; i < 7; i++) difference[i] = none;
-  const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, s->radius, contact);
+  const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, spring->radius, contact);
   for (int k = 0; k < count; k++) {
     const ali3_contact *c = &contact[k];
-    const real depth = c->penetration, radius = s->radius - depth, lean = ali3_dot(e, c->normal);
+    const real depth = c->penetration, radius = spring->radius - depth, lean = ali3_dot(e, c->normal);
     const truth touches = depth > 0.0, deeper = depth > deepest;
     const truth hub_reached = radius < hub;
     real rho[3], b[7], rate = none;
@@ -110,8 +113,8 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
     }
     if (!ali3_any(touches)) continue;
     for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
-    const radial_law law = evaluate_radial_law(s, c, rate);
-    add_radial_energy(a, s, &law, touches);
+    const radial_law law = evaluate_radial_law(spring, c, rate);
+    add_radial_energy(a, spring, &law, touches);
     const truth presses = touches & (law.force > 0.0);
     const int32_t shift = ALI3_TYRE_CONTACT_BITS * k;
     ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << shift);
@@ -126,7 +129,7 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
       b[i] = ali3_where(presses, b[i], none);
       difference[i] += k ? -b[i] : b[i];
     }
-    const real tangent = a->wK * radial_stiffness(s, &law, rate) + a->wC * s->damping * law.ramp;
+    const real tangent = a->wK * find_radial_stiffness(spring, &law, rate) + a->wC * spring->damping * law.ramp;
     ali3_add_outer(a->S, 7, ali3_where(presses, law.share * tangent, none), b);
     switching =
         ali3_where(presses, a->wK * c->switching * (law.spring + law.bottoming * law.bottoming_depth), switching);
@@ -176,7 +179,7 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
   const real none = {0}, hub_reached = contact->beyond;
   const real deflection =
       ali3_where(hub_reached > 0.0, hub_reached, ali3_where(m->loaded < radius, radius - m->loaded, none));
-  const real min_speed = ali3_same(0.01);
+  const real min_speed = ali3_same(MIN_SLIP_SPEED);
   const real drive = -ratio * ali3_dot(m->forward, m->push) * a->ud[6]; /* circumferential speed */
   const real reference_speed =
       ali3_hypot(ali3_where(ali3_abs(drive) > ali3_abs(m->travel[0]), drive, m->travel[0]), min_speed);
@@ -194,7 +197,8 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, contact->normal), m->upright);
 }
 
-void ali3_tyre_semidefinite(real C[3]) {
+/* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
+static void make_semidefinite(real C[3]) {
   const real mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
   const truth semidefinite = mean >= split, splits = split > 0.0;
   if (!ali3_any(ali3_not(semidefinite))) return;
@@ -203,6 +207,26 @@ void ali3_tyre_semidefinite(real C[3]) {
   C[0] = ali3_where(semidefinite, C[0], 0.5 * top * (1.0 + cosine));
   C[1] = ali3_where(semidefinite, C[1], 0.5 * top * sine);
   C[2] = ali3_where(semidefinite, C[2], 0.5 * top * (1.0 - cosine));
+}
+
+void ali3_tyre_damping(real J[2][2], const real safe[2], real C[3]) {
+  C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
+  make_semidefinite(C);
+  C[0] += safe[0];
+  C[2] += safe[1];
+}
+
+void ali3_tyre_deflect(ali3_element_args *a, const ali3_tyre_carcass *carcass, const real F[2]) {
+  const real none = {0};
+  for (int i = 0; i < 2; i++) {
+    a->y_new[i] = a->y_old[i];
+    a->y_new[2 + i] = (F[i] - carcass->offset[i]) / carcass->D[i];
+    if (!(a->h > 0.0)) continue;
+    a->y_new[i] = (F[i] - carcass->damping[i] * a->y_new[2 + i]) / carcass->stiffness[i];
+    const truth negligible = ali3_abs(a->y_new[i]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
+    a->y_new[i] = ali3_where(negligible, none, a->y_new[i]);
+    a->y_new[2 + i] = ali3_where(negligible, none, a->y_new[2 + i]);
+  }
 }
 
 #ifndef ALI3_WIDTH

@@ -73,11 +73,21 @@ ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patc
                                       const ali3_tyre_motion *m, real radius, real ratio, const real force[2],
                                       real moment, real resisting);
 
-/* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
-ALI3_PER_WIDTH void ali3_tyre_semidefinite(real C[3]);
+/* Carcass in a step, of both directions: F = c x + d x' with x = a + b x', so that x' = (F - c a)/D. */
+typedef struct {
+  real stiffness[2], damping[2]; /* c, N/m; d, N s/m */
+  real offset[2], D[2]; /* c a, N; d + b c, N s/m */
+} ali3_tyre_carcass;
 
-/* Depth of a tyre in its road, m, if it were higher by `raised`; *share: cosine at the deepest contact. Its first number
- * is the radius, its first integer the road. */
+/* Deflections and their rates at the end of the step, the first four states, by the forces F, N. */
+ALI3_PER_WIDTH void ali3_tyre_deflect(ali3_element_args *a, const ali3_tyre_carcass *carcass, const real F[2]);
+
+/* Damping matrix C = -dF/dv as xx, xy, yy from J = dF/dv: its symmetric part, positive semidefinite and not below the
+ * safe part of the secant. */
+ALI3_PER_WIDTH void ali3_tyre_damping(real J[2][2], const real safe[2], real C[3]);
+
+/* Depth of a tyre in its road, m, if it were higher by `raised`; *share: cosine at the deepest contact. Its first
+ * number is the radius, its first integer the road. */
 double ali3_tyre_depth(const ali3_element_args *a, double raised, double *share);
 /* Verdict on a start with the scene raised by `raised`, m: refused with the centre below the road, where the spring of
  * the tyre would throw the scene up. The rise is the depth along the road's normal; at a wall it is repeated. */

@@ -1,4 +1,4 @@
-/* Aerodynamic drag F = -rho CdA |w| w / 2 at a point with the velocity w relative to the moving air. */
+/* Aerodynamic drag F = -rho CdA |w| w / 2, N, at a point with the velocity w relative to the moving air; earth axes. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
 #include "moving_air.h"

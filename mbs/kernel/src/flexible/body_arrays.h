@@ -17,11 +17,14 @@ enum {
 }; /* offsets in the work array of a body: A, S, J, then D with ALI3_FLEX_OF_MODE numbers a mode */
 
 typedef struct {
-  int32_t n;                          /* modes */
-  const int32_t *frame, *mode, *loc;  /* 12, n, 12 + n */
-  const real *P, *c;
-  const double *E, *H, *K, *C, *gravity;
-  real *A, *S, *J, *D;                /* axes; P eta; J - J0; 9 x n */
+  int32_t n;                          /* modes, whose amplitudes are eta */
+  const int32_t *frame, *mode,
+      *loc;  /* 12, n: coordinates of r, a, b, c and of eta; 12 + n: their places in the front */
+  const real *P, *c;                  /* 3 x n, 9 x n by rows: as flex_P and flex_c */
+  const double *E, *H;                /* 6, 3 matrices n x n by columns: symmetric and skew ones of flex_T */
+  const double *K, *C, *gravity;      /* n x n by columns: stiffness, damping of eta; 3, m/s^2, earth axes */
+  real *A, *S;                        /* 9: axes a, b, c one after the other; 3, kg m: P eta */
+  real *J, *D;                        /* 9, kg m^2: J - J0; 9 x n by rows D_ik, see flexible_body.c */
 } ali3_flexible;
 
 /* The view of flexible body b. */

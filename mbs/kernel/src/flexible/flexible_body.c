@@ -12,6 +12,7 @@
 #include "body_arrays.h"
 #include "flexible_body.h"
 
+/* Axes A, P eta, D and J - J0 of one body, see body_arrays.h. */
 ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, const real *q) {
   const int32_t n = f->n;
   const int64_t square = (int64_t)n * n;
@@ -45,7 +46,6 @@ ALI3_INLINED void flexible_prepare(const ali3_instance *in, const real *q) {
   }
 }
 
-/* out += (M(q) - constant part) x at the prepared q. */
 ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, real *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
@@ -155,7 +155,6 @@ ALI3_INLINED void add_coupling(const ali3_flexible *f, int32_t size, double wM, 
     }
 }
 
-/* F += wM (M(q) - constant part) + wC C + wK K at the prepared q; K includes the geometric stiffness of gravity. */
 ALI3_INLINED void flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, real *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
@@ -195,7 +194,6 @@ ALI3_INLINED const double *elastic_force(const ali3_instance *in, const ali3_fle
   return force;
 }
 
-/* Adds the potential energy of gravity except its constant part, and the elastic energy, J. */
 ALI3_INLINED void flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);

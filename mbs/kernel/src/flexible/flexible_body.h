@@ -7,18 +7,19 @@
 
 /* Stores the quantities at q (nq). */
 ALI3_PER_WIDTH void ali3_flexible_prepare(const ali3_instance *in, const real *q);
-/* out += M x */
+/* out += (M(q) - constant part) x at the prepared q. */
 ALI3_PER_WIDTH void ali3_flexible_mass_times(const ali3_instance *in, const real *x, real *out);
 /* Adds inertia forces quadratic in qd, gravity, elastic and damping forces to Q; `discrete`: for discrete gradients,
  * without the inertia forces. */
 ALI3_PER_WIDTH void ali3_flexible_forces(const ali3_instance *in, const real *q, const real *qd, bool discrete,
                                          real *Q);
-/* Adds the potential energy of gravity and the elastic energy, J. */
+/* Adds the potential energy of gravity, except its constant part, and the elastic energy, J. */
 void ali3_flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic);
-/* F += wM M + wC C + wK K, lower triangles; K includes the geometric stiffness of gravity. */
+/* F += wM (M(q) - constant part) + wC C + wK K at the prepared q, lower triangles in front storage; K includes the
+ * geometric stiffness of gravity. */
 ALI3_PER_WIDTH void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, real *F);
-/* F += weight K without the geometric stiffness of gravity. */
+/* F += weight K without the geometric stiffness of gravity, lower triangles in front storage. */
 void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F);
-/* out += weight K x, likewise. */
+/* out (nq) += weight K x, K likewise. */
 void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out);
 #endif

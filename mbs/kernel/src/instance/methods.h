@@ -8,31 +8,32 @@
 typedef struct {
   double *middle, *rate; /* nq: position and velocity in the middle of the step */
   double *J0;            /* row pattern: Phi_q at the start */
-  double *at_J0;         /* nq, ng, switches: state of J0 */
-  bool has_J0;
+  double *at_J0;         /* nq + ng + n_switch: coordinates, guides and switches at which J0 was evaluated */
+  bool has_J0;           /* J0 and at_J0 are set */
   double *A, *A_made; /* row pattern: discrete derivative at the iterate, and of the tangent in F */
 } ali3_discrete;
 
 /* Guides in a step, ng each. */
 typedef struct {
-  double *mean;    /* mean rates */
-  double *jump;    /* 2 ng: smallest jumps of rate and acceleration of guides of time that divide a step */
+  double *mean;    /* mean rates over the step */
+  double *jump;    /* 2 ng: smallest jumps of rate and of acceleration of each guide of time that divide a step */
   double *follows; /* 1 if a filtered guide moves in the step, otherwise 0 */
 } ali3_guide_work;
 
-/* radau.c, one for each of ALI3_RADAU stages; empty with element states or filtered guides. */
+/* radau.c; arrays for ALI3_RADAU stages, one after the other, empty with element states or filtered guides. */
 typedef struct {
-  double *Phi, *lam;   /* rows at the stages, multipliers */
-  double *J, *J_made;  /* Phi_q at the stages, and of the tangent */
-  double *x;           /* corrections */
-  double *F, *F_C, *F_K; /* tangent of all stages; front storage of dampers and of springs and rows */
+  double *Phi, *lam;   /* nc a stage: rows, multipliers */
+  double *J, *J_made;  /* row pattern, a stage: Phi_q, and that of the tangent */
+  double *x;           /* nq a stage: corrections, interleaved coordinate by coordinate */
+  double *F;           /* ALI3_RADAU x ALI3_RADAU fronts: tangent of all stages */
+  double *F_C, *F_K;   /* front storage: tangents of dampers, and of springs and rows */
 } ali3_radau;
 
-/* branch_watch.c: signed squares, one for each triad. */
+/* branch_watch.c: signed squares of sines and cosines of the angles of joints, one for each triad. */
 typedef struct {
-  double *sine, *cosine; /* at in->now */
+  double *sine, *cosine; /* at the coordinates given last, see `known` */
   double *sine_before, *sine_after, *sine_few; /* before the step, after it, after it in parts */
-  double *left;               /* loops that left their modes */
+  double *left;               /* loops: 1 if the loop left its modes, otherwise 0 */
   bool known, near;           /* `sine` belongs to in->now; branches may be close in the step */
   ali3_report report_before;  /* report before a step that may be repeated */
 } ali3_branches;

@@ -5,26 +5,27 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Past steps that are stored; indices into ali3_vectors.history, and its length. */
 enum { ALI3_PAST = 4, ALI3_HISTORY_OWNER = 0, ALI3_HISTORY_COUNT, ALI3_HISTORY_TIME, ALI3_HISTORY = 2 + ALI3_PAST };
 
 /* One state; its vectors are in one block of doubles, so that a copy is one memcpy. */
 typedef struct {
-  double *q, *qd, *qdd;       /* nq: coordinates and their rates */
-  double *lam;                /* nc: multipliers of rows */
-  double *y;                  /* ny: states of elements */
+  double *q, *qd, *qdd; /* nq: coordinates (earth axes: m of points, 1 of directions, rad of angles) and their rates */
+  double *lam; /* nc: multipliers of the stored rows; a row puts -Phi_q' lam on q */
+  double *y; /* ny: states of elements */
   double *mean, *mean_before; /* nq: mean rates of the last two steps, of Systems with flexible bodies */
-  double *s, *sd, *sdd;       /* ng: guides and their rates */
-  double *out, *potential;    /* nout; ne, J: of the last evaluation of the elements */
-  double *used;               /* nu: inputs as used in the last step */
-  double *y_last, *h_last;    /* ny; 1, s: element states at the start of the last step, its length; 0 at a start */
-  double *on, *anchor;        /* n_switch: 0 or 1; nc with switches: values at which rows are held */
-  double *history; /* of a method: ALI3_METHOD_*, number of past steps, times of their middles relative to now, s */
+  double *s, *sd, *sdd; /* ng: guides, m or rad, and their rates */
+  double *out, *potential; /* nout, units as of their type; ne, J: of the last evaluation of the elements */
+  double *used; /* nu: inputs as used in the last step */
+  double *y_last, *h_last; /* ny; 1, s: element states at the start of the last step, its length; 0 at a start */
+  double *on, *anchor; /* n_switch: 0 or 1; nc with switches: values at which rows are held */
+  double *history; /* ALI3_HISTORY: ALI3_METHOD_* of the owner, number of past steps, times of their middles relative
+                      to now, s */
   double *own; /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
-  double *work, *stored; /* J: work since the start, stored energy at the start; see ../state/work.c */
-  double *watched; /* power, then forces, at the end of the last step */
-  double *step_force,
-      *step_displacement; /* n_work_force: mean forces of the last step, displacements of their signals */
+  double *work, *stored; /* J: n_work and then n_guide_work, work since the start; n_work, stored energy at the start */
+  double *watched; /* n_work powers, W, then n_work_force generalised forces at the end of the last step */
+  double *step_force, *step_displacement; /* n_work_force: mean forces of the last step, change of their signals */
   double *by_inputs; /* n_input_work, J: stored energy that jumps of inputs have added since the start */
 } ali3_vectors;
 

@@ -4,24 +4,25 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { ALI3_STAGES = 12, ALI3_RADAU = 3, ALI3_LOCAL = 12 }; /* of runge_kutta.c, radau.c, fronts.c */
+/* Most stages of runge_kutta.c, stages of radau.c, columns of ali3_tangent_work.local. */
+enum { ALI3_STAGES = 12, ALI3_RADAU = 3, ALI3_LOCAL = 12 };
 
 /* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c. The tangents of elements are c K + wC C. */
 typedef struct {
-  double c, rate, wC;
+  double c, rate, wC; /* s^2; 1/s; s */
 } ali3_rule;
 
 /* Vectors of the iteration, by the names of the theory; methods other than the paper's use them as scratch. */
 typedef struct {
-  double *D, *d0, *hat; /* nq: increment and terms of the rule */
-  double *r, *x, *w; /* nq: residual, right side and correction, scratch */
-  double *Q; /* nq, N: generalised forces */
+  double *D, *d0, *hat; /* nq: increment of q and terms of the rule, d0 as q, hat as qd */
+  double *r, *x, *w; /* nq: residual, c times a force; right side and correction of D; scratch */
+  double *Q; /* nq, N or N m: generalised forces */
   double *stage; /* ALI3_STAGES x nq: accelerations, of radau.c residuals too */
   double *shifted; /* nq: q shifted near the origin, see ../rows/constraints.c */
-  double *Phi, *Phit; /* nc: rows, their partial rate */
-  double *gamma, *mu; /* nc: Phi'' = Phi_q qdd + gamma; multipliers of the iterate */
+  double *Phi, *Phit; /* nc: stored rows, their partial derivative by the time */
+  double *gamma, *mu; /* nc: Phi'' = Phi_q qdd + gamma; multipliers of the iterate, and rates of rows in projections */
   double *lam; /* nc: change of the multipliers */
-  double *drive; /* nc: work of drives by a unit of the multipliers at the end */
+  double *drive; /* nc: work of drives by a unit of the multipliers at the end of the step */
 } ali3_iterate;
 
 /* Correction and step of the last iteration, from which ../methods/accelerate.c extrapolates. */
@@ -34,7 +35,7 @@ typedef struct {
 typedef struct {
   double *J, *J_made; /* at the iterate; of the tangent in F */
   double *F; /* the tangent, then its factors */
-  double *local; /* ALI3_LOCAL columns of a front */
+  double *local; /* ALI3_LOCAL x max_front: unknowns of one front */
 } ali3_tangent_work;
 
 /* Division of a step, see ../methods/contact_event.c and abrupt_force.c. */

@@ -17,8 +17,8 @@ typedef int64_t ali3_mask;
 typedef struct {
   real *q, *qd, *qdd, *lam;
   real *s, *sd, *sdd; /* guides */
-  real *mean, *mean_before;
-  real *history, *past_a, *past_lam;
+  real *mean, *mean_before; /* of `now` in Systems with flexible bodies */
+  real *history, *past_a, *past_lam; /* of `now` in the others */
   real *y; /* states of elements */
 } ali3_lane_vectors;
 
@@ -28,20 +28,20 @@ typedef struct ali3_lane_group ali3_lane_group;
 typedef struct ali3_lane_code {
   /* Makes a step of the lanes in group->lanes to group->next; group->good marks those that converged. */
   void (*step)(struct ali3_lane_group *group);
-  /* Copies n numbers of each lane to the group, interleaved, and back. */
+  /* Copies n numbers of each lane to the group, where number i of all lanes is contiguous. */
   void (*spread)(double *to, const double *const lane[], int32_t n);
-  void (*collect)(double *const lane[], const double *from, int32_t n);
+  void (*collect)(double *const lane[], const double *from, int32_t n); /* and back */
 } ali3_lane_code;
 
 struct ali3_lane_group {
-  const ali3_system *system;
-  const ali3_lane_code *code;
+  const ali3_system *system; /* of all lanes */
+  const ali3_lane_code *code; /* for `width` */
   int32_t width, used; /* number of lanes, and of lanes with an instance */
-  ali3_instance *lane[ALI3_MAX_LANES];
+  ali3_instance *lane[ALI3_MAX_LANES]; /* the first `used`: their instances */
   ali3_settings settings; /* the same for all lanes */
-  ali3_rule rule;
+  ali3_rule rule; /* of the step, the same for all lanes */
   double h, alpha; /* s; 1/s^2, penalty of the rows */
-  ali3_lane_vectors now, next;
+  ali3_lane_vectors now, next; /* start and end of the step */
   struct {
     real *val, *floor, *floor_inverse, *gravity, *gravity_const;
     bool isotropic;
@@ -73,27 +73,30 @@ struct ali3_lane_group {
   struct {
     real *mean, *follows;
   } guide;
-  real *ways; /* displacements of elements whose work is summed, see ../state/work.c */
-  real *el_real, *input, *out, *potential;
-  ali3_lane_road *road;
+  real *ways; /* n_work_force: displacements of elements whose work is summed, see ../state/work.c */
+  real *el_real, *input, *out, *potential; /* as el_real of the System; nu; nout; ne, J */
+  ali3_lane_road *road; /* nr */
   bool *by_law; /* ne: the element is evaluated in vectors */
   real *mean_a, *newton_lam; /* of the last step, for the history */
   double *discarded; /* receives the numbers of lanes without a completed step */
   /* masks of lanes: in the step, counted in the report, evaluating elements, converged, with a singular tangent */
   ali3_mask *lanes, *at_work, *evaluated, *good, *singular;
-  ali3_mask *iterations, *worst_row, *worst_coordinate;
+  ali3_mask *iterations, *worst_row, *worst_coordinate; /* of the step: counts, indices */
   struct {
-    ali3_mask *factorizations, *solves, *negative_pivots;
+    ali3_mask *factorizations, *solves, *negative_pivots; /* as in ali3_report */
   } report;
-  real *residual, *reach, *violation, *velocity_violation, *open_power, *work, *end, *open, *size, *guides;
-  real *weight; /* energy of gravity at the end of a step */
-  real *squares; /* 3, of balance_squares */
+  real *residual, *violation, *velocity_violation, *open_power; /* as in ali3_report */
+  real *reach; /* as in ali3_element_args */
+  real *work, *end, *open, *size; /* error, end, open and size of ali3_energy_judge */
+  real *guides; /* J: work of guides in the step */
+  real *weight; /* J: potential energy of gravity at the end of the step */
+  real *squares; /* 3: speed, change and miss of ali3_balance_motion */
 };
 
 extern const ali3_lane_code ali3_code_lanes_2, ali3_code_lanes_4, ali3_code_lanes_8;
 
-/* Evaluates element e of the lanes in group->evaluated, one lane after the other; f: its forces. */
-void ali3_lane_element(ali3_lane_group *group, int32_t e, real *f, bool tangent);
+/* Evaluates element e of the lanes in g->evaluated, one lane after the other; f: its forces. */
+void ali3_lane_element(ali3_lane_group *g, int32_t e, real *f, bool tangent);
 /* Makes discrete changes of the elements of a lane after an accepted step. */
-void ali3_lane_elements_accept(ali3_lane_group *group, int32_t lane);
+void ali3_lane_elements_accept(ali3_lane_group *g, int32_t lane);
 #endif

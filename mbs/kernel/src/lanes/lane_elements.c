@@ -51,14 +51,14 @@ void ali3_lane_element(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   }
 }
 
-void ali3_lane_elements_accept(ali3_lane_group *g, int32_t l) {
-  ali3_instance *in = g->lane[l];
+void ali3_lane_elements_accept(ali3_lane_group *g, int32_t lane) {
+  ali3_instance *in = g->lane[lane];
   const ali3_system *S = g->system;
-  const ali3_force_call call = step_call(g, l);
+  const ali3_force_call call = step_call(g, lane);
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_kind[e]->accept == NULL) continue;
-    gather_signals(g, e, l, u, ud);
+    gather_signals(g, e, lane, u, ud);
     ali3_element_accept(in, &call, e, u, ud);
   }
 }

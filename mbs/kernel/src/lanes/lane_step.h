@@ -281,8 +281,8 @@ static void predict(ali3_lane_group *in) {
 }
 
 /* Sums of balance_squares of methods/energy_balance.c, in its order. */
-static void speed_squares(const ali3_lane_group *in, double h, const real *v0, const real *a, const real *v1,
-                          real out[3]) {
+static void sum_speed_squares(const ali3_lane_group *in, double h, const real *v0, const real *a, const real *v1,
+                              real out[3]) {
   enum { FOUR = 4 };
   const real *m = in->mass.floor;
   const int32_t nq = in->system->size.nq;
@@ -341,7 +341,7 @@ static void step(ali3_lane_group *in) {
   *in->size = ali3_energy_size(in, h, kinetic);
   *in->weight = *in->mass.gravity_const;
   for (int32_t i = 0; i < nq; i++) *in->weight -= in->mass.gravity[i] * in->next.q[i];
-  speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
+  sum_speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
   ali3_signal_displacements(in, in->ways);
 }
 #endif

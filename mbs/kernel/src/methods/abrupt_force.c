@@ -118,15 +118,15 @@ void ali3_abrupt_force(ali3_instance *in) {
     r->abrupt_steps++;
 }
 
-double ali3_tables_told_for(const ali3_instance *in, double h) {
+double ali3_tables_resolved_step(const ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   if (!S->has_force_tables) return h;
   for (int32_t c = 0; c < S->n_contact; c++) {
     const int32_t e = S->contact[c].element;
     const ali3_element_size *at = S->el_size + e;
-    if (S->el_kind[e]->told_for == NULL) continue;
-    h = S->el_kind[e]->told_for(in->parameters.el_real + at->real, S->el_int + at->integer, in->now.out + at->out, h,
-                                ABRUPT, in->report.largest_force);
+    if (S->el_kind[e]->resolved_step == NULL) continue;
+    h = S->el_kind[e]->resolved_step(in->parameters.el_real + at->real, S->el_int + at->integer, in->now.out + at->out,
+                                     h, ABRUPT, in->report.largest_force);
   }
   return h;
 }

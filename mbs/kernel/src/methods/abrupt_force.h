@@ -14,5 +14,5 @@ bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_
 /* Whether to repeat the step from in->now to in->next, whose outputs are evaluated, in halves. */
 bool ali3_divides(ali3_instance *in, const ali3_request *request);
 /* Part of h from in->now, s, that goes to the first point of a force by a table that its ends would not tell. */
-double ali3_tables_told_for(const ali3_instance *in, double h);
+double ali3_tables_resolved_step(const ali3_instance *in, double h);
 #endif

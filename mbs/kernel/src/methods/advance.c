@@ -95,7 +95,7 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
  * by a table hides within the step, otherwise t. `*guide`: time of the jump if it is one of a guide, otherwise
  * infinity. */
 static double part_end(const ali3_instance *in, double t, double h, double *guide) {
-  const double tables = ali3_tables_told_for(in, h), near = AT_END * h,
+  const double tables = ali3_tables_resolved_step(in, h), near = AT_END * h,
                inputs = ali3_inputs_until(in, tables < h ? fmin(t, in->clock.now + tables) : t);
   const double piece_end =
       in->system->size.ng > 0 ? ali3_guides_break(in, in->clock.now + near, inputs + near) : inputs + near;
@@ -119,7 +119,7 @@ ali3_status ali3_advance(ali3_instance *in, const ali3_request *request) {
   ali3_back_up(in);
   if (piece_end < t) {
     in->report.divisions++;
-    if (ali3_tables_told_for(in, h) < h) in->report.abrupt_steps++;
+    if (ali3_tables_resolved_step(in, h) < h) in->report.abrupt_steps++;
   }
   part.t = fmin(piece_end, guide - ROUND_OFF * fabs(guide));
   if (piece_end < t) part.h = piece_end - in->clock.now;

@@ -256,20 +256,20 @@ void ali3_branch_check(ali3_instance *in, double t) {
   if (has_modes(in)) report_left_modes(in, t);
 }
 
-ali3_status ali3_branch_after(ali3_instance *in, const ali3_request *step) {
+ali3_status ali3_branch_after(ali3_instance *in, const ali3_request *request) {
   const ali3_system *S = in->system;
   const size_t size = (size_t)ali3_triad_count(S) * sizeof(double);
   if (!has_modes(in)) return ALI3_OK;
-  if (ali3_method_of(in)->relative && step->reading == ALI3_READ_NOTHING) {
+  if (ali3_method_of(in)->relative && request->reading == ALI3_READ_NOTHING) {
     in->branch.known = false;
     return ALI3_OK;
   }
-  report_left_modes(in, step->t);
+  report_left_modes(in, request->t);
   /* with a limit of iterations no step is repeated; a jump is reported only if its loop has left its mode */
   if (!in->branch.near || in->settings.step_iterations > 0) return ALI3_OK;
   memcpy(in->branch.sine_after, in->branch.sine, size);
   ali3_status status = ALI3_OK;
-  for (int64_t loop = 0; loop < ali3_loop_count(S) && status == ALI3_OK; loop++) status = check_jump(in, step, loop);
+  for (int64_t loop = 0; loop < ali3_loop_count(S) && status == ALI3_OK; loop++) status = check_jump(in, request, loop);
   memcpy(in->branch.sine, in->branch.sine_after, size);
   return status;
 }

@@ -166,7 +166,7 @@ static void undo_step(ali3_instance *in, const ali3_report *end_before) {
 
 /* The longest step, s: as given, and shorter where errors of the motion may not show in the estimate. */
 static double longest_step(const ali3_instance *in, const ali3_measure *measure) {
-  const double limit = ali3_tables_told_for(in, measure->control->longest);
+  const double limit = ali3_tables_resolved_step(in, measure->control->longest);
   if (in->system->nr > 0) return fmin(limit, ROAD_LENGTHS / ali3_rate(in, measure, false));
   /* in closed loops the error of a drive's displacement in a step, h w, does not show: half of what steps resolve */
   return in->system->n_mode_triad > 0 ? fmin(limit, ALI3_RESOLVED / ali3_rate(in, measure, true)) : limit;

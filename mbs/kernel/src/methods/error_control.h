@@ -6,7 +6,7 @@
 
 /* Settings of a controlled run. */
 typedef struct {
-  ali3_control *control;
+  ali3_control *control; /* tolerance, length and rate; its steps and counts */
   const double *scale; /* nq, m: length that a unit of each coordinate counts as; NULL: 1 m */
 } ali3_measure;
 
@@ -16,7 +16,9 @@ typedef struct {
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error);
 /* Makes a step of h from time t, s, that is not halved; after a failure the caller restores the state. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading);
-/* Largest of |q_i| and, for coordinates with mass, |qd_i| / rate (rate: 1/s), relative to the length of the control. */
+/* Size of a difference q (nq) of coordinates and qd (nq) of their rates, relative to the length of the control: the
+ * largest s_i |q_i| and, for coordinates with mass, s_i |qd_i| / rate, with `scale` s_i and a rate in 1/s; NaN if one
+ * is. */
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate);
 /* Reference rate of velocities, 1/s: that of the present motion, at least the one of the control. `all`: includes
@@ -29,9 +31,9 @@ double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, doub
 
 /* Writes q, qd and qdd at x, -1 (start) to 1 (end), of the step of h, s, in in->stored.origin, in->stored.centre and
  * in->now. */
-void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to);
-/* Sensors (ns) and coordinates (nq) at time `when` of the same step, which starts at t, s; either may be NULL. Returns
+void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *result);
+/* Sensors (ns) and coordinates (nq) at `time`, s, of the same step, which starts at t, s; either may be NULL. Returns
  * the status of the evaluation. */
-ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
+ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double time,
                               double *out, double *positions);
 #endif

@@ -14,7 +14,7 @@ bool ali3_measure_residual(ali3_instance *in, const double *r);
 ali3_status ali3_newton_failure(const ali3_instance *in, ali3_status status);
 /* Reports the iterations of one step; `before`: report.iterations before it. */
 void ali3_iterations_since(ali3_instance *in, int64_t before);
-/* Replaces the corrections in in->step.x and in->step.lam by accelerated ones; `mixes`: lanes with an earlier
+/* Replaces the corrections in in->step.x and in->step.lam by accelerated ones; `enabled`: lanes with an earlier
  * correction. */
-ALI3_PER_WIDTH void ali3_accelerate(ali3_instance *in, truth mixes);
+ALI3_PER_WIDTH void ali3_accelerate(ali3_instance *in, truth enabled);
 #endif

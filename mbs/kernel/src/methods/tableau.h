@@ -4,7 +4,7 @@
 #include "../instance.h"
 
 typedef struct {
-  int32_t stages;
+  int32_t stages; /* ALI3_STAGES at most */
   const double *c, *b; /* nodes and weights */
   const double (*a)[ALI3_STAGES]; /* a[i][j], j < i: coefficient of stage j in stage i */
 } ali3_tableau;

@@ -5,7 +5,7 @@
 #include "../request.h"
 
 typedef struct {
-  ali3_request asked;
+  ali3_request asked; /* the step as a whole */
   double t_base; /* start time of the count of steps of this length, s */
   int64_t count; /* number of steps of this length, including this one */
   ali3_report before; /* the report at its start */

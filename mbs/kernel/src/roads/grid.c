@@ -264,10 +264,10 @@ static void index_range(double centre, double reach, double first, double spacin
   *high = (int)ali3_clamp(b + 3.0, 0.0, last);
 }
 
-double ali3_grid_top(const ali3_grid *g, const double centre[3], double reach) {
+double ali3_grid_top(const ali3_grid *g, const double place[3], double reach) {
   int low[2], high[2];
-  index_range(centre[0], reach, g->x0, g->dx, g->nx, &low[0], &high[0]);
-  index_range(centre[1], reach, g->y0, g->dy, g->ny, &low[1], &high[1]);
+  index_range(place[0], reach, g->x0, g->dx, g->nx, &low[0], &high[0]);
+  index_range(place[1], reach, g->y0, g->dy, g->ny, &low[1], &high[1]);
   if ((int64_t)(high[0] - low[0] + 1) * (high[1] - low[1] + 1) > MAX_POINTS) return INFINITY;
   double top = -INFINITY, bottom = INFINITY;
   for (int i = low[0]; i <= high[0]; i++)

@@ -203,23 +203,23 @@ static int check_values(const reader *r, const ali3_road_table *t) {
   return 1;
 }
 
-int ali3_road_table_read(const char *text, size_t size, ali3_road_table *t,
+int ali3_road_table_read(const char *text, size_t size, ali3_road_table *table,
                          void *(*allocate)(size_t count, size_t size), void (*release)(void *block), char *message,
                          size_t message_size) {
   reader r = {.position = text, .end = text + size, .message = message, .message_size = message_size};
   if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) r.position += 3;
   const char *start = r.position;
-  if (!read_layout(&r, t)) return 0;
-  if (t->nx > (int64_t)size / t->ny) /* before memory is taken */
+  if (!read_layout(&r, table)) return 0;
+  if (table->nx > (int64_t)size / table->ny) /* before memory is taken */
     return write_message(&r, "its size does not allow so many rows and columns");
-  const size_t points = (size_t)t->nx * (size_t)t->ny;
-  t->values = allocate((size_t)t->maps * points + (size_t)t->nx + (size_t)t->ny, sizeof(double));
-  if (t->values == NULL) return write_message(&r, "there is not enough memory");
-  double *x = t->values + (size_t)t->maps * points;
+  const size_t points = (size_t)table->nx * (size_t)table->ny;
+  table->values = allocate((size_t)table->maps * points + (size_t)table->nx + (size_t)table->ny, sizeof(double));
+  if (table->values == NULL) return write_message(&r, "there is not enough memory");
+  double *x = table->values + (size_t)table->maps * points;
   r.position = start;
   r.line = 0;
-  if (read_values(&r, t, x, x + t->nx) && check_values(&r, t)) return 1;
-  release(t->values);
-  t->values = NULL;
+  if (read_values(&r, table, x, x + table->nx) && check_values(&r, table)) return 1;
+  release(table->values);
+  table->values = NULL;
   return 0;
 }

@@ -24,7 +24,7 @@ enum { ALI3_TILE_ENTRY = 24, ALI3_MAX_RECORD = 16 + 2 * 32 * 32 * 8 };
 typedef struct { /* of a file */
   ali3_file *stream;
   int64_t size, tiles, table; /* bytes of the file, number of tiles, position of the table */
-  int32_t maps;
+  int32_t maps; /* 1: heights, 2: heights and frictions */
 } ali3_tile_table;
 
 /* Writes the values of a tile, heights and then frictions; NULL, or the end of a sentence on an error. `record`: work

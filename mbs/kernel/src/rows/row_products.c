@@ -27,7 +27,7 @@ ALI3_INLINED void add_triple(real *block, int64_t n, const real *J, int32_t j, i
   }
 }
 
-/* target += the multiples of four rows, in turn while an entry is in hand. */
+/* target += f[0] a + f[1] b + f[2] c + f[3] d, entry by entry in this order. */
 ALI3_INLINED void add_four(real *restrict target, const real *restrict a, const real *restrict b,
                            const real *restrict c, const real *restrict d, const real *f, int64_t count) {
   ALI3_BY_FOURS
@@ -35,10 +35,10 @@ ALI3_INLINED void add_four(real *restrict target, const real *restrict a, const 
     target[i] = (((target[i] + f[0] * a[i]) + f[1] * b[i]) + f[2] * c[i]) + f[3] * d[i];
 }
 
-/* Weight J' J of four rows with the same stretch: in columns of the stretch one after the other while an entry is in
- * hand. */
-ALI3_INLINED void square_of_four(const ali3_system *S, const int32_t *rows, const real *J, double weight, real *block,
-                                 int64_t n) {
+/* Adds weight J' J of four rows with the same stretch (see row_stretch of ali3_system) to a front of n coordinates:
+ * before the stretch row by row, in its columns all four at once. */
+ALI3_INLINED void add_square_of_four(const ali3_system *S, const int32_t *rows, const real *J, double weight,
+                                     real *block, int64_t n) {
   const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, k = rows[0];
   const int32_t length = ptr[k + 1] - first[k];
   for (const int32_t *at = rows; at < rows + 4; at++)
@@ -66,7 +66,7 @@ ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, r
                   end = ptr[k + 1];
     real *block = F + S->front_off[f];
     if (S->row_alike[at] >= 4) {
-      square_of_four(S, S->front_row + at, J, weight, block, n);
+      add_square_of_four(S, S->front_row + at, J, weight, block, n);
       at += 3;
       continue;
     }
@@ -100,9 +100,9 @@ void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double w
   }
 }
 
-/* `stretches`: rows end with modes side by side, which are one sum of four. Asked in each row, it would be 2.2 % more
- * instructions of a step of 40 windows. */
-ALI3_INLINED void times(const ali3_system *S, const real *J, const real *x, real *out, bool stretches) {
+/* out = J x; `stretches`: rows may end with a stretch, whose products are one sum. Were row_stretch read in each row, a
+ * step of 40 windows would have 2.2 % more instructions. */
+ALI3_INLINED void multiply_rows(const ali3_system *S, const real *J, const real *x, real *out, bool stretches) {
   const int32_t *end = S->row_ptr + 1, *col = S->row_col, *stretch = S->row_stretch;
   const unsigned char *triples = S->row_triples;
   for (int32_t k = 0, i = 0, nc = S->size.nc; k < nc; k++) {
@@ -124,9 +124,9 @@ ALI3_INLINED void times(const ali3_system *S, const real *J, const real *x, real
 ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x, real *out) {
   if (ALI3_GENERATED(S, rows_times, (J, x, out))) return;
   if (S->n_flexible > 0)
-    times(S, J, x, out, true);
+    multiply_rows(S, J, x, out, true);
   else
-    times(S, J, x, out, false);
+    multiply_rows(S, J, x, out, false);
 }
 
 ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, const real *x, real *out), (S, J, x, out))

@@ -12,6 +12,7 @@
 #include "../rows/constraints.h"
 #include "index_one.h"
 
+/* Solutions of ali3_index_one, of which the second one corrects round-off; most of ali3_index_one_solve. */
 enum { SOLVES = 2, ITERATIONS = 60 };
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 
@@ -56,9 +57,7 @@ ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q) {
   return ali3_factorise(in, in->tangent.F);
 }
 
-/* Solves M x + Phi_q' lam = Q, Phi_q x = -b by corrections with the factorised metric, from x = 0 and lam = 0. Ends at
- * the relative tolerance, or after ITERATIONS: if b and Phi_q x are zero except for round-off, the violation has no
- * scale. */
+/* Where b and Phi_q x are zero except for round-off, the violation has no scale, and ITERATIONS end the loop. */
 ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const double *b, double tolerance, double *x,
                                  double *lam) {
   const ali3_system *S = in->system;

@@ -10,8 +10,8 @@
 ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v);
 /* Factorises in->tangent.F = M(q) + alpha Phi_q' Phi_q, with Phi_q in in->tangent.J. */
 ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q);
-/* Solves M x + Phi_q' lam = Q, Phi_q x = -b with that matrix from x = 0 and lam = 0, to a relative tolerance or
- * in the largest number of iterations. */
+/* Solves M x + Phi_q' lam = Q, Phi_q x = -b by corrections with that matrix, from x = 0 (nq) and lam = 0 (nc) to a
+ * relative tolerance or in the largest number of iterations, which is no failure. Q (nq), b (nc). */
 ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const double *b, double tolerance, double *x,
                                  double *lam);
 #endif

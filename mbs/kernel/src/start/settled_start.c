@@ -79,10 +79,10 @@ static void translate(const ali3_system *S, const double *q, double x, double y,
   for (int32_t i = 0; i < S->size.nq; i++) out[i] = q[i] + (x * S->pose_x[i] + y * S->pose_y[i]);
 }
 
-double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *start) {
-  ali3_held_motion now = *start;
+double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *held) {
+  ali3_held_motion now = *held;
   measure(in, &now);
-  return start->direction[0] * now.direction[1] - start->direction[1] * now.direction[0];
+  return held->direction[0] * now.direction[1] - held->direction[1] * now.direction[0];
 }
 
 /* Factor on the velocity of a scene at rest: until HELD_FROM it slides with a damping, so that the deflections of its
@@ -93,29 +93,29 @@ double ali3_velocity_factor(const ali3_held_motion *held, double h, double progr
   return at_rest && progress < HELD_FROM ? 1.0 / (1.0 + SLIDING * h) : 0.0;
 }
 
-void ali3_restore_motion(ali3_instance *in, const ali3_held_motion *start, double kept_velocity) {
+void ali3_restore_motion(ali3_instance *in, const ali3_held_motion *held, double kept_velocity) {
   const ali3_system *S = in->system;
   double *q = in->now.q, *qd = in->now.qd;
-  ali3_held_motion now = *start;
+  ali3_held_motion now = *held;
   double spread;
   const double slope[2] = {ali3_climb(in, S->pose_x, in->step.x, &spread),
                            ali3_climb(in, S->pose_y, in->step.x, &spread)};
   measure(in, &now);
-  const double rise = slope[0] * (start->place[0] - now.place[0]) + slope[1] * (start->place[1] - now.place[1]);
+  const double rise = slope[0] * (held->place[0] - now.place[0]) + slope[1] * (held->place[1] - now.place[1]);
   translate(S, q, -now.place[0], -now.place[1], q);
-  const double c = now.direction[0] * start->direction[0] + now.direction[1] * start->direction[1];
-  const double s = now.direction[0] * start->direction[1] - now.direction[1] * start->direction[0];
+  const double c = now.direction[0] * held->direction[0] + now.direction[1] * held->direction[1];
+  const double s = now.direction[0] * held->direction[1] - now.direction[1] * held->direction[0];
   rotate(in, c, s, false, q);
   rotate(in, c, s, true, qd);
   measure(in, &now);
   for (int32_t i = 0; i < S->size.nq; i++) in->step.w[i] = ali3_turned(S, i, q, false);
-  const double rate = (1.0 - kept_velocity) * (start->rate - now.rate);
-  const double vx = (1.0 - kept_velocity) * (start->velocity[0] - now.velocity[0]);
-  const double vy = (1.0 - kept_velocity) * (start->velocity[1] - now.velocity[1]);
+  const double rate = (1.0 - kept_velocity) * (held->rate - now.rate);
+  const double vx = (1.0 - kept_velocity) * (held->velocity[0] - now.velocity[0]);
+  const double vy = (1.0 - kept_velocity) * (held->velocity[1] - now.velocity[1]);
   const double vz = slope[0] * vx + slope[1] * vy;
   for (int32_t i = 0; i < S->size.nq; i++)
     qd[i] += rate * in->step.w[i] + vx * S->pose_x[i] + vy * S->pose_y[i] + vz * S->pose_z[i];
-  translate(S, q, start->place[0], start->place[1], q);
+  translate(S, q, held->place[0], held->place[1], q);
   for (int32_t i = 0; i < S->size.nq; i++) q[i] += rise * S->pose_z[i];
 }
 

@@ -3,11 +3,11 @@
 #define ALI3_SETTLED_START_H
 #include "../instance.h"
 
-/* Coordinates along x of the heaviest point and direction; position (m) and velocity (m/s) of the point, unit direction
- * and its yaw rate (rad/s). */
+/* Motion of a scene along the ground, in earth axes. */
 typedef struct {
-  int32_t point, axis;
-  double place[2], velocity[2], direction[2], rate;
+  int32_t point, axis; /* coordinates that are the x components of the heaviest point and of the heaviest direction */
+  double place[2], velocity[2]; /* of the point, x and y: m, m/s */
+  double direction[2], rate; /* of the direction: unit vector along the ground, x and y; yaw rate, rad/s */
 } ali3_held_motion;
 
 /* Measures the motion; false: no body has a point and a direction of its own. */

@@ -43,7 +43,7 @@ static ali3_start_verdict verdict(const ali3_instance *in, int32_t e, double rai
   return in->system->el_kind[e]->start(&a, raised);
 }
 
-double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **text) {
+double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words) {
   int32_t worst = -1;
   double largest = 0.0, raised = 0.0;
   for (int32_t e = 0; in != NULL && e < in->system->size.ne; e++) {
@@ -59,7 +59,7 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
       raised += rise;
     }
   if (element != NULL) *element = worst;
-  if (text != NULL) *text = worst >= 0 ? in->system->el_kind[worst]->start_words : "";
+  if (words != NULL) *words = worst >= 0 ? in->system->el_kind[worst]->start_words : "";
   return raised;
 }
 

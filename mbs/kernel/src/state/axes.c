@@ -13,17 +13,17 @@ enum { X, Y, Z, AXES, REALS = ALI3_AXIS_REALS, SIGNALS = ALI3_AXIS_SIGNALS };
 enum { AZIMUTH, ELEVATION }; /* rad: indices of the numbers of an axis in axis_real */
 enum { MOMENTS = 4 }; /* first of the second moments xx, yy, zz, yz, zx, xy in ali3_tabled.mass */
 
-void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
+void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool) {
   const ali3_system *T = s->turned;
   const size_t tabled = T != NULL ? (size_t)T->n_tabled : 0;
-  in->parameters.axis_real = ali3_pool_array(p, (size_t)s->n_axis_real);
-  in->axes.system = T != NULL ? ali3_pool_items(p, 1, sizeof *in->axes.system) : NULL;
-  in->axes.val = ali3_pool_array(p, T != NULL ? (size_t)T->n_sig_val : 0);
-  in->axes.constant = ali3_pool_array(p, T != NULL ? (size_t)T->n_sig_const : 0);
-  in->axes.entry = ali3_pool_array(p, T != NULL ? (size_t)T->el_entry_ptr[T->size.ne] : 0);
-  in->axes.speed = ali3_pool_array(p, T != NULL ? (size_t)T->n_pose_speed : 0);
-  in->axes.tabled = ali3_pool_items(p, tabled, sizeof *in->axes.tabled);
-  in->axes.mass = ali3_pool_array(p, tabled * ALI3_TABLED_MOMENTS);
+  in->parameters.axis_real = ali3_pool_array(pool, (size_t)s->n_axis_real);
+  in->axes.system = T != NULL ? ali3_pool_items(pool, 1, sizeof *in->axes.system) : NULL;
+  in->axes.val = ali3_pool_array(pool, T != NULL ? (size_t)T->n_sig_val : 0);
+  in->axes.constant = ali3_pool_array(pool, T != NULL ? (size_t)T->n_sig_const : 0);
+  in->axes.entry = ali3_pool_array(pool, T != NULL ? (size_t)T->el_entry_ptr[T->size.ne] : 0);
+  in->axes.speed = ali3_pool_array(pool, T != NULL ? (size_t)T->n_pose_speed : 0);
+  in->axes.tabled = ali3_pool_items(pool, tabled, sizeof *in->axes.tabled);
+  in->axes.mass = ali3_pool_array(pool, tabled * ALI3_TABLED_MOMENTS);
 }
 
 /* Rotation matrix; columns: horizontal forward, along the axis, up in the plane of the wheel. */

@@ -17,18 +17,18 @@ static bool has_changes(const ali3_system *s) {
   return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_real > 0 || s->n_axis_inertia > 0;
 }
 
-void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
+void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool) {
   const bool changing = has_changes(s);
   const size_t nq = changing ? (size_t)s->size.nq : 0;
-  in->parameters.payload_mass = ali3_pool_array(p, (size_t)s->n_payload_mass);
-  in->parameters.armature_ratio = ali3_pool_array(p, (size_t)s->n_armature_ratio);
-  in->parameters.inertia_real = ali3_pool_array(p, (size_t)s->n_inertia_real);
-  in->mass.own.val = ali3_pool_array(p, changing ? (size_t)s->size.nnz_mass : 0);
-  in->mass.own.front = ali3_pool_array(p, changing ? (size_t)s->size.front_size : 0);
-  in->mass.own.floor = ali3_pool_array(p, nq);
-  in->mass.own.floor_inverse = ali3_pool_array(p, nq);
-  in->mass.own.missing = ali3_pool_array(p, nq);
-  in->mass.own.gravity = ali3_pool_array(p, nq);
+  in->parameters.payload_mass = ali3_pool_array(pool, (size_t)s->n_payload_mass);
+  in->parameters.armature_ratio = ali3_pool_array(pool, (size_t)s->n_armature_ratio);
+  in->parameters.inertia_real = ali3_pool_array(pool, (size_t)s->n_inertia_real);
+  in->mass.own.val = ali3_pool_array(pool, changing ? (size_t)s->size.nnz_mass : 0);
+  in->mass.own.front = ali3_pool_array(pool, changing ? (size_t)s->size.front_size : 0);
+  in->mass.own.floor = ali3_pool_array(pool, nq);
+  in->mass.own.floor_inverse = ali3_pool_array(pool, nq);
+  in->mass.own.missing = ali3_pool_array(pool, nq);
+  in->mass.own.gravity = ali3_pool_array(pool, nq);
 }
 
 void ali3_masses_start(ali3_instance *in) {

@@ -15,9 +15,9 @@ ali3_status ali3_run_status(const ali3_report *report) {
   return last == ALI3_OK && report->branch_changes > 0 ? ALI3_BRANCH_CHANGED : last;
 }
 
-double ali3_energy_balance(const ali3_report *r) {
-  const double size = r != NULL ? fmax(r->kinetic_peak + r->work, r->energy_floor) : 0.0;
-  return size > 0.0 ? fabs(r->energy_error) / size : 0.0;
+double ali3_energy_balance(const ali3_report *report) {
+  const double size = report != NULL ? fmax(report->kinetic_peak + report->work, report->energy_floor) : 0.0;
+  return size > 0.0 ? fabs(report->energy_error) / size : 0.0;
 }
 
 /* A refused step may leave a residual beyond all numbers. */

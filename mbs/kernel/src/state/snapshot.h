@@ -4,7 +4,7 @@
 #include "../instance.h"
 
 typedef struct {
-  ali3_report report;
+  ali3_report report; /* in->report */
   double t_base, h_last; /* s: as base and h of ali3_clock */
   int64_t count; /* steps of h_last since t_base */
 } ali3_snapshot_head;

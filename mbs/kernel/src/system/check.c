@@ -1,6 +1,8 @@
 /* Functions common to the checks of a System. */
 #include "check.h"
 
+#include <stdlib.h>
+
 #include "message.h"
 
 ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *v, int64_t n, int64_t low,
@@ -11,6 +13,14 @@ ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *
                       (long long)high - 1);
   return ALI3_OK;
 }
+
+/* For qsort. */
+static int compare_int32(const void *a, const void *b) {
+  const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+  return (x > y) - (x < y);
+}
+
+void ali3_sort(int32_t *v, int32_t n) { qsort(v, (size_t)n, sizeof *v, compare_int32); }
 
 int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value) {
   int32_t low = 0, high = n;

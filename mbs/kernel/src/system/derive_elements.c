@@ -2,7 +2,6 @@
  * work. */
 #include "derive_elements.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "../elements/element.h"
@@ -31,12 +30,6 @@ static void derive_triples(const ali3_system *s, const int32_t *row, int32_t n, 
   }
 }
 
-/* For qsort. */
-static int compare_int32(const void *a, const void *b) {
-  const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
-  return (x > y) - (x < y);
-}
-
 /* Entries of element e: value and index of the coordinate in the element, whose coordinates ascend as in the front. */
 static void derive_element(ali3_system *s, int32_t e) {
   const int32_t first = s->el_entry_ptr[e], start = s->el_coordinate_ptr[e];
@@ -52,7 +45,7 @@ static void derive_element(ali3_system *s, int32_t e) {
   }
   if (s->el_front[e] >= 0 && !ali3_on_tabled(s, e)) {
     memcpy(coordinate, loc, (size_t)n * sizeof *loc);
-    qsort(coordinate, (size_t)n, sizeof *coordinate, compare_int32);
+    ali3_sort(coordinate, n);
     for (int32_t i = 0; i < n; i++)
       if (unique == 0 || coordinate[i] != coordinate[unique - 1]) coordinate[unique++] = coordinate[i];
     for (int32_t i = 0; i < n; i++) s->el_entry_local[first + i] = ali3_find(coordinate, unique, loc[i]);
@@ -94,7 +87,7 @@ void ali3_elements_derive(ali3_system *s) {
                                         .state = s->el_state_ptr[e],
                                         .out = s->el_out_ptr[e]};
     if (s->el_kind[e]->n_forces > 0) s->contact[s->n_contact++] = contact_of(s, e);
-    if (s->el_kind[e]->told_for != NULL) s->has_force_tables = true;
+    if (s->el_kind[e]->resolved_step != NULL) s->has_force_tables = true;
     s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
     derive_element(s, e);
   }

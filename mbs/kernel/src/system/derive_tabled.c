@@ -1,7 +1,6 @@
 /* Derives, when a System is loaded, positions of lookup-table bodies and of the elements on them in the fronts of the
  * tangent. Elements on the same bodies form a group with its own signals, coordinates and, if all signals are points,
  * directions or numbers of these bodies, a decomposition into such parts. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "../tabled/tabled.h"
@@ -73,12 +72,6 @@ static ali3_status derive_item(const ali3_system *s, int32_t i, int32_t *depende
   while (least >= s->front_col[c->front + 1]) c->front++;
   return find_local(s, c, c->front, c->loc) ? ALI3_OK
                                             : ali3_bad(m, "a coordinate of table %d is not in its front", (int)i);
-}
-
-/* For qsort. */
-static int compare_int32(const void *a, const void *b) {
-  const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
-  return (x > y) - (x < y);
 }
 
 /* The item to which a dependent belongs. */
@@ -333,7 +326,7 @@ static bool derive_parts(const ali3_system *s, ali3_tabled_group *group) {
 static void derive_group(ali3_system *s, int32_t g) {
   ali3_tabled_group *group = s->tabled_group + g;
   int32_t loc[ALI3_TABLED_COLUMNS];
-  qsort(group->loc, (size_t)group->m, sizeof *group->loc, compare_int32);
+  ali3_sort(group->loc, group->m);
   for (int32_t n = 0; n < group->n_item; n++) {
     find_local(s, s->tabled + group->item[n], group->front, loc);
     for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) group->slot[n][k] = find_index(group->loc, group->m, loc[k]);

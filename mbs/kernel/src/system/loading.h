@@ -60,7 +60,7 @@ bool ali3_same_values(const int32_t *ptr, const double *val, int32_t i);
 /* Whether a mass matrix with values val (nnz_mass) has equal rows for the three coordinates of each point. */
 bool ali3_mass_isotropic(const ali3_system *s, const double *val);
 /* Writes such a mass matrix in front storage, the floor (nq) of its diagonal, M_ii or a typical mass for massless
- * coordinates, its inverse, and what the floor adds to M_ii. */
+ * coordinates, its inverse, and that typical mass where it stands for none, otherwise 0. */
 void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front, double *floor, double *floor_inverse,
                          double *missing);
 #endif

@@ -11,10 +11,11 @@
 #include "pool.h"
 
 enum { FRAME = ALI3_AXIS_SIGNALS };
-static const double STEEPEST = 1.4; /* rad: largest elevation of an axis */
+static const double STEEPEST = 1.4, LARGEST_AZIMUTH = 7.0; /* rad: above a whole turn */
 
 const char *ali3_check_axis(const double *real) {
-  return fabs(real[0]) <= 7.0 && fabs(real[1]) <= STEEPEST ? NULL : "the axis of a wheel must not stand upright";
+  return fabs(real[0]) <= LARGEST_AZIMUTH && fabs(real[1]) <= STEEPEST ? NULL
+                                                                       : "the axis of a wheel must not stand upright";
 }
 
 /* Whether signal `to` has all coordinates of `from`. */
@@ -43,13 +44,14 @@ ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
+/* Arrays of the System without the entries that are zero as drawn, by their names in it. */
 typedef struct {
   int32_t *sig_ptr, *sig_col, *el_loc_ptr, *el_loc;
   double *sig_val;
-  bool *written; /* whether axes write each signal */
+  bool *written; /* nsig: whether axes write the signal */
 } lean;
 
-/* Places the arrays of a System without entries that are zero as drawn. */
+/* Places them. */
 static void place_arrays(const ali3_system *s, ali3_pool *p, lean *to) {
   const size_t nsig = (size_t)s->size.nsig, entries = (size_t)s->n_sig_col;
   to->sig_val = ali3_pool_items(p, entries, sizeof(double));
@@ -65,7 +67,7 @@ static bool is_kept(const ali3_system *s, const lean *to, int32_t signal, int32_
   return !to->written[signal] || s->sig_val[k] != 0.0;
 }
 
-/* Fills them. */
+/* Fills them, and makes them the arrays of the System. */
 static void drop_zeros(ali3_system *s, lean *to) {
   int32_t n = 0, at = 0;
   for (int64_t i = 0; i < s->n_axis_signal; i++) to->written[s->axis_signal[i]] = true;
@@ -93,7 +95,6 @@ static void drop_zeros(ali3_system *s, lean *to) {
   s->n_el_loc = at;
 }
 
-/* Creates s->turned, and drops the entries of s that are zero as drawn; before s is derived. */
 ali3_status ali3_system_turn(ali3_system *s, ali3_message m) {
   ali3_pool pool = {NULL, 0};
   lean to;

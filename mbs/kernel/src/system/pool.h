@@ -5,8 +5,8 @@
 #include <stddef.h>
 
 typedef struct {
-  char *block;
-  size_t used; /* bytes */
+  char *block; /* NULL: arrays are counted only */
+  size_t used; /* bytes placed or counted so far */
 } ali3_pool;
 
 /* The address sanitizer sees one block; builds for it (tests/sanitize.py) have poisoned gaps between arrays. */

@@ -8,9 +8,10 @@
 /* X(number, NAME, name, integers, reals, reals of each item, rate, reads, integers and reals in words, value in words)
  *
  * Each integer is one letter: s signal, S signal or -1, e element, o output of the element before, u input, g guide,
- * G guide or -1, T guide by a table or -1, r row, d order 0 to 2, b 0 or 1, k energy 0 to 3, q component of a quaternion 0 to 3, h ALI3_SOLVER_*;
- * n number of items, N at least one, P two or three: as many times come the integers in brackets.
- * `rate`: whether ali3_sensor_rates knows the first time derivative, ALI3_RATE_*; `reads`: ALI3_READS_*. */
+ * G guide or -1, T guide by a table or -1, r row, d order 0 to 2, b 0 or 1, k energy 0 to 3, q component of a
+ * quaternion 0 to 3, h ALI3_SOLVER_*; n number of items, N at least one, P two or three: as many times come the
+ * integers in brackets. `rate`: whether ali3_sensor_rates knows the first time derivative, ALI3_RATE_*; `reads`:
+ * ALI3_READS_*. */
 /* clang-format off */
 #define ALI3_SENSOR_TYPES(X) \
   X(0, SIGNAL, signal, "s", 1, 0, ALWAYS, MOTION, \
@@ -95,9 +96,9 @@ enum { ALI3_RATE_NEVER = 0, ALI3_RATE_ALWAYS, ALI3_RATE_BY_FIRST, ALI3_RATE_BY_S
 enum { ALI3_READS_MOTION = 0, ALI3_READS_INPUTS, ALI3_READS_FORCES, ALI3_READS_SOLVER, ALI3_READS_ROWS };
 
 typedef struct {
-  const char *integers;
+  const char *integers; /* letters of the list above */
   int32_t reals, reals_each; /* number of reals, and of further ones per item */
-  int32_t rate, reads;
+  int32_t rate, reads; /* ALI3_RATE_*, ALI3_READS_* */
 } ali3_sensor_type;
 
 extern const ali3_sensor_type ali3_sensor_types[ALI3_SENSOR_TYPE_COUNT];

@@ -11,13 +11,14 @@ enum { LANES = ALI3_WIDTH };
 enum { LANES = 1 };
 #endif
 
+/* Control points that a function depends on at one parameter. */
 typedef struct {
-  int32_t cell[LANES];
+  int32_t cell[LANES]; /* index of the first one */
   real w[3][WINDOW]; /* weights of the value and of its two derivatives */
 } window;
 
 /* Cell index of each lane, at most `last`; returned also as a number. */
-static inline real cell_of(real place, int32_t last, int32_t cell[LANES]) {
+static inline real find_cell(real place, int32_t last, int32_t cell[LANES]) {
 #ifdef ALI3_WIDTH
   for (int l = 0; l < LANES; l++) {
     cell[l] = (int32_t)place[l] < last ? (int32_t)place[l] : last;
@@ -44,12 +45,12 @@ static inline const real *gather_points(const double *const point[LANES], int64_
 }
 
 /* Cells and weights at parameter x of a table with `count` control points; axis: first point, spacing. */
-ALI3_INLINED window window_at(const double *axis, int32_t count, real x) {
+ALI3_INLINED window find_window(const double *axis, int32_t count, real x) {
   window n;
   const double inverse_spacing = 1.0 / axis[1], end = count - WINDOW + 1;
   const real place = (x - axis[0]) / axis[1], from = ali3_where(place > 0.0, place, ali3_same(0.0)),
              clamped = ali3_where(from < end, from, ali3_same(end)); /* NaN: the first cell, and NaN as weights */
-  const real s = clamped - cell_of(clamped, count - WINDOW, n.cell), r = 1.0 - s, beyond = place - clamped;
+  const real s = clamped - find_cell(clamped, count - WINDOW, n.cell), r = 1.0 - s, beyond = place - clamped;
   const real value[WINDOW] = {r * r * r / 6.0, (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0,
                               (4.0 - 6.0 * r * r + 3.0 * r * r * r) / 6.0, s * s * s / 6.0};
   const real first[WINDOW] = {-0.5 * r * r, s * (1.5 * s - 2.0), r * (2.0 - 1.5 * r), 0.5 * s * s};
@@ -79,7 +80,7 @@ ALI3_INLINED void evaluate_one_parameter(int32_t n, const window *x, const doubl
   }
 }
 
-/* `row`: stride between control points along the first parameter. */
+/* The same by two parameters. `row`: stride between control points along the first one. */
 ALI3_INLINED void evaluate_two_parameters(int32_t n, int64_t row, const window *x, const window *y,
                                           const double *const point[LANES],
                                           real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
@@ -107,7 +108,7 @@ ALI3_INLINED void evaluate_two_parameters(int32_t n, int64_t row, const window *
 ALI3_INLINED void tabled_table(const ali3_system *S, const ali3_tabled *c, real a, real b,
                                real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   (void)S;
-  const window x = window_at(c->axis, c->count[0], a);
+  const window x = find_window(c->axis, c->count[0], a);
   const bool body = c->n == ALI3_TABLED_BODY;
   const int64_t row = (int64_t)c->count[1] * c->n;
   const double *point[LANES];
@@ -119,7 +120,7 @@ ALI3_INLINED void tabled_table(const ali3_system *S, const ali3_tabled *c, real 
       evaluate_one_parameter(1, &x, point, value);
     return;
   }
-  const window y = window_at(c->axis + 2, c->count[1], b);
+  const window y = find_window(c->axis + 2, c->count[1], b);
   for (int l = 0; l < LANES; l++) point[l] += (int64_t)y.cell[l] * c->n;
   if (body)
     evaluate_two_parameters(ALI3_TABLED_BODY, row, &x, &y, point, value);

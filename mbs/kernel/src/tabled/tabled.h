@@ -27,25 +27,26 @@ struct ali3_tabled {
   int32_t base, along[2];           /* base of a body, and indices of its parameters in the base */
   int32_t n_seen, seen[4];          /* vectors on which signals of elements depend */
   const int32_t *frame, *param;      /* coordinates of r and Y, of the parameters; -1 likewise */
-  const double *axis, *coef, *mass, *gravity;
+  const double *axis, *coef, *mass, *gravity; /* of tabled_axis, tabled_coef, tabled_mass, tabled_gravity */
 };
 
 /* Bodies with the same r, Y and gravity. */
 struct ali3_tabled_base {
   int32_t front, loc[ALI3_TABLED_BODY]; /* as those of its bodies */
   int32_t at[ALI3_TABLED_BODY][ALI3_TABLED_BODY]; /* indices into F of the entries between them */
-  int32_t first, end;                   /* range of its parameters */
-  const int32_t *frame;                 /* frame[0] = -1: the earth */
-  const double *gravity;
+  int32_t first, end;                   /* range of its parameters in tabled_parameter */
+  const int32_t *frame;                 /* coordinates of r and Y; frame[0] = -1: the earth */
+  const double *gravity;                /* 3, m/s^2, earth axes */
 };
 
+/* A parameter of the tables of bodies on one base. */
 struct ali3_tabled_parameter {
   int32_t column;               /* the coordinate */
   int32_t at[ALI3_TABLED_BODY]; /* indices into F of the entries between it and the base */
 };
 
-typedef struct {
-  uint8_t n, at[ALI3_TABLED_VECTORS];
+typedef struct { /* a list of vectors of a group */
+  uint8_t n, at[ALI3_TABLED_VECTORS]; /* length, indices */
 } ali3_tabled_list;
 
 /* Elements of one front with signals of the same dependents. */
@@ -74,13 +75,17 @@ struct ali3_tabled_group {
   int8_t along[ALI3_TABLED_ITEMS][2]; /* indices of the parameters of an item among the single coordinates */
 };
 
-/* B and S B of the parts of a group, and sums of the tangents of its elements. */
+/* B and S B of the parts of a group, and sums of the tangents of its elements; 3 x 3 matrices are row major. */
 typedef struct {
-  real base[4][4][9]; /* sum over the groups of a base */
+  real base[4][4][9]; /* B' S B between r (0) and the axes of Y (1 to 3), sum over the groups of a base */
+  /* B: of each vector its share of r and of the axes of Y, its derivative by each single coordinate; of each number its
+   * derivative by each single coordinate */
   real share[ALI3_TABLED_VECTORS][4], along[ALI3_TABLED_VECTORS][ALI3_TABLED_SINGLES][3];
   real slope[ALI3_TABLED_NUMBERS][ALI3_TABLED_SINGLES];
+  /* S: sums of the tangents of the elements between two vectors, a number and a vector, two numbers */
   real vectors[ALI3_TABLED_VECTORS][ALI3_TABLED_VECTORS][9], mixed[ALI3_TABLED_NUMBERS][ALI3_TABLED_VECTORS][3];
   real numbers[ALI3_TABLED_NUMBERS][ALI3_TABLED_NUMBERS];
+  /* S B: rows of a vector by r and Y, by the single coordinates; rows of a number by the single coordinates */
   real by_share[ALI3_TABLED_VECTORS][4][9], by_single[ALI3_TABLED_VECTORS][ALI3_TABLED_SINGLES][3];
   real number_by_single[ALI3_TABLED_NUMBERS][ALI3_TABLED_SINGLES];
 } ali3_tabled_parts;

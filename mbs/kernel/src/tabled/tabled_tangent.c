@@ -1,4 +1,6 @@
-/* Tangents of tabled bodies and of the elements on them, added to fronts. */
+/* Tangents of tabled bodies and of the elements on them, added to fronts. Indices K and L are 0 for r and 1 to 3 for
+ * the axes of Y; x is a component along the axes of the earth, k along those of Y. Tangents of elements are B' S B with
+ * B = d(signals)/dq: of groups with parts (ali3_tabled_parts) by the parts, of others signal by signal. */
 #include <string.h>
 
 #include "../algebra/fronts.h"
@@ -6,7 +8,7 @@
 #include "../algebra/small_vectors.h"
 #include "tabled.h"
 
-enum { FIRST_PARAMETER = 12 };
+enum { FIRST_PARAMETER = 12 }; /* index of the parameters in ali3_tabled.loc, after r and Y */
 
 /* Adds wM M of all bodies of a base, and the geometric stiffness of gravity: -wK d2(g . X)/dY dp. */
 ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double wK, real *F) {

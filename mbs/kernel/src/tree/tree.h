@@ -38,7 +38,7 @@ struct ali3_tree_work {
   double relative[ALI3_LANES][3][4]; /* axes and origin of the frame in the frame of the parent */
   /* [b][i]: component i of the axes of body b and of the displacement from its parent */
   double frame[ALI3_LANES][3][4];
-  ali3_lanes origin[3];
+  ali3_lanes origin[3]; /* m: of the frames of the bodies */
   ali3_lanes turn[3], shift[3]; /* motion per unit rate of the joint: angular, and linear at the earth's origin */
   ali3_lanes spin[3], drift[3]; /* angular velocity, linear velocity at the earth's origin */
   ali3_lanes spin_rate[3], drift_rate[3]; /* their rates without joint accelerations, minus gravity */
@@ -53,8 +53,8 @@ struct ali3_tree_work {
   double product[ALI3_MAX_JOINTS + 1][ALI3_LANES]; /* M times the columns of the null space */
   double row[ALI3_MAX_CUT_ROWS][ALI3_LANES]; /* Jacobian of the rows of the cut joints */
   double upper[ALI3_MAX_CUT_ROWS][ALI3_LANES]; /* factors of the chosen rows */
-  double largest_term; /* of the sums in w->row, by which their round-off is measured */
-  double Phi[ALI3_MAX_CUT_ROWS], gamma[ALI3_MAX_CUT_ROWS];
+  double largest_term; /* of the sums in w->row, m or 1, by which their round-off is measured */
+  double Phi[ALI3_MAX_CUT_ROWS], gamma[ALI3_MAX_CUT_ROWS]; /* m or 1: those rows; per s^2: see ali3_loops_bias */
   int32_t row_order[ALI3_MAX_CUT_ROWS], column_order[ALI3_LANES], rank; /* the first `rank` of both are the chosen */
   double stage[ALI3_STAGES][2 * ALI3_LANES], sum[2 * ALI3_LANES]; /* rates of (q, qd) at the stages of a step */
   double state[2 * ALI3_LANES], qdd[ALI3_LANES]; /* state at the present stage */

@@ -7,18 +7,19 @@
 #include "../system.h"
 #include "tree.h"
 
-static const double RANK = 1e-7; /* of the largest pivot: a smaller one belongs to a redundant row */
+static const double MIN_PIVOT = 1e-7; /* of the largest pivot: a smaller one belongs to a redundant row */
 static const double ROUND_OFF = 1e-12; /* of the largest term of the rows: likewise, if all rows are redundant */
 
+/* A cut joint. */
 typedef struct {
   int32_t first, second; /* bodies */
   int32_t points, axes; /* numbers of rows: coincident points; axes normal to each other */
-  double p[3], n[2][3], r[3],
-      z[3]; /* point and normals of the first body, point and axis of the second, in earth axes */
+  double p[3], n[2][3]; /* point, m, and normals of the first body, earth axes */
+  double r[3], z[3]; /* point, m, and axis of the second body, earth axes */
 } cut;
 
 /* Cut joint c at the present frames. */
-static cut cut_of(const ali3_system *S, const ali3_tree_work *w, int32_t c) {
+static cut find_cut(const ali3_system *S, const ali3_tree_work *w, int32_t c) {
   const double *place = S->tree_cut_place + 15 * (int64_t)c;
   cut k = {.first = S->tree_cut_body[2 * c],
            .second = S->tree_cut_body[2 * c + 1],
@@ -55,7 +56,7 @@ void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients) {
   int32_t row = 0;
   if (gradients) w->largest_term = 0.0;
   for (int32_t c = 0; c < T->n_cut; c++) {
-    const cut k = cut_of(S, w, c);
+    const cut k = find_cut(S, w, c);
     for (int i = 0; i < k.points; i++) w->Phi[row + i] = k.p[i] - k.r[i];
     for (int i = 0; i < k.axes; i++) w->Phi[row + k.points + i] = ali3_dot(k.n[i], k.z);
     if (gradients) {
@@ -73,7 +74,7 @@ void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients) {
 }
 
 /* Acceleration of a point of body b without joint accelerations. */
-static void point_bias(const ali3_tree_work *w, int32_t b, const double r[3], double out[3]) {
+static void find_point_bias(const ali3_tree_work *w, int32_t b, const double r[3], double out[3]) {
   const double o[3] = {w->spin[0][b], w->spin[1][b], w->spin[2][b]};
   const double a[3] = {w->spin_rate[0][b], w->spin_rate[1][b], w->spin_rate[2][b]};
   double v[3], turned[3];
@@ -87,10 +88,10 @@ static void point_bias(const ali3_tree_work *w, int32_t b, const double r[3], do
 void ali3_loops_bias(const ali3_system *S, ali3_tree_work *w) {
   int32_t row = 0;
   for (int32_t c = 0; c < S->tree->n_cut; c++) {
-    const cut k = cut_of(S, w, c);
+    const cut k = find_cut(S, w, c);
     double first[3], second[3], o[2][3], spin_difference[3], spin_rate_difference[3];
-    point_bias(w, k.first, k.p, first);
-    point_bias(w, k.second, k.r, second);
+    find_point_bias(w, k.first, k.p, first);
+    find_point_bias(w, k.second, k.r, second);
     for (int i = 0; i < k.points; i++) w->gamma[row + i] = first[i] - second[i];
     for (int i = 0; i < 3; i++) {
       o[0][i] = w->spin[i][k.first];
@@ -132,7 +133,7 @@ void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
           column = j;
         }
     if (k == 0) largest = best;
-    if (!(best > fmax(RANK * largest, ROUND_OFF * w->largest_term))) break;
+    if (!(best > fmax(MIN_PIVOT * largest, ROUND_OFF * w->largest_term))) break;
     const int32_t row = w->row_order[at], joint = w->column_order[column];
     w->row_order[at] = w->row_order[k];
     w->row_order[k] = row;
