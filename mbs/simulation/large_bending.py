@@ -11,47 +11,36 @@ has a frequency 42, 9.3 and 2.4 % too high.
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.common.frames import Frames
+from mbs.common.frames import FlexibleShapes, Frames
 
 Array = NDArray[np.float64]
 
 MAX_TURN = 0.04  # rad; largest rotation of a node in its floating frame
 END_ERROR = 0.25  # error at the end of the soft pendulum, relative to the turn times its length
-MAX_SHARE = 0.05  # axial forces as part of the buckling load, `AxialStiffening.share`
+MAX_SHARE = 0.05  # axial forces as part of the buckling load, `AxialStiffening.share`, root mean square
 
 
 class BendingWarning(UserWarning):
     """A flexible body is bent or loaded beyond the range of its linear modes."""
 
 
-@dataclass
-class Peak:
-    """Largest value of a number, with its time, s, and body."""
-
-    value: float = 0.0
-    time: float = 0.0
-    body: str = ""
-
-    def raise_to(self, value: float, time: float, body: str) -> None:
-        """Take a value that is larger."""
-        if value > self.value:
-            self.value, self.time, self.body = value, time, body
-
-
 class BendingWatch:
-    """Largest rotation of a node in its floating frame, and largest axial forces, among the observed states.
+    """Largest rotation of a node in its floating frame, and axial forces of each body, among the observed states.
 
-    `frames`: frames of the System; None or without flexible bodies: nothing is observed.
+    `frames`: frames of the System; None or without flexible bodies: nothing is observed. Axial forces count by their
+    mean square: a short peak changes little, a lasting force the frequencies.
     """
 
     def __init__(self, frames: Frames | None) -> None:
         self.frames = frames
-        self._turn, self._share = Peak(), Peak()
+        self.turn, self.time = 0.0, 0.0
+        self.body: FlexibleShapes | None = None
+        self._shares: dict[str, float] = {}  # sums of the squares by body
+        self._states = 0
         self._was_reported = False
 
     @property
@@ -63,31 +52,36 @@ class BendingWatch:
         """Observe a state: coordinates `q` (nq,) at time `t`, s."""
         if self.frames is None or not self.frames.flexible:
             return
+        self._states += 1
         full = self.frames.T @ q + self.frames.constant
         for body in self.frames.flexible:
             amplitudes = full[body.first : body.first + body.turns.shape[2]]
-            self._turn.raise_to(float(np.linalg.norm(body.turns @ amplitudes, axis=1).max()), t, body.name)
-            least = max(self._share.value, MAX_SHARE)
-            self._share.raise_to(body.axial.share(amplitudes, least), t, body.name)
+            turn = float(np.linalg.norm(body.turns @ amplitudes, axis=1).max())
+            if turn > self.turn:
+                self.turn, self.time, self.body = turn, t, body
+            square = body.axial.share(amplitudes, MAX_SHARE) ** 2
+            self._shares[body.name] = self._shares.get(body.name, 0.0) + square
 
     @property
     def message(self) -> str:
         """Text of the warning with a remedy if a body was bent or loaded too far, otherwise empty."""
-        turn, share, sentences = self._turn, self._share, []
-        if turn.value > MAX_TURN:
+        sentences = []
+        if self.body is not None and self.turn > MAX_TURN:
             sentences.append(
-                f"The flexible body {turn.body!r} bends by {turn.value:.2g} rad in its floating frame at "
-                f"t = {turn.time:.4g} s. Its modes are linear: they leave out its shortening and the stiffening by "
-                f"axial forces, so positions of its ends may be off by {END_ERROR * turn.value:.1%} of its length. "
-                f"Divide it into {int(np.ceil(turn.value / MAX_TURN))} or more bodies welded end to end."
+                f"The flexible body {self.body.name!r} bends by {self.turn:.2g} rad in its floating frame at "
+                f"t = {self.time:.4g} s. Its modes are linear: they leave out its shortening and the stiffening by "
+                f"axial forces, so positions of its ends may be off by {END_ERROR * self.turn:.1%} of its length. "
+                f"Divide it into {int(np.ceil(self.turn / MAX_TURN))} or more bodies welded end to end."
             )
-        if share.value > MAX_SHARE:
+        name = max(self._shares, key=self._shares.__getitem__, default="")
+        share = float(np.sqrt(self._shares[name] / self._states)) if name else 0.0
+        if share > MAX_SHARE:
             sentences.append(
-                f"The flexible body {share.body!r} carries axial forces of {share.value:.2g} times its buckling load "
-                f"(with its frame clamped) at t = {share.time:.4g} s. Its modes leave out that these stiffen or soften "
-                "it, so its bending stiffness is off by about that part, its frequencies by half of it, near buckling "
-                f"by more. Divide it into {int(np.ceil(np.sqrt(share.value / MAX_SHARE)))} or more bodies welded end "
-                "to end, each with its reference node in its middle."
+                f"The flexible body {name!r} carries axial forces of {share:.2g} times its buckling load with its "
+                "frame clamped (root mean square). Its modes leave out that these stiffen or soften it, so its bending "
+                "stiffness is off by about that part, its frequencies by half of it, near buckling by more. Divide it "
+                f"into {int(np.ceil(np.sqrt(share / MAX_SHARE)))} or more bodies welded end to end, each with its "
+                "reference node in its middle."
             )
         return " ".join(sentences)
 
