@@ -1,4 +1,4 @@
-"""Time of the calls of an FMU from a C program, without Python in the loop of a native one."""
+"""Time of FMU calls from a C program; Python runs only inside the FMU of the kind `python`."""
 
 import subprocess
 import sys

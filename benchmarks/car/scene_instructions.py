@@ -165,7 +165,8 @@ def compare_with_page(rows: Sequence[Row], page: str) -> list[str]:
         before = written.get((row["scene"], f"{row['step_ms']:g}"))
         if before is None:
             continue
-        quantity = "factorizations" if row["instructions"] is None else "instructions"
+        counted = row["instructions"] is not None and before["instructions"] != "–"
+        quantity = "instructions" if counted else "factorizations"
         ratio = row[quantity] / float(before[quantity].replace(",", ""))
         if ratio > MAX_RATIO:
             lines.append(

@@ -48,8 +48,8 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
 
     The double lane change is driven by the host's driver first, and its inputs are written too.
     """
-    interval, system = manoeuvres.sampling(name, car), manoeuvres.system_of(name, car)
-    replayed = name == manoeuvres.REPLAY
+    system, replayed = manoeuvres.system_of(name, car), name == manoeuvres.REPLAY
+    interval = manoeuvres.sampling(manoeuvres.CLOSED_LOOP if replayed else name, car)
     manoeuvre = manoeuvres.record_driver(car) if replayed else manoeuvres.load(name, car)
     fine = manoeuvres.run_on(system, manoeuvre, STEP, settings=TIGHT)
     every = round(interval / STEP)

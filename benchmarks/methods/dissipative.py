@@ -12,7 +12,8 @@ import numpy as np
 import mbs
 from benchmarks.car import fidelity_runs
 from benchmarks.methods.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TITLES, TREE_ONLY
-from benchmarks.references.assembly_defect import COMPONENTS, INTERVAL, reference
+from benchmarks.paper.assembly_defect import STEP
+from benchmarks.references.assembly_defect import COMPONENTS, reference
 from benchmarks.shared.pages import Row, table
 from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
 from mbs.vehicle.environment import GRAVITY
@@ -66,7 +67,7 @@ def run_beam(settings: mbs.Settings, h: float) -> CaseRun:
 
 def run_four_bar(settings: mbs.Settings, h: float) -> CaseRun:
     """Error of the moments in the coupler against geometrically exact beams, of the largest moment."""
-    t = _run("four-bar", assembly_defect_four_bar.DURATION, h, settings, INTERVAL)
+    t = _run("four-bar", assembly_defect_four_bar.DURATION, h, settings, STEP)
     expected = reference()
     gap = max(np.abs(t[f"coupler.{c}"] - expected[c]).max() for c in COMPONENTS)
     return float(gap / max(np.abs(expected[c]).max() for c in COMPONENTS)), t

@@ -142,7 +142,7 @@ def four_bar(elements, step):
     position = scene.mbs.AddSensor(
         SensorNode(nodeNumber=coupler[-1], outputVariableType=kind.Position, storeInternal=True)
     )
-    scene.solve(10.0, step, 0.02, 0.6)
+    scene.solve(10.0, step, 0.01, 0.6)
     left, right, c = (scene.mbs.GetSensorStoredData(k) for k in (*moments, position))
     # the middle is a node: mean of the elements on both sides
     return "t,T,My,Mz,C_x,C_y,C_z", np.column_stack([left[:, 0], (left[:, 1:] + right[:, 1:]) / 2, c[:, 1:]])

@@ -127,10 +127,10 @@ def _run_part(name: str, part: Part, options: Namespace) -> int:
     print(f"{_text_of(part, rows)}\n\n{conditions(meta)}")
     if part.chart is not None and options.chart is not None:
         part.chart(rows, options.chart)
+    faults = [] if part.check is None else part.check(rows, options)  # before a page is written that it reads
     if part.blocks is not None and options.write:
         title = options.part.replace("-", " ")
         write_blocks(part.pages, {**part.blocks(rows), f"machine {title}": machine(meta)})
-    faults = [] if part.check is None else part.check(rows, options)
     print("\n".join(faults), end="\n" if faults else "")
     return int(bool(faults))
 

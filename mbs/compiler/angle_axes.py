@@ -16,21 +16,21 @@ def check_angle_axes(model: Model) -> None:
     Such an angle stays as it is up to a quarter turn of the hinge, where its row vanishes, and is wrong beyond.
     """
     reference = model.drawn()
-    hinges = {
-        frozenset(map(id, joint.ends.bodies)): (joint.name, joint.ends.axis.value(reference))
+    hinges = [
+        (set(map(id, joint.ends.bodies)), joint.name, joint.ends.axis.value(reference))
         for joint in model.joints
         if joint.type in ("revolute", "cylindrical") and joint.ends is not None and joint.ends.axis is not None
-    }
+    ]
     for angle in model.joints:
         if angle.turn is None or angle.turn.axis is None:
             continue
-        name, hinge = hinges.get(frozenset(map(id, angle.turn.bodies)), ("", None))
         axis = direction(angle.turn.axis, 3, f"the axis of relative angle '{angle.name}'")
-        if hinge is not None and abs(axis @ hinge) < PERPENDICULAR * np.linalg.norm(hinge):
-            raise ModelError(
-                f"The relative angle '{angle.name}' is about {_text(axis)}, but joint '{name}' between its bodies "
-                f"turns about {_text(hinge)}, perpendicular to it; give the angle the axis of the joint."
-            )
+        for bodies, name, hinge in hinges:
+            if bodies == set(map(id, angle.turn.bodies)) and abs(axis @ hinge) < PERPENDICULAR * np.linalg.norm(hinge):
+                raise ModelError(
+                    f"The relative angle '{angle.name}' is about {_text(axis)}, but joint '{name}' between its bodies "
+                    f"turns about {_text(hinge)}, perpendicular to it; give the angle the axis of the joint."
+                )
 
 
 def _text(axis: np.ndarray) -> str:

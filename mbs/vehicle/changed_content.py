@@ -46,7 +46,7 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
 
 
 def value_at(data: Mapping[str, Any], path: str) -> Any:
-    """Value at a key path of the content of a car file. Raises `KeyError` if there is none."""
+    """Value at a key path of the content of a car file. Raises `KeyError` or `IndexError` if there is none."""
     value: Any = data
     for key in path.split("."):
         value = value[int(key)] if isinstance(value, list) else value[key]

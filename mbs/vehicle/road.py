@@ -19,7 +19,7 @@ from mbs.vehicle.tyres import Tyre
 
 DEFAULT_KERB_X = 2.0 * FARTHEST  # m, where no car can start
 KERB_HEIGHT = 0.08  # m, of the paper's test
-MAX_POINTS = 4e6  # of a file whose faces are checked
+MAX_CHECKED_POINTS = 4e6  # of a file whose faces are checked
 BUILT_IN = "of the built-in road, without effect on one from a file"
 
 
@@ -138,7 +138,7 @@ def warn_of_steep_face(road: Road | RoadOfFile, radius: float) -> None:
     Parameters
     ----------
     road : Road or RoadFile
-        Road of a car. A file of more than `MAX_POINTS` points is not checked: it was when it was made.
+        Road of a car. A file of more than `MAX_CHECKED_POINTS` points is not checked: it was when it was made.
     radius : float
         Radius of the largest wheel, m.
     """
@@ -146,7 +146,7 @@ def warn_of_steep_face(road: Road | RoadOfFile, radius: float) -> None:
     name: object = "The grid road"
     if isinstance(road, RoadFile):
         table = Path(road.path).suffix.lower() in TABLE_SUFFIXES
-        name, small = road.path, table or road.header.nx * road.header.ny <= MAX_POINTS
+        name, small = road.path, table or road.header.nx * road.header.ny <= MAX_CHECKED_POINTS
         grid = read_road(name) if small else None
     if isinstance(grid, GridRoad) and (warning := steep_face(grid, name, radius)):
-        warnings.warn(warning, RoadWarning, stacklevel=3)
+        warnings.warn(warning, RoadWarning, stacklevel=4)

@@ -10,6 +10,8 @@ from scipy.interpolate import PchipInterpolator
 
 from mbs import AccuracyWarning, Model, Settings, System, Trajectory, compile, simulate
 from mbs.elements import EndStops, SpringDamper, SpringDamperTable
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from tests.elements.harness import Array, Element, vectors
 
 SPRING = np.array(
@@ -132,6 +134,8 @@ def oscillator(damper: object = 0.0) -> Model:
 
 
 SPEED = 1.5  # m/s
+BARRIER = [(0.1, 0.0), (1.2, 0.0), (1.503, 0.0), (1.507, 280.0), (1.511, 0.0), (2.0, 0.0), (9.0, 0.0)]
+"""Rows of a table, m and N."""
 
 
 def slide(rows: object) -> System:
@@ -141,6 +145,7 @@ def slide(rows: object) -> System:
     m.prismatic("guide", m.ground, body, axis=(1.0, 0.0))
     m.initial_velocity(body, linear=(SPEED, 0.0), angular=0.0)
     m.add(SpringDamperTable(rows).record("spring", body.point((1.0, 0.0)) - m.ground.point((0.0, 0.0))))  # type: ignore[arg-type]
+    m.force("push", body, inputs=[m.input("push", min=-1.0, max=1.0), None])
     m.sense_position("x", body, component="x")
     return compile(m)
 
@@ -152,7 +157,7 @@ def slide(rows: object) -> System:
 def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method: str, energy: float) -> None:
     """8 mm wide, in steps of 15 mm; of so much of the energy of the motion: it is passed, or throws the body back."""
     peak = energy * SPEED**2 / 0.004
-    system = slide([(0.1, 0.0), (1.2, 0.0), (1.503, 0.0), (1.507, peak), (1.511, 0.0), (2.0, 0.0), (9.0, 0.0)])
+    system = slide([(x, force and peak) for x, force in BARRIER])
     exit_speed = SPEED * np.sqrt(1.0 - energy) if energy < 1.0 else -SPEED
 
     def error(run: Trajectory) -> float:
@@ -166,6 +171,29 @@ def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method: str, ener
     assert run.report.divisions >= 2
     assert run.report.abrupt_steps >= 2
     assert error(run) < 0.1 or any(w.category is AccuracyWarning for w in caught)
+
+
+@pytest.mark.parametrize(("limit", "divisions"), [(0, 2), (4, 0), (10, 2)])
+def test_parts_of_a_step_over_a_barrier_share_its_limit_of_iterations(limit: int, divisions: int) -> None:
+    instance = Instance(LoadedSystem(slide(BARRIER).to_bytes()))
+    instance.set_settings(step_iterations=limit)
+    instance.initialise()
+    iterations = [0]
+    for _ in range(60):
+        instance.run(0.01, 1)
+        iterations.append(instance.report()["iterations"])
+    assert (np.diff(iterations).max() <= limit) == (limit > 0)
+    assert instance.report()["divisions"] == divisions
+
+
+def test_a_jump_of_an_input_in_the_same_step_is_no_row_of_the_table() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AccuracyWarning)
+        run = simulate(
+            slide(BARRIER), 0.6, 0.01, {"push": ([0.0, 0.331, 0.331, 1.0], [0.0, 0.0, 1e-3, 1e-3])}, progress=False
+        )
+    assert run.report is not None
+    assert (run.report.divisions, run.report.abrupt_steps) == (3, 2)
 
 
 def test_a_bent_table_that_its_ends_tell_divides_no_step() -> None:

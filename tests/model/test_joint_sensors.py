@@ -203,6 +203,12 @@ def test_the_torque_of_a_drive_is_its_moment():
     assert (run["moment"] == run["force"]).all()
 
 
+def test_the_force_of_a_drive_of_a_travel_is_no_moment():
+    m = Model("driven")
+    m.drive("motor", m.travel("s"), m.guide_time("rise", RISE))
+    assert m.sense_joint("force", "motor", "drive").unit == "N"
+
+
 def multipliers(m, equilibrium=False):
     """By the name of their rows, as the model writes them, at the start or at rest."""
     system = compile(m)

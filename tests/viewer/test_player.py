@@ -206,7 +206,7 @@ def test_settings_and_signals_are_chosen_by_keys(opened: Callable[..., Opened]) 
     page.page.keyboard.press("Tab")  # the button that shows the list
     page.page.keyboard.press(" ")
     page.page.locator(".a3-find input").focus()
-    assert not page.page.locator(".a3-list").is_visible(), "the tabulator passes it"
+    assert not page.page.locator(".a3-list").is_visible(), "the Tab key passes it"
     page.page.keyboard.press("Tab")
     page.page.keyboard.press(" ")
     page.page.keyboard.press("Tab")

@@ -210,7 +210,7 @@ def test_axe_finds_nothing(shown: Any, colours: str) -> None:
 
 
 @pytest.mark.slow
-def test_the_tabulator_reaches_every_control(shown: Any) -> None:
+def test_the_tab_key_reaches_every_control(shown: Any) -> None:
     shown.evaluate(OPEN)
     count = shown.evaluate(f"() => {{ window.left = new Set(({SEEN})()); return left.size; }}")
     assert count > 5

@@ -341,13 +341,12 @@ static slave_status report_difference(slave *s) {
   const slave_variable *v = slave_the_table.variable + t->variable[worst];
   const double off = fabs(v->scale) * error * t->size[worst];
   s->error_warned = true;
-  const bool large = off >= 1e3; /* shown without an exponent */
+  const bool large = off >= 999.5; /* shown without an exponent */
   return slave_log(
       s, SLAVE_WARNING,
       "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
-      "%.*g%s, %.2g %% of "
-      "the largest %s in its unit at communication points. Run again with a step_size of %.2g s%s. This is reported "
-      "once.",
+      "%.*g%s, %.2g %% of the largest %s in its unit at communication points. Run again with a step_size of %.2g s%s. "
+      "This is reported once.",
       t->compared[worst].time, (double)t->parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
       large ? round(off) : off, v->unit, 100.0 * error, v->judged.kind & ALI3_JUDGED_LOAD ? "load" : "range",
       h / ceil(error / (t->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");

@@ -469,8 +469,6 @@ ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const 
 #define ALI3_RESOLVED 0.5 /* largest resolved fraction of missed changes of velocity, h w/2 of a vibration of w */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
 #define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
-/* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. Not exported. */
-ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty if there is none. */
 ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);
@@ -481,7 +479,7 @@ enum { /* report of the solver; the integer of sensors of type 13 */
        ALI3_SOLVER_RESIDUAL, /* m */
        ALI3_SOLVER_FACTORIZATIONS, /* since the start */
        ALI3_SOLVER_HALVINGS, /* since the start */
-       ALI3_SOLVER_STATUS, /* as ali3_run_status */
+       ALI3_SOLVER_STATUS, /* of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED */
        ALI3_SOLVER_ENERGY_ERROR, /* J, since the start */
        ALI3_SOLVER_ENERGY_BALANCE, /* the same relative to the motion, see ali3_energy_balance */
        ALI3_SOLVER_CAPPED, /* steps since the start that ended at settings.step_iterations, or stayed whole for it */

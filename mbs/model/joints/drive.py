@@ -81,6 +81,6 @@ def _drive(model: BodyVocabulary, name: str, driven: Coordinate | Affine | tuple
         raise ModelError(f"The {subject} drives something that cannot move: it depends on no coordinate.")
     row = Equation(name, "drive", linear=expression, guides=[GuideTerm(g, 1, linear=minus_one)])
     joint = Joint(name, "drive", [row], rows_weight=1.0)
-    if isinstance(driven, Coordinate) or guide.unit == "rad":
+    if (driven.unit if isinstance(driven, Coordinate) else guide.unit) == "rad":
         joint.force_unit = "N m"
     return joint

@@ -209,7 +209,7 @@ def _altered_values(paths: Sequence[str], correct: Correction, data: Data, remak
     """Values of the car without a mistake at key paths; None if it is not a car."""
     try:
         values = correct(*(value_at(data, path) for path in paths))
-    except (KeyError, TypeError):
+    except (LookupError, TypeError):
         return None  # the keys are missing
     altered_car = remake(changed_content(data, dict(zip(paths, values, strict=True)), "the car"))
     return None if altered_car is None else car_values(*altered_car)

@@ -89,11 +89,12 @@ double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1) {
   return mean;
 }
 
-static const double NEAR = 1e-6; /* of the way: a nearer point is at its end */
+static const double NEAR = 1e-6; /* of the way: a nearer point is at its start or end */
 
 /* Fraction of the way from x0 to x1 of the point that departs most from the cubic through both, if by too much;
- * otherwise 1. */
-static double find_departing_point(const ali3_cubic_table *t, double x0, double x1, double share, double least) {
+ * otherwise 1. `part`: what it is of the whole way. */
+static double find_departing_point(const ali3_cubic_table *t, double x0, double x1, double part, double share,
+                                   double least) {
   const double low = fmin(x0, x1), high = fmax(x0, x1), way = x1 - x0;
   const int32_t first = find_piece(t, low);
   int32_t last = first;
@@ -108,7 +109,8 @@ static double find_departing_point(const ali3_cubic_table *t, double x0, double 
     const double u = (t->x[k] - x0) / way, v = 1.0 - u;
     const double cubic = v * v * (y0 * (1.0 + 2.0 * u) + rise0 * u) + u * u * (y1 * (1.0 + 2.0 * v) - rise1 * v);
     const double departure = fabs(t->y[k] - cubic);
-    if (!(u > NEAR && v > NEAR && departure > most && departure > share * fmax(largest, fabs(t->y[k])))) continue;
+    if (!(part * u > NEAR && v > NEAR && departure > most && departure > share * fmax(largest, fabs(t->y[k]))))
+      continue;
     most = departure;
     fraction = u;
   }
@@ -118,7 +120,7 @@ static double find_departing_point(const ali3_cubic_table *t, double x0, double 
 double ali3_cubic_resolved(const ali3_cubic_table *t, double x0, double x1, double share, double least) {
   double resolved = 1.0;
   for (double part = 0.0; part < 1.0; resolved *= part)
-    part = find_departing_point(t, x0, x0 + resolved * (x1 - x0), share, least);
+    part = find_departing_point(t, x0, x0 + resolved * (x1 - x0), resolved, share, least);
   return resolved;
 }
 

@@ -1,5 +1,5 @@
-/* Two wheels that a drive turns against the frame that carries it. Signals: the spins of the left and of the right wheel,
- * whose rates are absolute about the axis f x g, then f and g, which are orthonormal on the frame. */
+/* Two wheels that a drive turns against the frame that carries it. Signals: the spins of the left and of the right
+ * wheel, whose rates are absolute about the axis f x g, then f and g, which are orthonormal on the frame. */
 #ifndef ALI3_DRIVEN_WHEELS_H
 #define ALI3_DRIVEN_WHEELS_H
 #include "../algebra/small_vectors.h"
@@ -17,8 +17,8 @@ static inline double ali3_wheel_rate(const ali3_element_args *a) {
   return 0.5 * (a->ud[0] + a->ud[1]) - ali3_frame_rate(a);
 }
 
-/* Applies a torque, N m, half of it to each wheel, and its reaction to the frame; slope: its derivative by the mean rate,
- * N m s/rad. The tangent is without the rotation of f, g within the step. */
+/* Applies a torque, N m, half of it to each wheel, and its reaction to the frame; slope: its derivative by the mean
+ * rate, N m s/rad. The tangent is without the rotation of f, g within the step. */
 static inline void ali3_drive_wheels(ali3_element_args *a, double torque, double slope) {
   double b[ALI3_DRIVEN_SIGNALS] = {0.5, 0.5}; /* the mean relative rate is b . ud */
   for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];

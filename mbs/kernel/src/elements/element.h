@@ -79,8 +79,9 @@ typedef struct ali3_element_type {
   /* Of the same springs: fraction of a step of size h at which the first stop with a kink is met or left, from the
    * outputs at the start and the end of the step; 1: none is. */
   double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);
-  /* Of springs by a table, whose outputs are length, force and rate: part of h, s, in which the length goes, by its rate,
-   * where the table is told by its values and slopes at both ends, to `share` of the largest force and of `largest`, N. */
+  /* Of springs by a table, whose outputs are length, force and rate: time, s, up to h, in which the length, going on by
+   * its rate, meets the first row that the cubic through values and slopes at both ends misses by more than `share` of
+   * the largest force and of `largest`, N. */
   double (*resolved_step)(const double *real, const int32_t *integer, const double *out, double h, double share,
                           double largest);
   bool conservative; /* a potential, or a force of inputs alone: composed steps of order four accept it */

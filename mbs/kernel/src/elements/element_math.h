@@ -15,7 +15,7 @@ static inline real ali3_input_or_zero(const real *input, int32_t index) {
   return index >= 0 ? input[index] : ali3_same(0.0);
 }
 
-/* A deflection or a rate that has decreased to less is set to 0, which avoids denormal numbers. */
+/* A deflection that has decreased to less is set to 0 with its rate, which avoids denormal numbers. */
 #define ALI3_NEGLIGIBLE 1e-100
 
 /* Weight of the new rate in x_new = x_old + h ((1 - theta) x'_old + theta x'_new) for x' = -rate x + ...: 1/2

@@ -1,6 +1,6 @@
 /* A spring k and a damper c in series with a slider of Coulomb friction, as of a brake. States: deflection z, z'.
  *
- * tau = k z + c z', z' = w while |tau| is below the bound, otherwise tau is at the bound and z' = (tau - k z)/c. With z = a
+ * tau = k z + c z', z' = w while |tau| is below the bound, else tau is at the bound and z' = (tau - k z)/c. With z = a
  * + h z'/2 (trapezoidal rule) and D = c + h k/2:
  *   tau = clamp(k a + D w), z' = (tau - k a)/D.
  * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and what sticks returns to its position: it does not creep. */
@@ -14,11 +14,11 @@ enum { ALI3_STICKS = 1, ALI3_SLIPS_UP = 2, ALI3_SLIPS_DOWN = 4 };
 
 typedef struct {
   real force; /* tau */
-  real slope; /* d tau/dw for the tangent: D, or, where it slips, at least the safe part of the secant */
+  real slope; /* d tau/dw for the tangent: D, or, where it slips, the safe part of the secant or 0 */
   truth sticks; /* it sticks, and there is a bound */
 } ali3_slider;
 
-/* Slope of a slider that slips: zero if the rate cannot return to sticking in this step. */
+/* Slope of a slider that slips: the safe part of the secant, zero if the rate cannot return to sticking in this step. */
 static inline real ali3_slip_slope(real D, real trial, real bound, real reach) {
   const real size = ali3_abs(trial), none = {0};
   const truth stays = (reach > 0.0) & (size - bound > D * reach);

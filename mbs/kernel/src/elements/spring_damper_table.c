@@ -103,8 +103,8 @@ static bool is_beyond_stop(const double *real, const double *out) {
 }
 
 /* The table of a damper does not fall: it hides nothing between two rates. */
-static double resolved_step(const double *real, const int32_t *integer, const double *out, double h, double share,
-                            double largest) {
+static double find_resolved_step(const double *real, const int32_t *integer, const double *out, double h, double share,
+                                 double largest) {
   const double stretch = out[0] - real[FREE_LENGTH], factor = real[STIFFNESS_FACTOR];
   if (integer[SPRING_POINTS] == 0 || factor == 0.0) return h;
   const ali3_cubic_table table = read_spring_table(real, integer);
@@ -142,5 +142,5 @@ const ali3_element_type ali3_spring_damper_table = {
     .first_force = 1,
     .n_forces = 1,
     .check = check,
-    .resolved_step = resolved_step,
+    .resolved_step = find_resolved_step,
 };

@@ -1,5 +1,5 @@
 /* Abrupt changes of forces of tyres, contacts and springs with end stops: the step is made in halves, so that a run and
- * its refinement divide the same intervals. */
+ * its refinement divide the same intervals; and the part of a step for which forces by table are resolved. */
 #include "abrupt_force.h"
 
 #include <math.h>
@@ -53,13 +53,18 @@ static double change_limit(const ali3_instance *in, double rate) {
   return fmin(rate * in->inputs.whole_length, ABRUPT);
 }
 
+/* Whether there is room to divide a step at an abrupt force, which counts as an abrupt step. */
+static bool divides_abruptly(ali3_instance *in, const ali3_request *request, int32_t iterations) {
+  if (!ali3_allows_division(in, request, iterations)) return false;
+  in->report.abrupt_steps++;
+  return true;
+}
+
 /* Whether a part is made in halves by report.change_rate; counted as an abrupt step, as its halves may have smaller
  * changes. */
 static bool divides(ali3_instance *in, const ali3_request *part, int32_t iterations) {
   if (!(may_divide(in, part->depth) && in->report.change_rate * part->h > 1.0)) return false;
-  if (!ali3_allows_division(in, part, iterations)) return false;
-  in->report.abrupt_steps++;
-  return true;
+  return divides_abruptly(in, part, iterations);
 }
 
 bool ali3_divides_ahead(ali3_instance *in, const ali3_request *request) { return divides(in, request, MIN_ITERATIONS); }
@@ -116,6 +121,10 @@ void ali3_abrupt_force(ali3_instance *in) {
   }
   if ((in->parting.changed < 0.0 ? step_change(in) : in->parting.changed) > ABRUPT * r->largest_force)
     r->abrupt_steps++;
+}
+
+bool ali3_divides_at_row(ali3_instance *in, const ali3_request *request) {
+  return divides_abruptly(in, request, MIN_ITERATIONS);
 }
 
 double ali3_tables_resolved_step(const ali3_instance *in, double h) {

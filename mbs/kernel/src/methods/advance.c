@@ -1,4 +1,5 @@
-/* A step by the method of the settings, in parts if it does not converge, a force changes abruptly or inputs jump. */
+/* A step by the method of the settings, in parts if it does not converge, a force changes abruptly, inputs jump or a row
+ * of a force by table departs from what the ends of the step tell. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -91,12 +92,11 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
   return ALI3_OK;
 }
 
-/* End of the next part of a step of h to time t: the next jump of an input or a guide, or the next point that a force
- * by a table hides within the step, otherwise t. `*guide`: time of the jump if it is one of a guide, otherwise
+/* End of the next part of a step of h to time t: the next jump of an input or a guide, or the point to which forces by
+ * table are resolved, `resolved` s from now, otherwise t. `*guide`: time of the jump if it is one of a guide, otherwise
  * infinity. */
-static double part_end(const ali3_instance *in, double t, double h, double *guide) {
-  const double tables = ali3_tables_resolved_step(in, h), near = AT_END * h,
-               inputs = ali3_inputs_until(in, tables < h ? fmin(t, in->clock.now + tables) : t);
+static double part_end(const ali3_instance *in, double t, double h, double resolved, double *guide) {
+  const double near = AT_END * h, inputs = ali3_inputs_until(in, resolved < h ? fmin(t, in->clock.now + resolved) : t);
   const double piece_end =
       in->system->size.ng > 0 ? ali3_guides_break(in, in->clock.now + near, inputs + near) : inputs + near;
   *guide = piece_end < inputs + near ? piece_end : HUGE_VAL;
@@ -105,28 +105,39 @@ static double part_end(const ali3_instance *in, double t, double h, double *guid
 
 bool ali3_is_divided(const ali3_instance *in, double t, double h) {
   double guide;
-  return part_end(in, t, h, &guide) < t || guide < HUGE_VAL;
+  return part_end(in, t, h, ali3_tables_resolved_step(in, h), &guide) < t || guide < HUGE_VAL;
 }
 
-ali3_status ali3_advance(ali3_instance *in, const ali3_request *request) {
-  const double t = request->t, h = request->h;
+/* Makes a step, or the rest of one, in parts. A part that ends at a row of a table shares the limit of iterations with
+ * those after it, others have one each. */
+static ali3_status advance_from(ali3_instance *in, const ali3_request *request) {
+  const double t = request->t, h = request->h, resolved = ali3_tables_resolved_step(in, h);
   double guide;
   ali3_request part = *request, rest = *request;
   ali3_events_begin(in, request->depth);
-  part.iterations_end = in->report.iterations + in->settings.step_iterations;
-  const double piece_end = part_end(in, t, h, &guide);
+  double piece_end = part_end(in, t, h, resolved, &guide);
+  bool at_row = resolved < h && piece_end < t && in->clock.now + resolved <= piece_end + AT_END * h;
+  if (at_row && !ali3_divides_at_row(in, request)) {
+    at_row = false;
+    piece_end = part_end(in, t, h, h, &guide);
+  }
   if (piece_end == t && guide == HUGE_VAL) return advance_part(in, &part);
   ali3_back_up(in);
-  if (piece_end < t) {
-    in->report.divisions++;
-    if (ali3_tables_resolved_step(in, h) < h) in->report.abrupt_steps++;
-  }
+  if (piece_end < t && !at_row) in->report.divisions++;
   part.t = fmin(piece_end, guide - ROUND_OFF * fabs(guide));
   if (piece_end < t) part.h = piece_end - in->clock.now;
+  if (at_row) part.iterations_end -= (request->iterations_end - in->report.iterations) / 2;
   if (guide < HUGE_VAL) part.reading = ALI3_READ_ALL; /* guide_jump needs all of the state before it */
   ali3_status status = advance_part(in, &part);
   if (status == ALI3_OK) status = guide < HUGE_VAL ? guide_jump(in, fmax(piece_end, guide)) : ALI3_OK;
   in->bound.iterations_before = in->report.iterations;
   rest.h = t - piece_end;
-  return status == ALI3_OK && piece_end < t ? ali3_advance(in, &rest) : status;
+  if (!at_row) rest.iterations_end = in->report.iterations + in->settings.step_iterations;
+  return status == ALI3_OK && piece_end < t ? advance_from(in, &rest) : status;
+}
+
+ali3_status ali3_advance(ali3_instance *in, const ali3_request *request) {
+  ali3_request step = *request;
+  step.iterations_end = in->report.iterations + in->settings.step_iterations;
+  return advance_from(in, &step);
 }

@@ -1,5 +1,4 @@
-/* Report of the solver: its clock, its report, and numbers of it that sensors of type 13 and the FMU
- * read. */
+/* Report of the solver: its clock, its report, and numbers of it that sensors of type 13 and the FMU read. */
 #include <float.h>
 #include <math.h>
 
@@ -9,8 +8,8 @@ double ali3_time(const ali3_instance *in) {
   return in != NULL ? in->clock.base + (double)in->clock.count * in->clock.h : 0.0;
 }
 
-ali3_status ali3_run_status(const ali3_report *report) {
-  if (report == NULL) return ALI3_BAD_ARGUMENT;
+/* Status of the last step, or that a good one followed a change of an assembly mode. */
+static ali3_status find_status(const ali3_report *report) {
   const ali3_status last = (ali3_status)report->last_status;
   return last == ALI3_OK && report->branch_changes > 0 ? ALI3_BRANCH_CHANGED : last;
 }
@@ -38,7 +37,7 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
   case ALI3_SOLVER_HALVINGS:
     return (double)r->halvings;
   case ALI3_SOLVER_STATUS:
-    return (double)ali3_run_status(r);
+    return (double)find_status(r);
   case ALI3_SOLVER_ENERGY_ERROR:
     return or_largest(r->energy_error);
   case ALI3_SOLVER_ENERGY_BALANCE:

@@ -44,7 +44,7 @@ class TubeGauge(Section):
     axial: around the whole tube, for tension; torsion: at 45 degrees around it, for twist."""
     fibre: Fibre = "top"
     """Fibre of the gauge: the one farthest up, down, to the left, right, front or rear of the car as drawn; or its
-    angle in degrees from the highest fibre (of a tube steeper than 18 degrees from upright: the foremost),
+    angle in degrees from the highest fibre (of a tube within 18 degrees of upright: the foremost),
     right-handed about the tube from its first to its last joint."""
 
     def faults(self) -> Iterator[str]:

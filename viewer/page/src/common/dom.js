@@ -57,8 +57,12 @@ export function select(data, title, options, action, value) {
   // In a closed list these keys would choose each option that they pass; on macOS they open it too.
   element.addEventListener("keydown", (event) => {
     if (!/^(Arrow|Page|Home|End)/.test(event.key) || !element.showPicker) return;
+    try {
+      element.showPicker();
+    } catch {
+      return; // the frame of a notebook refuses it; there the keys choose
+    }
     event.preventDefault();
-    element.showPicker();
   });
   return element;
 }

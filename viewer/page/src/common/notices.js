@@ -14,8 +14,8 @@ const wordsOf = (text) => text.replace(/[\d.]+/g, "");
 export class Notices {
   /** All notes. @type {string[]} */
   noted = [];
-  /** Gets the focus that the keyboard had moved into a state that ends. @type {HTMLElement | undefined} */
-  heir = undefined;
+  /** Gets the focus when the notice that has it is hidden. @type {HTMLElement | undefined} */
+  fallbackFocus = undefined;
 
   constructor() {
     styled(style);
@@ -42,7 +42,7 @@ export class Notices {
       this._flags.set(name, line);
       this._list.append(box);
     }
-    if (hasKeyboardFocus(line.box)) this.heir?.focus();
+    if (hasKeyboardFocus(line.box)) this.fallbackFocus?.focus();
     const same = wordsOf(line.text) === wordsOf(text);
     line.text = text;
     line.box.hidden = !text;

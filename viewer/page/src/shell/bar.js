@@ -25,7 +25,7 @@ export class Bar {
     for (const end of ["pointerup", "pointercancel", "change"]) this.slide.addEventListener(end, () => (this.held = false));
     this.slide.addEventListener("pointerdown", () => (this.held = true));
     this.slide.addEventListener("input", () => {
-      this._tell(this._seconds(Number(this.slide.value)));
+      this._showTime(this._seconds(Number(this.slide.value)));
       acts.seek(Number(this.slide.value));
     });
     this.slide.addEventListener("change", () => acts.seek(Number(this.slide.value), true));
@@ -43,6 +43,7 @@ export class Bar {
     const choices = [[size, steps], [place, places], [this.cameras, cameras]].filter(([, list]) => list.length > 1).map(([choice]) => choice); // prettier-ignore
     this.element = el("div.a3-bar", { data: "bar" }, group(...some(LEFT_BUTTONS)), this.slide, this.clock, group(this.rate), group(...choices, ...some(RIGHT_BUTTONS)));
     this.speed(1);
+    this._showTime(this._seconds(0));
     if (this.buttons.mute) this.sound(true);
   }
 
@@ -60,7 +61,7 @@ export class Bar {
   }
 
   /** Shows a time in words, which a screen reader reads at the slider too. @param {string} words */
-  _tell(words) {
+  _showTime(words) {
     write(this.clock, words);
     this.slide.setAttribute("aria-valuetext", words);
   }
@@ -103,7 +104,7 @@ export class Bar {
     if (activeElement !== this.rate) this.speed(speed);
     if (this.held) return;
     Object.assign(this.slide, { min: String(begin), max: String(Math.max(end, begin + 1e-6)), value: String(time) });
-    this._tell(grows ? this._seconds(time) : `${time.toFixed(this.digits)} / ${this._seconds(end)}`);
+    this._showTime(grows ? this._seconds(time) : `${time.toFixed(this.digits)} / ${this._seconds(end)}`);
     if (this.shown === running) return;
     this.shown = running;
     this._state("toggle", running, running ? "pause" : "play");

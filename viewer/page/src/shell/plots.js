@@ -31,7 +31,7 @@ export class Plots {
       placeholder: `search ${this.names.length} signals`,
       "aria-label": "search signals",
       oninput: () => (this.list.hidden ? this._open(true) : this._list()),
-      onclick: () => this._open(true), // not at each focus, since the tabulator would then stop at all signals
+      onclick: () => this._open(true), // not on focus: the Tab key would then stop at every signal
     });
     this.opener = el("button", { title: "show or hide the list of signals", onclick: () => this._open(this.list.hidden) }, "list");
     this.list = el("div.a3-list", { hidden: true });

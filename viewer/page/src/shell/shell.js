@@ -111,7 +111,7 @@ export class Shell {
     this.bar = new Bar(this.acts, { speeds: source.speeds, cameras: this.cameras, ...bar });
     if (this.cameraName) this.bar.camera(this.cameraName);
     this.foot.append(this.bar.element);
-    this.notices.heir = this.bar.buttons.toggle;
+    this.notices.fallbackFocus = this.bar.buttons.toggle;
     if (drive) this.touch(matchMedia("(pointer: coarse)").matches);
     this.settings = new Settings(this.foot, this, source);
     this.help = new Help(Object.keys(this.acts), drive !== undefined);
