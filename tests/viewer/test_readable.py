@@ -269,7 +269,7 @@ def test_arrows_open_a_list_and_choose_nothing_that_they_pass(shown: Any) -> Non
         shown.keyboard.press(key)
         names.append(shown.evaluate(f"{shell}.themeName"))
     assert names == ["auto", "auto", "auto", "dark"]
-    shown.evaluate(f"() => {{ {shell}.theme('auto'); {shell}.settings.toggle(false); }}")
+    shown.evaluate(f"() => {{ {shell}.theme('auto'); {shell}.settings.toggle(false); document.activeElement.blur(); }}")
 
 
 @pytest.mark.slow
