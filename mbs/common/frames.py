@@ -20,7 +20,7 @@ class AxialStiffening:
     bounds: Array
     """Shape (b,): largest eigenvalue of each stiffness, 1/N."""
 
-    def share(self, amplitudes: Array, least: float = 0.0) -> float:
+    def share(self, amplitudes: Array, least: float) -> float:
         """Largest part of the elastic stiffness of a deformation that the axial forces add or take.
 
         It is the axial force as a part of the buckling load of the body with its frame clamped: of a straight beam

@@ -19,8 +19,8 @@
  * that.
  *
  * Gears change only in `accept`, between steps, and the ratio then changes over RAMP seconds, so that the torque is
- * continuous; the time of a shift starts where the wheel rate crossed the shift speed within the step, independent of the
- * length of the step. */
+ * continuous; the time of a shift starts where the wheel rate crossed the shift speed within the step, independent of
+ * the length of the step. */
 #include "automatic_drive_fields.h"
 #include "driven_wheels.h"
 #include "element.h"

@@ -3,7 +3,8 @@
  * tau = k z + c z', z' = w while |tau| is below the bound, else tau is at the bound and z' = (tau - k z)/c. With z = a
  * + h z'/2 (trapezoidal rule) and D = c + h k/2:
  *   tau = clamp(k a + D w), z' = (tau - k a)/D.
- * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and what sticks returns to its position: it does not creep. */
+ * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and what sticks returns to its position: it does not
+ * creep. */
 #ifndef ALI3_SLIDER_H
 #define ALI3_SLIDER_H
 #include "element.h"
@@ -18,7 +19,8 @@ typedef struct {
   truth sticks; /* it sticks, and there is a bound */
 } ali3_slider;
 
-/* Slope of a slider that slips: the safe part of the secant, zero if the rate cannot return to sticking in this step. */
+/* Slope of a slider that slips: the safe part of the secant, zero if the rate cannot return to sticking in this
+ * step. */
 static inline real ali3_slip_slope(real D, real trial, real bound, real reach) {
   const real size = ali3_abs(trial), none = {0};
   const truth stays = (reach > 0.0) & (size - bound > D * reach);

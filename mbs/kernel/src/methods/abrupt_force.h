@@ -13,8 +13,8 @@ bool ali3_divides_ahead(ali3_instance *in, const ali3_request *request);
 bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_t iterations);
 /* Whether to repeat the step from in->now to in->next, whose outputs are evaluated, in halves. */
 bool ali3_divides(ali3_instance *in, const ali3_request *request);
-/* Whether a step ends at a row of a force by table. */
+/* Whether the limit of iterations leaves room to end a part of a step at a row of a force by table; counts it if so. */
 bool ali3_divides_at_row(ali3_instance *in, const ali3_request *request);
-/* Part of h from in->now, s, that goes to the first point of a force by a table that its ends would not tell. */
+/* Step from in->now, s, at most h, to the first row that a force by table at both ends of the step does not resolve. */
 double ali3_tables_resolved_step(const ali3_instance *in, double h);
 #endif

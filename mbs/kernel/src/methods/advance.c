@@ -1,5 +1,5 @@
-/* A step by the method of the settings, in parts if it does not converge, a force changes abruptly, inputs jump or a row
- * of a force by table departs from what the ends of the step tell. */
+/* A step by the method of the settings, in parts if it does not converge, a force changes abruptly, inputs jump, or the
+ * ends of the step do not resolve a force by table. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
