@@ -34,6 +34,7 @@ static real lane_atan2(real y, real x);
 #include "plane_and_kerb.c"
 #include "tmeasy.c"
 #include "tyre_bore.c"
+#include "tyre_carcass.c"
 #include "tyre_contact.c"
 
 #define evaluate spring_damper_law

@@ -1,61 +1,60 @@
-/* Tyre on a road with the Magic Formula: radial spring of a disc, steady forces of magic_formula.h, first-order carcass
- * deflections by the same equations at standstill, rolling, sliding and in the air.
+/* Tyre on a road with the Magic Formula: radial spring of a disc, steady forces of magic_formula.h, on the carcass of
+ * tyre_carcass.h.
  *
- * Signals and states are as in tyre.c. PRESSURE is the pressure divided by the nominal pressure, minus 1; ANGLE_RANGE
- * limits the tangent of the slip angle; the coefficients follow the numbers. The bore torque decreases to 0 at
- * ALI3_TYRE_ROLLS, above which the formula includes the moments about the normal.
+ * Signals, states and axes are as in tyre.c; the formula has the axes of its file, converted by signs. PRESSURE is the
+ * pressure divided by the nominal pressure, minus 1; ANGLE_RANGE limits the tangent of the slip angle; the coefficients
+ * follow the numbers. The bore torque decreases to 0 at ALI3_TYRE_ROLLS, above which the formula includes the moments
+ * about the normal.
  *
  * Slips are velocities divided by the speed of travel; below ALI3_TYRE_ROLLS the sliding speed is included in it, so
- * that the force of a wheel that slides sideways from rest is opposite to its slip velocity. The carcass follows, per
- * direction, F = F_steady(v) - g x' = c x + d x' with the secant slip damping g without shifts; in tyre.c F_steady = -g
- * v. Its relaxation length is g w/c. c depends on the load by the file; d is the damping of a standing tyre and
+ * that the force of a wheel that slides sideways from rest is opposite to its slip velocity. The carcass follows
+ * F = F_steady(v) - g x' with the secant slip damping g without shifts:
+ *   F = (D F_steady + g c a)/(g + D).
+ * Its relaxation length is g w/c. c depends on the load by the file; d is the damping of a standing tyre and
  * decreases with the square of the speed, so that it does not lengthen the relaxation. Shifts, camber thrust and
  * moments about the normal and about the direction of travel increase with the speed of travel up to ALI3_TYRE_ROLLS,
  * as a standing tyre is a spring. The lever of F about the axle is the effective radius, as in tyre.c.
  *
  * The tangent neglects the terms that tyre.c neglects, and the moments. */
+#include <stddef.h>
+
 #include "../algebra/elementary.h"
 #include "element.h"
 #include "element_math.h"
 #include "magic_formula.h"
 #include "magic_tyre_fields.h"
 #include "tyre_bore.h"
+#include "tyre_carcass.h"
 #include "tyre_contact.h"
 
 enum { COEFFICIENTS = MAGIC_TYRE_REALS };
 enum { SLIP, CAMBER, FORCE }; /* indices of the signs that convert ISO axes to axes of the file */
 enum { OVERTURNING = ALI3_TYRE_OUTPUTS, RESISTANCE };
 
+/* The steady force at a slip velocity, ISO axes of the road. */
 typedef struct {
-  double F[2], C[3], Mx, My, Mz; /* ISO axes of the road; C = -dF/dv as xx, xy, yy */
+  bool grips; /* by load and friction; otherwise the force is 0 */
+  ali3_magic_state state; /* of the formula */
+  ali3_magic_force at; /* forces, N, with derivatives J by the slip velocity, N s/m */
+  double g[2], g_by[2][2]; /* N s/m: secant slip damping without shifts; its derivatives by the velocity */
+} steady_force;
+
+/* The force of a patch on its wheel, ISO axes of the road. */
+typedef struct {
+  double F[2], C[3], Mx, My, Mz; /* N, N s/m, N m; C = -dF/dv as xx, xy, yy */
   double stiffness[2]; /* of the carcass, N/m */
 } reaction;
 
-/* Scales F, its derivatives and the safe part of the secant down to the ellipse of the peaks, or to the ellipse through
- * the steady force if it is larger. */
-static uint32_t limit_force(const double peak[2], const double steady[2], double F[2], double J[2][2], double safe[2]) {
-  const double demand = ali3_hypot(F[0] / peak[0], F[1] / peak[1]),
-               bound = fmax(ali3_hypot(steady[0] / peak[0], steady[1] / peak[1]), 1.0);
-  if (!(demand > bound)) return 0u;
-  const double factor = bound / demand;
-  for (int j = 0; j < 2; j++) {
-    double along = 0.0;
-    for (int i = 0; i < 2; i++) along += F[i] / (peak[i] * peak[i]) * J[i][j] / (demand * demand);
-    for (int i = 0; i < 2; i++) J[i][j] = factor * (J[i][j] - F[i] * along);
-    safe[j] *= factor;
-  }
-  for (int i = 0; i < 2; i++) F[i] *= factor;
-  return ALI3_TYRE_AT_LIMIT;
+/* Friction of the road relative to the friction of the measured tyre. */
+static double find_friction_ratio(const double *p, const ali3_tyre_patch *contact) {
+  return contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
 }
 
-/* Steady forces F in ISO axes at a slip velocity with derivatives by the velocity; g: secant damping, N s/m, with
- * derivatives g_by. */
-static ali3_magic_force find_steady_forces(ali3_element_args *a, const ali3_tyre_patch *contact,
-                                           const ali3_tyre_motion *m, double w, double inclination, double g[2],
-                                           double g_by[2][2], ali3_magic_state *state) {
-  const double *p = a->real, max_load = p[LARGEST_LOAD],
-               grip = contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
-  const ali3_magic_state s = *state = (ali3_magic_state){
+/* The operating point of the formula. */
+static ali3_magic_state make_state(const ali3_element_args *a, const ali3_tyre_patch *contact,
+                                   const ali3_tyre_motion *m, double inclination) {
+  const double *p = a->real, max_load = p[LARGEST_LOAD], grip = find_friction_ratio(p, contact);
+  return (ali3_magic_state){
       .c = p + COEFFICIENTS,
       .version = a->integer[VERSION],
       .combined = a->integer[COMBINATION],
@@ -71,136 +70,181 @@ static ali3_magic_force find_steady_forces(ali3_element_args *a, const ali3_tyre
       .speed = fabs(m->travel[0]),
       .slide = ali3_hypot(m->v[0], m->v[1]),
   };
-  if (s.load < contact->load) a->piece |= ALI3_TYRE_OVERLOADED;
-  if (s.camber != p[SIGN + CAMBER] * inclination) a->piece |= ALI3_TYRE_AT_RANGE << 2;
-  const double slip_sign[2] = {-1.0, p[SIGN + SLIP]}, force_sign[2] = {1.0, p[SIGN + FORCE]};
-  double slip[2], inside[2], slip_slope[2];
+}
+
+/* Longitudinal slip (0) or tangent of the slip angle (1) in axes of the file, within its range. */
+typedef struct {
+  double value, slope; /* slope by the slip velocity, s/m */
+  double inside; /* 1, or the fraction of the slip that is in the range: beyond it the force is constant */
+} limited_slip;
+
+static limited_slip find_slip(ali3_element_args *a, int direction, double velocity, double w) {
+  const double *p = a->real, sign = direction ? p[SIGN + SLIP] : -1.0, raw = sign * velocity / w;
+  const double *range = p + (direction ? ANGLE_RANGE : SLIP_RANGE), value = ali3_clamp(raw, range[0], range[1]);
+  if (value == raw) return (limited_slip){value, sign / w, 1.0};
+  a->piece |= (uint32_t)ALI3_TYRE_AT_RANGE << direction;
+  return (limited_slip){value, 0.0, value / raw};
+}
+
+/* The steady force at the slip velocity m->v and the speed of travel w, m/s. */
+static void find_steady_force(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m, double w,
+                              double inclination, steady_force *s) {
+  const double *p = a->real, force_sign[2] = {1.0, p[SIGN + FORCE]};
+  const limited_slip slip[2] = {find_slip(a, 0, m->v[0], w), find_slip(a, 1, m->v[1], w)};
+  ali3_magic_force *f = &s->at;
+  s->state = make_state(a, contact, m, inclination);
+  if (s->state.load < contact->load) a->piece |= ALI3_TYRE_OVERLOADED;
+  if (s->state.camber != p[SIGN + CAMBER] * inclination) a->piece |= ALI3_TYRE_AT_RANGE << 2;
+  ali3_magic_forces(&s->state, slip[0].value, slip[1].value, f);
   for (int i = 0; i < 2; i++) {
-    const double raw = slip_sign[i] * m->v[i] / w;
-    slip[i] = ali3_clamp(raw, p[(i ? ANGLE_RANGE : SLIP_RANGE)], p[(i ? ANGLE_RANGE : SLIP_RANGE) + 1]);
-    if (slip[i] != raw) a->piece |= (uint32_t)ALI3_TYRE_AT_RANGE << i;
-    inside[i] = slip[i] == raw ? 1.0 : slip[i] / raw; /* outside the range the force is constant */
-    slip_slope[i] = slip[i] == raw ? slip_sign[i] / w : 0.0;
-  }
-  ali3_magic_force f;
-  ali3_magic_forces(&s, slip[0], slip[1], &f);
-  for (int i = 0; i < 2; i++) {
-    g[i] = f.secant[i] * inside[i] / w;
-    f.F[i] *= force_sign[i];
+    s->g[i] = f->secant[i] * slip[i].inside / w;
+    f->F[i] *= force_sign[i];
     for (int j = 0; j < 2; j++) {
-      f.J[i][j] *= force_sign[i] * slip_slope[j];
-      g_by[i][j] = f.secant_slope[i][j] * slip_slope[j] * inside[i] / w;
+      f->J[i][j] *= force_sign[i] * slip[j].slope;
+      s->g_by[i][j] = f->secant_slope[i][j] * slip[j].slope * slip[i].inside / w;
     }
-    if (inside[i] < 1.0) g_by[i][i] -= g[i] / m->v[i];
+    if (slip[i].inside < 1.0) s->g_by[i][i] -= s->g[i] / m->v[i];
+  }
+}
+
+/* Forces of the carcass before they are limited, with derivatives. */
+static ali3_tyre_force solve_carcass(const ali3_element_args *a, const steady_force *s, double travel,
+                                     ali3_tyre_carcass *carcass) {
+  const double fast = travel / ALI3_TYRE_ROLLS;
+  ali3_tyre_force f;
+  for (int i = 0; i < 2; i++) {
+    const double c = s->at.carcass[i], d = c * a->real[SETTLING] / (1.0 + fast * fast), g = s->g[i];
+    ali3_tyre_carcass_at(a, i, c, d, g, carcass, &f);
+    const double D = carcass->D[i], sum = g + D, offset = carcass->offset[i], steady = s->at.F[i];
+    f.F[i] = D / sum * steady + g / sum * offset;
+    const double by_g = D / sum * ((offset - steady) / sum);
+    for (int j = 0; j < 2; j++) f.J[i][j] = D / sum * s->at.J[i][j] + by_g * s->g_by[i][j];
   }
   return f;
 }
 
-/* One step of the carcass: forces, new states and damping matrix (symmetric part, not below the safe part of the
- * secant). */
+/* Scales the force down to the ellipse of the peaks, or to the ellipse through the steady force if it is larger. */
+static void limit_force(ali3_element_args *a, const ali3_magic_force *steady, ali3_tyre_force *f) {
+  const double *peak = steady->peak, *F = f->F, demand = ali3_hypot(F[0] / peak[0], F[1] / peak[1]),
+               bound = fmax(ali3_hypot(steady->F[0] / peak[0], steady->F[1] / peak[1]), 1.0);
+  if (!(demand > bound)) return;
+  const double factor = bound / demand;
+  a->piece |= ALI3_TYRE_AT_LIMIT;
+  for (int j = 0; j < 2; j++) {
+    double along = 0.0;
+    for (int i = 0; i < 2; i++) along += F[i] / (peak[i] * peak[i]) * f->J[i][j] / (demand * demand);
+    for (int i = 0; i < 2; i++) f->J[i][j] = factor * (f->J[i][j] - F[i] * along);
+    f->safe[j] *= factor;
+  }
+  for (int i = 0; i < 2; i++) f->F[i] *= factor;
+}
+
+/* Steps the bore torque, which shares the friction of the patch with the horizontal force. */
+static void step_bore(ali3_element_args *a, const steady_force *s, const ali3_tyre_motion *m, ali3_tyre_bore *bore,
+                      ali3_tyre_force *f) {
+  const double *peak = s->at.peak;
+  const ali3_tyre_horizontal_force by = {.slope = s->at.cornering * (1.0 - ali3_tyre_moving(fabs(m->travel[0]))),
+                                         .most = s->grips ? peak[1] : 0.0,
+                                         .transport = ali3_hypot(m->travel[0], ALI3_TYRE_SLOW),
+                                         .slip = ali3_hypot(m->v[0], m->v[1]),
+                                         .force = ali3_hypot(f->F[0], f->F[1]),
+                                         .steady = ali3_hypot(s->at.F[0], s->at.F[1]),
+                                         .use = fmin(ali3_hypot(f->F[0] / peak[0], f->F[1] / peak[1]), 1.0)};
+  ali3_tyre_bore_step(a, bore, &by, f);
+}
+
+/* Moments of the formula at the forces of the carcass. */
+static void write_moments(const double *p, steady_force *s, reaction *r) {
+  const double acting[2] = {r->F[0], p[SIGN + FORCE] * r->F[1]}; /* axes of the file */
+  s->at.F[1] *= p[SIGN + FORCE];
+  ali3_magic_moments(&s->state, acting, &s->at);
+  r->Mx = p[SIGN + CAMBER] * s->at.Mx, r->My = s->at.My, r->Mz = p[SIGN + FORCE] * s->at.Mz;
+}
+
+/* One step of the carcass: forces, moments, damping matrix and new states; bore: NULL, or the bore torque to step. */
 static reaction step_carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
                              double inclination, ali3_tyre_bore *bore) {
-  const double *p = a->real, fast = m->travel[0] / ALI3_TYRE_ROLLS;
+  const double *p = a->real;
   const double sliding_at_rest = (1.0 - ali3_tyre_moving(fabs(m->travel[0]))) * ali3_hypot(m->v[0], m->v[1]);
   const double w = ali3_hypot(ali3_hypot(m->travel[0], ALI3_TYRE_SLOW), sliding_at_rest);
-  const double grip = contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
-  const bool grips = contact->load > ALI3_TYRE_NO_LOAD && grip > ALI3_TYRE_NO_GRIP;
-  double g[2] = {0}, g_by[2][2] = {{0}}, J[2][2], safe[2], offset[2], D[2], d[2];
-  ali3_magic_force f = {.peak = {1.0, 1.0}, .carcass = {p[STIFFNESS], p[STIFFNESS]}};
-  ali3_magic_state s;
-  if (grips) f = find_steady_forces(a, contact, m, w, inclination, g, g_by, &s);
-  reaction r = {.stiffness = {f.carcass[0], f.carcass[1]}};
-  for (int i = 0; i < 2; i++) {
-    const double c = f.carcass[i];
-    d[i] = c * p[SETTLING] / (1.0 + fast * fast);
-    const double theta = ali3_theta(a->h, c / (d[i] + g[i])), b = a->h * theta;
-    offset[i] = c * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
-    D[i] = d[i] + b * c;
-    safe[i] = ALI3_SECANT_FRACTION * D[i] * (g[i] / (g[i] + D[i]));
-    r.F[i] = D[i] / (g[i] + D[i]) * f.F[i] + g[i] / (g[i] + D[i]) * offset[i];
-    const double by_g = D[i] / (g[i] + D[i]) * ((offset[i] - f.F[i]) / (g[i] + D[i]));
-    for (int j = 0; j < 2; j++) J[i][j] = D[i] / (g[i] + D[i]) * f.J[i][j] + by_g * g_by[i][j];
-  }
-  if (grips) a->piece |= limit_force(f.peak, f.F, r.F, J, safe);
-  if (bore) {
-    const ali3_tyre_horizontal_force friction = {.slope = f.cornering * (1.0 - ali3_tyre_moving(fabs(m->travel[0]))),
-                                                 .most = grips ? f.peak[1] : 0.0,
-                                                 .transport = ali3_hypot(m->travel[0], ALI3_TYRE_SLOW),
-                                                 .slip = ali3_hypot(m->v[0], m->v[1]),
-                                                 .force = ali3_hypot(r.F[0], r.F[1]),
-                                                 .steady = ali3_hypot(f.F[0], f.F[1]),
-                                                 .use = fmin(ali3_hypot(r.F[0] / f.peak[0], r.F[1] / f.peak[1]), 1.0)};
-    const double remaining = ali3_tyre_bore_step(a, bore, &friction);
-    for (int i = 0; i < 2; i++) {
-      r.F[i] *= remaining;
-      safe[i] *= remaining;
-      for (int j = 0; j < 2; j++) J[i][j] *= remaining;
-    }
-  }
-  if (grips) {
-    const double acting[2] = {r.F[0], p[SIGN + FORCE] * r.F[1]};
-    f.F[1] *= p[SIGN + FORCE];
-    ali3_magic_moments(&s, acting, &f);
-    r.Mx = p[SIGN + CAMBER] * f.Mx, r.My = f.My, r.Mz = p[SIGN + FORCE] * f.Mz;
-  }
-  const ali3_tyre_carcass deflected = {.stiffness = {f.carcass[0], f.carcass[1]},
-                                       .damping = {d[0], d[1]},
-                                       .offset = {offset[0], offset[1]},
-                                       .D = {D[0], D[1]}};
-  ali3_tyre_deflect(a, &deflected, r.F);
-  ali3_tyre_damping(J, safe, r.C);
+  steady_force s = {.grips = contact->load > ALI3_TYRE_NO_LOAD && find_friction_ratio(p, contact) > ALI3_TYRE_NO_GRIP,
+                    .at = {.peak = {1.0, 1.0}, .carcass = {p[STIFFNESS], p[STIFFNESS]}}};
+  ali3_tyre_carcass carcass;
+  if (s.grips) find_steady_force(a, contact, m, w, inclination, &s);
+  ali3_tyre_force f = solve_carcass(a, &s, m->travel[0], &carcass);
+  if (s.grips) limit_force(a, &s.at, &f);
+  if (bore) step_bore(a, &s, m, bore, &f);
+  reaction r = {.F = {f.F[0], f.F[1]}, .stiffness = {carcass.stiffness[0], carcass.stiffness[1]}};
+  if (s.grips) write_moments(p, &s, &r);
+  ali3_tyre_deflect(a, &carcass, f.F);
+  ali3_tyre_damping(&f, r.C);
   return r;
 }
 
-static void evaluate(ali3_element_args *a) {
-  const double *p = a->real, *c = p + COEFFICIENTS, omega = a->ud[6];
-  const double fast = fabs(omega) * p[RADIUS] / c[ALI3_MF_LONGVL];
+/* Radial spring at the spin omega, rad/s, after Besselink et al. (magic_formula.h): radius and stiffness increase with
+ * the speed, the stiffness also by the factor `inflated` of the pressure. */
+static ali3_tyre_spring make_spring(const double *p, double omega, double inflated) {
+  const double *c = p + COEFFICIENTS, fast = fabs(omega) * p[RADIUS] / c[ALI3_MF_LONGVL];
   const double radius = p[RADIUS] * (c[ALI3_MF_Q_RE0] + c[ALI3_MF_Q_V1] * fast * fast);
-  const double inflated = 1.0 + c[ALI3_MF_PFZ1] * p[PRESSURE], harder = (1.0 + c[ALI3_MF_Q_V2] * fast) * inflated;
-  const ali3_tyre_spring spring = {radius,     p[BOTTOMING_RADIUS],   harder * p[STIFFNESS], harder * p[PROGRESSION],
-                                   p[DAMPING], p[BOTTOMING_STIFFNESS]};
-  double e[3], twist[3];
+  const double harder = (1.0 + c[ALI3_MF_Q_V2] * fast) * inflated;
+  return (ali3_tyre_spring){radius,     p[BOTTOMING_RADIUS],   harder * p[STIFFNESS], harder * p[PROGRESSION],
+                            p[DAMPING], p[BOTTOMING_STIFFNESS]};
+}
+
+/* Effective rolling radius, m, at a deflection, m. */
+static double find_effective_radius(const double *p, const ali3_tyre_spring *spring, double inflated,
+                                    double deflection) {
+  const ali3_magic_state formula = {.c = p + COEFFICIENTS, .nominal_load = p[NOMINAL_LOAD]};
+  const double nominal_stiffness =
+                   inflated * sqrt(p[STIFFNESS] * p[STIFFNESS] + 4.0 * p[PROGRESSION] * p[NOMINAL_LOAD]),
+               stiffness = spring->stiffness + spring->progression * deflection;
+  return ali3_magic_rolling_radius(&formula, spring->radius, nominal_stiffness, deflection,
+                                   stiffness / nominal_stiffness);
+}
+
+/* Adds the moments about the road's normal and forward, and the rolling resistance, which fades with the spin by
+ * tanh(omega); bore: NULL, or the bore torque, whose tangent is added. */
+static void add_moments(ali3_element_args *a, const double n[3], const double forward[3], const double e[3],
+                        const reaction *r, double roll, const ali3_tyre_bore *bore) {
+  double moment[3], twist[3];
+  for (int i = 0; i < 3; i++) moment[i] = r->Mz * n[i] + r->Mx * forward[i];
+  ali3_cross(moment, e, twist);
+  for (int i = 0; i < 3; i++) a->f[3 + i] += twist[i];
+  a->f[6] += ali3_dot(moment, e) - r->My * roll;
+  if (!a->S) return;
+  if (bore) ali3_add_outer(a->S, 7, a->wC * bore->C, bore->row);
+  a->S[6 * 7 + 6] += a->wC * r->My * (1.0 - roll * roll);
+}
+
+static void evaluate(ali3_element_args *a) {
+  const double *p = a->real, omega = a->ud[6], inflated = 1.0 + p[COEFFICIENTS + ALI3_MF_PFZ1] * p[PRESSURE];
+  const ali3_tyre_spring spring = make_spring(p, omega, inflated);
+  double e[3];
   a->potential = 0.0;
   ali3_tyre_axis(a->u + 3, e);
   const ali3_tyre_patch contact = ali3_tyre_radial(a, e, &spring);
   ali3_tyre_motion m = ali3_tyre_axes(&contact, e);
-  const double *n = contact.normal, deflection = m.loaded < radius ? radius - m.loaded : 0.0;
-  const ali3_magic_state formula = {.c = c, .nominal_load = p[NOMINAL_LOAD]};
-  const double nominal_stiffness =
-                   inflated * sqrt(p[STIFFNESS] * p[STIFFNESS] + 4.0 * p[PROGRESSION] * p[NOMINAL_LOAD]),
-               stiffness = spring.stiffness + spring.progression * deflection;
-  const double effective =
-      ali3_magic_rolling_radius(&formula, radius, nominal_stiffness, deflection, stiffness / nominal_stiffness);
+  const double *n = contact.normal, deflection = m.loaded < spring.radius ? spring.radius - m.loaded : 0.0;
+  const double effective = find_effective_radius(p, &spring, inflated, deflection);
   const double ratio =
       m.loaded > 1e-6 ? 1.0 + ali3_tyre_moving(effective * fabs(omega)) * (effective / m.loaded - 1.0) : 1.0;
   ali3_tyre_velocities(a, &contact, e, ratio, &m);
-  const double inclination = ali3_atan2(ali3_dot(e, n), m.upright);
-  const bool has_bore = a->nint > WITH_BORE;
-  ali3_tyre_bore bore;
-  if (has_bore) bore = ali3_tyre_bore_at(a, p + BORE, n, e, 2.0 * sqrt(radius * deflection));
-  reaction r = step_carcass(a, &contact, &m, inclination, has_bore ? &bore : 0);
-  if (has_bore) {
-    r.Mz += bore.moment;
-    a->potential += 0.5 * p[BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];
+
+  ali3_tyre_bore twist, *bore = NULL;
+  if (a->nint > WITH_BORE) {
+    twist = ali3_tyre_bore_at(a, p + BORE, n, e, 2.0 * sqrt(spring.radius * deflection));
+    bore = &twist;
+  }
+  reaction r = step_carcass(a, &contact, &m, ali3_atan2(ali3_dot(e, n), m.upright), bore);
+  if (bore) {
+    r.Mz += bore->moment;
+    a->potential += ali3_tyre_bore_energy(a, bore);
   }
   for (int i = 0; i < 2; i++) a->potential += 0.5 * r.stiffness[i] * a->y_new[i] * a->y_new[i];
-  for (int k = 0; k < 7; k++) a->f[k] += r.F[0] * m.row[0][k] + r.F[1] * m.row[1][k];
-
+  ali3_tyre_add_force(a, &m, r.F, r.C);
   const double roll = ali3_tanh(omega);
-  double moment[3];
-  for (int i = 0; i < 3; i++) moment[i] = r.Mz * n[i] + r.Mx * m.forward[i];
-  ali3_cross(moment, e, twist);
-  for (int i = 0; i < 3; i++) a->f[3 + i] += twist[i];
-  a->f[6] += ali3_dot(moment, e) - r.My * roll;
-
-  if (a->S) {
-    ali3_add_outer(a->S, 7, a->wC * r.C[0], m.row[0]);
-    ali3_add_symmetric(a->S, 7, 2.0 * a->wC * r.C[1], m.row[0], m.row[1]);
-    ali3_add_outer(a->S, 7, a->wC * r.C[2], m.row[1]);
-    if (has_bore) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
-    a->S[6 * 7 + 6] += a->wC * r.My * (1.0 - roll * roll);
-  }
-  ali3_tyre_outputs(a, &contact, e, &m, radius, ratio, r.F, r.Mz, -r.My * roll);
+  add_moments(a, n, m.forward, e, &r, roll, bore);
+  ali3_tyre_outputs(a, &contact, e, &m, spring.radius, ratio, r.F, r.Mz, -r.My * roll);
   a->out[OVERTURNING] = r.Mx;
   a->out[RESISTANCE] = -r.My * roll;
 }

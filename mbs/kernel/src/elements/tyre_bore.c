@@ -13,18 +13,19 @@ ali3_tyre_bore ali3_tyre_bore_at(const ali3_element_args *a, const real *numbers
   return b;
 }
 
-real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_horizontal_force *by) {
-  const real c = b->numbers[ALI3_BORE_STIFFNESS], d = b->numbers[ALI3_BORE_DAMPING], none = {0}, one = ali3_same(1.0);
+/* Secant damping g of the rotation over R^2, N s/m; `by`: horizontal force. */
+static real find_bore_damping(const ali3_tyre_horizontal_force *by) {
+  const real none = {0};
   const truth grips = by->most > 0.0, sticks = by->force < by->steady;
-  const real share = ali3_where(sticks, by->force / by->steady, one), share2 = share * share;
-  const real g = ali3_where(
-      grips, by->slope * by->most / (by->transport * by->most + by->slip * share2 * share2 * by->slope), none);
-  const real *old = a->y_old + ALI3_BORE_STATES, damping = b->lever * b->lever * g, max_torque = b->lever * by->most,
-             use = by->use;
-  const real theta = ali3_theta(a->h, c / (d + damping)), offset = c * (old[0] + a->h * (1.0 - theta) * old[1]);
-  const real D = d + a->h * theta * c, fraction = damping / (damping + D);
-  b->moment = fraction * (offset - D * b->rate);
-  b->C = fraction * D;
+  const real share = ali3_where(sticks, by->force / by->steady, ali3_same(1.0)), share2 = share * share;
+  return ali3_where(grips, by->slope * by->most / (by->transport * by->most + by->slip * share2 * share2 * by->slope),
+                    none);
+}
+
+/* Scales moment and derivative to the friction that force and moment share; returns the factor on the force. */
+static real share_friction(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_horizontal_force *by) {
+  const real none = {0}, one = ali3_same(1.0), max_torque = b->lever * by->most, use = by->use;
+  const truth grips = by->most > 0.0;
   const real torque_share = ali3_where(grips, b->moment / max_torque, none),
              demand = ali3_sqrt(use * use + torque_share * torque_share);
   const truth slides = grips & (demand > 1.0);
@@ -35,12 +36,33 @@ real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyr
   b->C *= remaining * ali3_where(slides & (factor < ALI3_SECANT_FRACTION), ali3_same(ALI3_SECANT_FRACTION),
                                  ali3_where(slides, factor, one));
   b->moment *= remaining;
+  return remaining;
+}
+
+void ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_horizontal_force *by,
+                         ali3_tyre_force *force) {
+  const real c = b->numbers[ALI3_BORE_STIFFNESS], d = b->numbers[ALI3_BORE_DAMPING], none = {0};
+  const real *old = a->y_old + ALI3_BORE_STATES, damping = b->lever * b->lever * find_bore_damping(by);
+  const real theta = ali3_theta(a->h, c / (d + damping)), offset = c * (old[0] + a->h * (1.0 - theta) * old[1]);
+  const real D = d + a->h * theta * c, fraction = damping / (damping + D);
+  b->moment = fraction * (offset - D * b->rate);
+  b->C = fraction * D;
+  const real remaining = share_friction(a, b, by);
+  for (int i = 0; i < 2; i++) {
+    force->F[i] *= remaining;
+    force->safe[i] *= remaining;
+    for (int j = 0; j < 2; j++) force->J[i][j] *= remaining;
+  }
   real *new = a->y_new + ALI3_BORE_STATES;
   new[0] = old[0];
   new[1] = (b->moment - offset) / D;
-  if (!(a->h > 0.0)) return remaining;
+  if (!(a->h > 0.0)) return;
   new[0] = (b->moment - d * new[1]) / c;
   const truth negligible = ali3_abs(new[0]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
   for (int i = 0; i < 2; i++) new[i] = ali3_where(negligible, none, new[i]);
-  return remaining;
+}
+
+real ali3_tyre_bore_energy(const ali3_element_args *a, const ali3_tyre_bore *b) {
+  const real twist = a->y_new[ALI3_BORE_STATES];
+  return 0.5 * b->numbers[ALI3_BORE_STIFFNESS] * twist * twist;
 }

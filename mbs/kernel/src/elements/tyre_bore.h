@@ -5,7 +5,8 @@
  * circle of radius (L/2 + B/2)/2 under uniform pressure, on which friction F has the moment R F with R = 2/3 of that
  * radius. A rotation at w_n slides the patch at R w_n: T_steady = -g R^2 w_n with 1/g = w/K + s/F_y max, of cornering
  * stiffness K at the transport speed w and of a patch that already slides at s. The carcass psi follows psi'(d + g R^2)
- * = -c psi - g R^2 w_n, T = c psi + d psi', integrated as in tyre.c, so that T (w_n + psi') <= 0. Force and moment
+ * = -c psi - g R^2 w_n, T = c psi + d psi', integrated as in
+ * tyre_carcass.h, so that T (w_n + psi') <= 0. Force and moment
  * share friction: (utilisation by F)^2 + (T/(R F_y max))^2 <= 1, otherwise both are scaled by the same factor. So a
  * tyre loses longitudinal and lateral grip while its wheel is steered at standstill.
  *
@@ -16,6 +17,7 @@
 #ifndef ALI3_TYRE_BORE_H
 #define ALI3_TYRE_BORE_H
 #include "element.h"
+#include "tyre_carcass.h"
 
 enum { ALI3_BORE_STATES = 4 }; /* index of the first of its two states */
 enum { ALI3_BORE_WIDTH, ALI3_BORE_STIFFNESS, ALI3_BORE_DAMPING };
@@ -31,13 +33,18 @@ typedef struct {
 ALI3_PER_WIDTH ali3_tyre_bore ali3_tyre_bore_at(const ali3_element_args *a, const real *numbers, const real normal[3],
                                                 const real e[3], real length);
 
-typedef struct { /* horizontal force that acts with the moment */
+/* Horizontal force that acts with the moment. */
+typedef struct {
   real slope, most; /* cornering stiffness and largest lateral force, N */
   real transport, slip; /* m/s */
   real force, steady; /* magnitudes of the force and of the steady force at this slip, N */
   real use; /* utilisation of friction by the force, 0 to 1 */
 } ali3_tyre_horizontal_force;
 
-/* One step: moment and new states. Returns the factor on the horizontal force by the shared friction. */
-ALI3_PER_WIDTH real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_horizontal_force *by);
+/* One step: moment and new states; scales the horizontal force and its derivatives by the shared friction. */
+ALI3_PER_WIDTH void ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_horizontal_force *by,
+                                        ali3_tyre_force *force);
+
+/* Energy of its spring at the end of the step, J. */
+ALI3_PER_WIDTH real ali3_tyre_bore_energy(const ali3_element_args *a, const ali3_tyre_bore *b);
 #endif

@@ -80,57 +80,77 @@ static void add_to_patch(ali3_tyre_patch *mean, const ali3_contact *c, const rea
   mean->load = ali3_where(presses, total, mean->load);
 }
 
+/* The patch of one contact and minus the gradient of its depth by the signals of the tyre. */
+typedef struct {
+  real rho[3], b[7]; /* m; m per unit of a signal */
+  truth hub_reached; /* the road is nearer to the wheel's centre than the patch may be */
+} contact_place;
+
+static contact_place find_place(const ali3_contact *c, const real e[3], real radius) {
+  const real hub = ALI3_TYRE_HUB * radius, loaded = radius - c->penetration, lean = ali3_dot(e, c->normal);
+  contact_place at = {.hub_reached = loaded < hub};
+  for (int i = 0; i < 3; i++) {
+    at.rho[i] = loaded * c->down[i];
+    at.b[i] = c->normal[i] / c->cosine;
+    at.b[3 + i] = -lean * at.rho[i] / c->cosine * c->leaning;
+    at.rho[i] = ali3_where(at.hub_reached, hub * c->down[i], at.rho[i]);
+  }
+  return at;
+}
+
+/* Makes a contact the nearest one of the patch if it is deeper than *deepest, m. */
+static void update_nearest(ali3_tyre_patch *mean, const ali3_contact *c, const contact_place *at, real *deepest) {
+  const real depth = c->penetration;
+  const truth deeper = depth > *deepest;
+  *deepest = ali3_where(deeper, depth, *deepest);
+  mean->beyond = ali3_where(at->hub_reached & (depth > mean->beyond), depth, mean->beyond);
+  for (int i = 0; i < 3; i++) {
+    mean->near_normal[i] = ali3_where(deeper, c->normal[i], mean->near_normal[i]);
+    mean->near_rho[i] = ali3_where(deeper, at->rho[i], mean->near_rho[i]);
+  }
+}
+
+/* Adds the bits of the smooth piece of the law at contact k. */
+static void add_pieces(ali3_element_args *a, int k, const radial_law *law, truth touches, truth presses) {
+  const int32_t shift = ALI3_TYRE_CONTACT_BITS * k;
+  ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << shift);
+  ALI3_PIECE(&a->piece, touches & (law->bottoming_depth > 0.0), ALI3_TYRE_BOTTOMS << shift);
+  ALI3_PIECE(&a->piece, touches & ali3_not(law->ramp < 1.0), ALI3_TYRE_FULLY << shift);
+  ALI3_PIECE(&a->piece, presses, ALI3_TYRE_PRESSES << shift);
+}
+
 ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *spring) {
   ali3_contact contact[2];
   const real none = {0};
   ali3_tyre_patch mean = {.load = none, .beyond = none};
-  const real hub = ALI3_TYRE_HUB * spring->radius;
-  real deepest = ali3_same(-INFINITY), difference[7], switching = none;
-  for (int i = 0; i < 7; i++) difference[i] = none;
+  real deepest = ali3_same(-INFINITY), difference[7] = {0}, switching = none; /* of the gradients of both contacts */
   const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, spring->radius, contact);
   for (int k = 0; k < count; k++) {
     const ali3_contact *c = &contact[k];
-    const real depth = c->penetration, radius = spring->radius - depth, lean = ali3_dot(e, c->normal);
-    const truth touches = depth > 0.0, deeper = depth > deepest;
-    const truth hub_reached = radius < hub;
-    real rho[3], b[7], rate = none;
-    for (int i = 0; i < 3; i++) {
-      rho[i] = radius * c->down[i];
-      b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth by the signals */
-      b[3 + i] = -lean * rho[i] / c->cosine * c->leaning;
-      rho[i] = ali3_where(hub_reached, hub * c->down[i], rho[i]);
-    }
-    b[6] = none;
-    deepest = ali3_where(deeper, depth, deepest);
-    mean.beyond = ali3_where(hub_reached & (depth > mean.beyond), depth, mean.beyond);
-    for (int i = 0; i < 3; i++) {
-      mean.near_normal[i] = ali3_where(deeper, c->normal[i], mean.near_normal[i]);
-      mean.near_rho[i] = ali3_where(deeper, rho[i], mean.near_rho[i]);
-    }
+    contact_place at = find_place(c, e, spring->radius);
+    update_nearest(&mean, c, &at, &deepest);
     if (k == 0) { /* reference of the slips of a wheel in the air */
       mean.friction = c->friction;
-      for (int i = 0; i < 3; i++) mean.normal[i] = c->normal[i], mean.rho[i] = rho[i];
+      for (int i = 0; i < 3; i++) mean.normal[i] = c->normal[i], mean.rho[i] = at.rho[i];
     }
+    const truth touches = c->penetration > 0.0;
     if (!ali3_any(touches)) continue;
-    for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
+    real rate = none;
+    for (int i = 0; i < 6; i++) rate -= at.b[i] * a->ud[i];
     const radial_law law = evaluate_radial_law(spring, c, rate);
     add_radial_energy(a, spring, &law, touches);
     const truth presses = touches & (law.force > 0.0);
-    const int32_t shift = ALI3_TYRE_CONTACT_BITS * k;
-    ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << shift);
-    ALI3_PIECE(&a->piece, touches & (law.bottoming_depth > 0.0), ALI3_TYRE_BOTTOMS << shift);
-    ALI3_PIECE(&a->piece, touches & ali3_not(law.ramp < 1.0), ALI3_TYRE_FULLY << shift);
-    ALI3_PIECE(&a->piece, presses, ALI3_TYRE_PRESSES << shift);
+    add_pieces(a, k, &law, touches, presses);
     if (!ali3_any(presses)) continue;
-    for (int i = 0; i < 6; i++) a->f[i] = ali3_add_unless(ali3_not(presses), a->f[i], law.force * b[i]);
-    add_to_patch(&mean, c, rho, law.force / c->cosine, presses);
+    for (int i = 0; i < 6; i++) a->f[i] = ali3_add_unless(ali3_not(presses), a->f[i], law.force * at.b[i]);
+    add_to_patch(&mean, c, at.rho, law.force / c->cosine, presses);
     if (!a->S) continue;
     for (int i = 0; i < 7; i++) { /* 0 in lanes without contact force */
-      b[i] = ali3_where(presses, b[i], none);
-      difference[i] += k ? -b[i] : b[i];
+      at.b[i] = ali3_where(presses, at.b[i], none);
+      difference[i] += k ? -at.b[i] : at.b[i];
     }
     const real tangent = a->wK * find_radial_stiffness(spring, &law, rate) + a->wC * spring->damping * law.ramp;
-    ali3_add_outer(a->S, 7, ali3_where(presses, law.share * tangent, none), b);
+    ali3_add_outer(a->S, 7, ali3_where(presses, law.share * tangent, none), at.b);
     switching =
         ali3_where(presses, a->wK * c->switching * (law.spring + law.bottoming * law.bottoming_depth), switching);
   }
@@ -171,6 +191,14 @@ void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *con
   }
 }
 
+void ali3_tyre_add_force(ali3_element_args *a, const ali3_tyre_motion *m, const real F[2], const real C[3]) {
+  for (int k = 0; k < 7; k++) a->f[k] += F[0] * m->row[0][k] + F[1] * m->row[1][k];
+  if (!a->S) return;
+  ali3_add_outer(a->S, 7, a->wC * C[0], m->row[0]);
+  ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], m->row[0], m->row[1]);
+  ali3_add_outer(a->S, 7, a->wC * C[2], m->row[1]);
+}
+
 enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, INCLINATION = CONTACT_X + 3, NORMAL_X };
 enum { ROLLING_MOMENT = NORMAL_X + 3 };
 
@@ -195,38 +223,6 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
   const real about_axis = force[0] * (ratio - 1.0) * ali3_dot(m->forward, m->push) + resisting;
   a->out[ROLLING_MOMENT] = about_axis * ali3_dot(e, m->left);
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, contact->normal), m->upright);
-}
-
-/* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
-static void make_semidefinite(real C[3]) {
-  const real mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
-  const truth semidefinite = mean >= split, splits = split > 0.0;
-  if (!ali3_any(ali3_not(semidefinite))) return;
-  const real none = {0}, top = ali3_where(mean + split > 0.0, mean + split, none);
-  const real cosine = ali3_where(splits, half / split, none), sine = ali3_where(splits, C[1] / split, none);
-  C[0] = ali3_where(semidefinite, C[0], 0.5 * top * (1.0 + cosine));
-  C[1] = ali3_where(semidefinite, C[1], 0.5 * top * sine);
-  C[2] = ali3_where(semidefinite, C[2], 0.5 * top * (1.0 - cosine));
-}
-
-void ali3_tyre_damping(real J[2][2], const real safe[2], real C[3]) {
-  C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
-  make_semidefinite(C);
-  C[0] += safe[0];
-  C[2] += safe[1];
-}
-
-void ali3_tyre_deflect(ali3_element_args *a, const ali3_tyre_carcass *carcass, const real F[2]) {
-  const real none = {0};
-  for (int i = 0; i < 2; i++) {
-    a->y_new[i] = a->y_old[i];
-    a->y_new[2 + i] = (F[i] - carcass->offset[i]) / carcass->D[i];
-    if (!(a->h > 0.0)) continue;
-    a->y_new[i] = (F[i] - carcass->damping[i] * a->y_new[2 + i]) / carcass->stiffness[i];
-    const truth negligible = ali3_abs(a->y_new[i]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
-    a->y_new[i] = ali3_where(negligible, none, a->y_new[i]);
-    a->y_new[2 + i] = ali3_where(negligible, none, a->y_new[2 + i]);
-  }
 }
 
 #ifndef ALI3_WIDTH

@@ -4,11 +4,11 @@
 #define ALI3_TYRE_CONTACT_H
 #include "element.h"
 
-#define ALI3_TYRE_SLOW                                                                                                 \
-  1e-5 /* m/s, added to the reference speed of the slips; small, so that a parked car creeps by micrometres only */
+/* m/s, added to the reference speed of the slips; small, so that a parked car creeps by micrometres only */
+#define ALI3_TYRE_SLOW 1e-5
 #define ALI3_TYRE_ROLLS 1.0 /* m/s: speed above which effective radius and trail are as of a rolling tyre */
-#define ALI3_TYRE_HUB                                                                                                  \
-  0.1 /* of the radius: least distance of the patch from the centre of a wheel that is deeper in the road */
+/* Of the radius: least distance of the patch from the centre of a wheel that is deeper in the road. */
+#define ALI3_TYRE_HUB 0.1
 #define ALI3_TYRE_NO_LOAD 1e-9 /* N */
 #define ALI3_TYRE_NO_GRIP 1e-6 /* friction ratio below which the horizontal forces are 0 */
 
@@ -34,9 +34,7 @@ typedef struct { /* m, N/m, N/m^2 (force of the squared deflection), N s/m */
 typedef struct {
   real load, friction; /* sums or load-weighted means of the contacts */
   real normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
-  real
-      /* m: depth if the road is nearer to the wheel's centre than ALI3_TYRE_HUB allows the patch to be; otherwise 0 */
-      beyond;
+  real beyond; /* m: depth of a road nearer to the wheel's centre than ALI3_TYRE_HUB allows the patch; otherwise 0 */
   real near_normal[3], near_rho[3]; /* normal and patch of the nearest contact, also in the air */
 } ali3_tyre_patch;
 
@@ -65,6 +63,10 @@ ALI3_PER_WIDTH real ali3_tyre_moving(real speed);
 ALI3_PER_WIDTH void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
                                          real ratio, ali3_tyre_motion *m);
 
+/* Adds the horizontal force F, N, along forward and left to f, and its damping C = -dF/dv as xx, xy, yy, N s/m, to S. */
+ALI3_PER_WIDTH void ali3_tyre_add_force(ali3_element_args *a, const ali3_tyre_motion *m, const real F[2],
+                                        const real C[3]);
+
 enum { ALI3_TYRE_DEFLECTION = 6, ALI3_TYRE_OUTPUTS = 16 };
 /* Writes the first ALI3_TYRE_OUTPUTS outputs, common to all tyres: radius: free, m; ratio: slip radius over loaded
  * radius; force: along forward and left, N; moment: about the normal, resisting: of rolling resistance about the axis,
@@ -72,19 +74,6 @@ enum { ALI3_TYRE_DEFLECTION = 6, ALI3_TYRE_OUTPUTS = 16 };
 ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
                                       const ali3_tyre_motion *m, real radius, real ratio, const real force[2],
                                       real moment, real resisting);
-
-/* Carcass in a step, of both directions: F = c x + d x' with x = a + b x', so that x' = (F - c a)/D. */
-typedef struct {
-  real stiffness[2], damping[2]; /* c, N/m; d, N s/m */
-  real offset[2], D[2]; /* c a, N; d + b c, N s/m */
-} ali3_tyre_carcass;
-
-/* Deflections and their rates at the end of the step, the first four states, by the forces F, N. */
-ALI3_PER_WIDTH void ali3_tyre_deflect(ali3_element_args *a, const ali3_tyre_carcass *carcass, const real F[2]);
-
-/* Damping matrix C = -dF/dv as xx, xy, yy from J = dF/dv: its symmetric part, positive semidefinite and not below the
- * safe part of the secant. */
-ALI3_PER_WIDTH void ali3_tyre_damping(real J[2][2], const real safe[2], real C[3]);
 
 /* Depth of a tyre in its road, m, if it were higher by `raised`; *share: cosine at the deepest contact. Its first
  * number is the radius, its first integer the road. */
