@@ -88,6 +88,14 @@ class SpringDamperTable(Element):
         return replace(record, real_names=[f"unused {n}" if n in unused else n for n in record.real_names])
 
 
+def force_of_table(rows: Rows, x: float) -> float:
+    """Force of a table at x: the curve of `SpringDamperTable`."""
+    table = np.asarray(rows, float)
+    curve = _curve(table)
+    inside = float(np.clip(x, table[0, 0], table[-1, 0]))
+    return float(curve(inside) + curve.derivative()(inside) * (x - inside))
+
+
 def _number_or_table(value: float | Rows, number_name: str, name: str, label: str) -> tuple[float, NDArray[np.float64]]:
     """A number and a table without rows, or zero and a checked table (n, 2)."""
     if is_number(value):

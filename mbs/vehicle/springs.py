@@ -12,7 +12,7 @@ from pydantic import Field
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.spring_damper import EndStops, SpringDamper
-from mbs.elements.spring_damper_table import SpringDamperTable
+from mbs.elements.spring_damper_table import SpringDamperTable, force_of_table
 from mbs.model.body import Body
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (
@@ -138,6 +138,11 @@ class Damper(ForceLaw, of=SpringDamper):
             assert self.damping is not None
             return self.damping
         return list(self.table)
+
+    def coefficient_at(self, speed: float) -> float:
+        """Force per speed with a factor of 1, N s/m. `speed`: m/s, not 0, positive in rebound."""
+        law = self.law
+        return law if isinstance(law, float) else force_of_table(law, speed) / speed
 
 
 class Stops(Section, of=EndStops):

@@ -10,6 +10,7 @@ from scipy.interpolate import PchipInterpolator
 
 from mbs import AccuracyWarning, Model, Settings, System, Trajectory, compile, simulate
 from mbs.elements import EndStops, SpringDamper, SpringDamperTable
+from mbs.elements.spring_damper_table import force_of_table
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from tests.elements.harness import Array, Element, vectors
@@ -54,6 +55,7 @@ def test_the_force_of_the_damper_is_that_of_scipy_and_takes_energy(v: float) -> 
     force, _ = reference(DAMPER, v)
     r = element(0.0, DAMPER)(*along(FREE, v))
     assert r.out["force"] == pytest.approx(force, rel=ROUND_OFF, abs=1e-9)
+    assert force_of_table(DAMPER, v) == pytest.approx(r.out["damper_force"], rel=ROUND_OFF, abs=1e-9)
     assert r.f @ along(FREE, v)[1] <= 0.0
     assert r.potential == 0.0
 

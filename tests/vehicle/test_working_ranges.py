@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.interpolate import PchipInterpolator
 
 from mbs import ParameterWarning, Pose, Simulation, compile, simulate
 from mbs.vehicle import car_names, load
@@ -53,26 +54,36 @@ def test_they_are_reported_before_the_start_and_after_it(name):
     assert all(ranges[path][0] <= load(name).values()[path] <= ranges[path][1] for path in BAD)
 
 
-def with_spring(table):
-    """The hatchback with a spring table in front."""
+def with_law(name, **law):
+    """The hatchback with another spring or damper in front."""
     car = load("hatchback")
     data = changed_content(car._data, {}, "x")
-    spring = {k: v for k, v in data["front"]["spring"].items() if k != "stiffness"}
-    data["front"]["spring"] = {**spring, "table": table}
+    section = {k: v for k, v in data["front"][name].items() if k not in ("stiffness", "damping", "table")}
+    data["front"][name] = section | law
     return car_from(data, car.folder, "x", at_rest=False)
 
 
 def test_a_spring_by_a_table_has_the_ranges_of_its_law():
     plain, k = working_ranges(load("hatchback")), load("hatchback").front.spring.stiffness
-    same = working_ranges(with_spring([[0.0, 0.0], [0.05, 0.05 * k], [0.4, 0.4 * k]]))
+    same = working_ranges(with_law("spring", table=[[0.0, 0.0], [0.05, 0.05 * k], [0.4, 0.4 * k]]))
     for path in plain.keys() - {"front.spring.stiffness"}:
         assert same[path] == pytest.approx(plain[path], rel=1e-12), path
     # twice as stiff from 0.05 m on: with carried load c it is pressed in to 0.05 + (c - 0.05 k) / 2k, and 0.3 m more
     # are 0.6 k of load; the softest factor lets c press it as far
-    harder = working_ranges(with_spring([[0.0, 0.0], [0.05, 0.05 * k], [0.4, 0.75 * k]]))
+    harder = working_ranges(with_law("spring", table=[[0.0, 0.0], [0.05, 0.05 * k], [0.4, 0.75 * k]]))
     softest, hardest = plain["front.spring.factor"]
     carried = MAX_TRAVEL * k / (1.0 / softest - 1.0)
     assert harder["front.spring.factor"] == pytest.approx((carried / (carried + 2.0 * MAX_TRAVEL * k), hardest / 2.0))
+
+
+def test_a_damper_by_a_table_has_the_ranges_of_its_force_per_speed():
+    rows = [(-1.0, -900.0), (-0.1, -200.0), (0.0, 0.0), (0.1, 500.0), (1.0, 2000.0)]
+    curve = PchipInterpolator(*np.transpose(rows))
+    per_speed = 0.5 * (float(curve(0.3)) - float(curve(-0.3))) / 0.3
+    (by_table, by_number) = (
+        working_ranges(with_law("damper", **law)) for law in ({"table": rows}, {"damping": per_speed})
+    )
+    assert by_table["front.damper.factor"] == pytest.approx(by_number["front.damper.factor"], rel=1e-12)
 
 
 def test_air_at_the_end_of_its_range_brakes_with_the_weight_and_lifts_an_axle():

@@ -12,7 +12,7 @@ from mbs.vehicle.checks.masses import centre_of_mass, centre_ranges, weighed_poi
 from mbs.vehicle.checks.places import rigid_parts
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import Section
-from mbs.vehicle.springs import Damper, Spring
+from mbs.vehicle.springs import Spring
 
 DEFLECTIONS = 1.0 / 150.0, 0.25  # of a tyre under the load as drawn, relative to its free radius
 MAX_TRAVEL = 0.3  # m, of the springs from the drawing
@@ -22,7 +22,7 @@ BRAKING = 0.1, 5.0  # g, by the brakes alone at full pedal
 ACCELERATIONS = 0.02, 5.0  # g, by the drive at full throttle from rest without limit of grip
 AIR_SPEED = 50.0  # m/s, at which drag is at most 1 g and lift neither unloads nor bottoms an axle
 MIN_FRICTION = 0.02  # of a tyre on the road: half of that on wet ice
-DAMPER_SPEED = 0.3  # m/s, at which a table of a damper is replaced by a coefficient
+DAMPER_SPEED = 0.3  # m/s, at which a damper is judged by its force per speed
 
 Ranges = dict[str, tuple[float, float]]
 
@@ -139,7 +139,7 @@ def _add_suspension(ranges: Ranges, axle: Axle, weight: float) -> float:
         )
     _add_range(ranges, spring, "free_length", spring.free_length - MAX_TRAVEL, spring.free_length + MAX_TRAVEL)
     critical = 2.0 * math.sqrt(k * weight / GRAVITY)
-    unit_damping = _damping_coefficient(damper)
+    unit_damping = 0.5 * sum(damper.coefficient_at(speed) for speed in (-DAMPER_SPEED, DAMPER_SPEED))
     if unit_damping > 0.0:
         _add_range(ranges, damper, "factor", *(part * critical / unit_damping for part in DAMPING_RATIOS))
     if damper.damping is not None and damper.factor > 0.0:
@@ -171,16 +171,6 @@ def _add_air(ranges: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float,
         largest_factor = min(largest_factor, (high if area > 0.0 else low) / area if area else math.inf)
     if math.isfinite(largest_factor):
         _add_range(ranges, air, "air_density", 0.0, air.air_density * largest_factor)
-
-
-def _damping_coefficient(damper: Damper) -> float:
-    """Damping coefficient with a factor of 1, N s/m: of a table the mean of both directions at `DAMPER_SPEED`."""
-    if damper.damping is not None:
-        return damper.damping
-    rows = [(v, force) for v, force in damper.table or () if v != 0.0]
-    sides = [[row for row in rows if row[0] * side > 0.0] for side in (-1.0, 1.0)]
-    nearest_rows = [min(side, key=lambda row: abs(abs(row[0]) - DAMPER_SPEED)) for side in sides if side]
-    return sum(force / v for v, force in nearest_rows) / len(nearest_rows) if nearest_rows else 0.0
 
 
 def _add_range(ranges: Ranges, section: Section, name: str, low: float, high: float) -> None:

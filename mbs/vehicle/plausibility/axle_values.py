@@ -17,7 +17,6 @@ from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.linkages.continuation import HEAVE
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
-from mbs.vehicle.springs import Damper
 from mbs.vehicle.suspensions.curves import Curves
 
 CAR = quantities_of("car")
@@ -146,21 +145,12 @@ def _spring_values(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Itera
         return
     yield Value(CAR["bounce"], math.sqrt(rate / mass) / (2.0 * math.pi), springs, name)
     dampers = damper.given | {damper.key("factor"): damper.factor}
-    bump, rebound = (damping_at(damper, speed) for speed in (-DAMPER_SPEED, DAMPER_SPEED))
+    bump, rebound = (damper.factor * damper.coefficient_at(speed) for speed in (-DAMPER_SPEED, DAMPER_SPEED))
     critical = 2.0 * math.sqrt(rate * mass)
     for quantity, damping in (("bump", bump), ("rebound", rebound)):
         yield Value(CAR[quantity], damping * rates.damper_ratio**2 / critical, dampers, name)
     if bump > 0.0:
         yield Value(CAR["sides"], rebound / bump, damper.given, name)
-
-
-def damping_at(damper: Damper, speed: float) -> float:
-    """Force per speed of a damper, N s/m. `speed`: m/s, positive in rebound."""
-    if damper.damping is not None:
-        return damper.damping * damper.factor
-    v, force = np.array(damper.table, dtype=float).T
-    at = float(np.clip(speed, v[0], v[-1]))
-    return float(np.interp(at, v, force)) / at * damper.factor if at else 0.0
 
 
 def _curve_values(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:
