@@ -6,6 +6,14 @@
 
 #include "number_pairs.h"
 
+#ifdef ALI3_WIDTH
+/* Lanes in which all numbers are finite: v - v is 0 for finite v, otherwise NaN. */
+static inline truth ali3_finite_inlined(const real *v, int64_t n) {
+  real sum = {0};
+  for (int64_t i = 0; i < n; i++) sum += v[i] - v[i];
+  return sum == 0.0;
+}
+#else
 /* The sum of 0 times all numbers is 0 if they are finite, otherwise NaN. Four independent products hide the latency of
  * the multiplication. */
 static inline __attribute__((always_inline)) bool ali3_finite_inlined(const double *v, int64_t n) {
@@ -25,4 +33,5 @@ static inline __attribute__((always_inline)) bool ali3_finite_inlined(const doub
 }
 
 bool ali3_finite(const double *v, int64_t n);
+#endif
 #endif

@@ -92,7 +92,7 @@ static inline real ali3_floor(real x) { return floor(x); }
 
 /* Adds bits that identify the smooth piece of a law, if c. */
 #define ALI3_PIECE(piece, c, bits) (*(piece) |= (c) ? (uint32_t)(bits) : 0u)
-#define ALI3_AT_WORK(in, lanes) ((void)(in))
+#define ALI3_AT_WORK(in, lanes) ((void)(in), (void)(lanes))
 #define ALI3_OF_LANES(lanes, a, b) (a) /* one instance does not reach this with `lanes` false */
 #define ALI3_AT_WORK_OF(in, lanes) (lanes)
 #define ALI3_COUNT(in, counter) ((in)->report.counter++)

@@ -43,6 +43,7 @@ static inline real lane_cosine(real x) {
 #include "../methods/constraint_work.c"
 #include "../methods/defect_correction.c"
 #include "../methods/extrapolation.c"
+#include "../methods/predict.c"
 #include "../methods/projection.c"
 #include "../rows/constraints.c"
 #include "../rows/row_products.c"

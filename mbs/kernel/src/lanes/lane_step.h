@@ -1,23 +1,10 @@
-/* The step of methods/augmented_lagrangian.c with control of the iteration by lane: converged lanes keep D,
+/* An ALi3-P step (../methods/ali3p.h) with control of the iteration by lane: converged lanes keep D,
  * multipliers, tangent and forces, so that later iterations of other lanes do not change them. Lanes that fail are not
  * in group->good and repeat the step in their instances. */
 #ifndef ALI3_LANE_STEP_H
 #define ALI3_LANE_STEP_H
 #ifdef ALI3_WIDTH
 #include "../methods/ali3p.h"
-#include "../methods/defect_correction.h"
-#include "../methods/energy_watch.h"
-#include "../methods/extrapolation.h"
-#include "../methods/predict.h"
-#include "../methods/projection.h"
-#include "../rows/turning.h"
-
-/* Lanes in which all n numbers are finite. */
-static truth all_finite(const real *v, int32_t n) {
-  real sum = {0}; /* v - v is 0 for finite v, otherwise NaN */
-  for (int32_t i = 0; i < n; i++) sum += v[i] - v[i];
-  return sum == 0.0;
-}
 
 /* Evaluates element e in all lanes: f, y, out, potential, idle and, if required, the tangent. */
 static void evaluate_law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
@@ -108,22 +95,11 @@ static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
   if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->step.Q);
 }
 
-/* Positions, rates, rows and the residual r = M (D - d0) - c Q of the iterate D. */
+/* Positions, rates, rows, forces and residual of the iterate D. */
 static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
-  const ali3_system *S = in->system;
-  const double c = in->rule.c, rate = in->rule.rate;
-  const real *D = in->step.D, *d0 = in->step.d0, *now = in->now.q, *hat = in->step.hat, *Q = in->step.Q;
-  real *q = in->next.q, *qd = in->next.qd, *w = in->step.w, *r = in->step.r;
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    q[i] = now[i] + D[i];
-    qd[i] = rate * D[i] + hat[i];
-    w[i] = D[i] - d0[i];
-  }
-  ali3_constraints(in, in->next.q, in->next.s, in->step.Phi, in->tangent.J);
-  ali3_velocity_values(in, in->tangent.J, in->next.qd, rate, in->step.Phi);
+  place_iterate(in);
   evaluate_forces(in, lanes, tangent);
-  ali3_mass_times(in, w, r);
-  for (int32_t i = 0; i < S->size.nq; i++) r[i] -= c * Q[i];
+  find_residual(in);
 }
 
 /* Largest of n values |x| factor, infinite if one is NaN; *worst: index of the first largest one, unchanged if it is 0.
@@ -149,15 +125,11 @@ static inline real largest_size(const real *x, const real *of_lanes, const doubl
   return ali3_where(has_nan, ali3_same(HUGE_VAL), largest[0]);
 }
 
-/* Computes the residual with the multipliers and the violation; returns the lanes in which both are finite. */
+/* Sizes of the residual with the multipliers and of the violation; returns the lanes in which both are finite. */
 static truth update_residual(ali3_lane_group *in) {
   const ali3_system *S = in->system;
-  const double c = in->rule.c;
-  const real *r = in->step.r;
-  real *x = in->step.x;
-  ali3_rows_transposed(S, in->tangent.J, in->next.lam, x);
-  for (int32_t i = 0; i < S->size.nq; i++) x[i] = r[i] + c * x[i];
-  *in->residual = largest_size(x, in->mass.floor_inverse, NULL, S->size.nq, in->worst_coordinate);
+  add_row_forces(in);
+  *in->residual = largest_size(in->step.x, in->mass.floor_inverse, NULL, S->size.nq, in->worst_coordinate);
   *in->violation = largest_size(in->step.Phi, NULL, S->row_measure, S->size.nc, in->worst_row);
   return (*in->residual < 1e300) & (*in->violation < 1e300);
 }
@@ -207,28 +179,6 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
   for (int32_t i = 0; i < S->size.front_size; i++) in->tangent.F[i] = ali3_where(lanes, F[i], in->tangent.F[i]);
 }
 
-/* One Newton correction (21) and the multiplier update of some lanes; returns the lanes in which it is finite. */
-static truth correct(ali3_lane_group *in, truth lanes, truth reused, truth accelerated, int32_t iteration) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq, nc = S->size.nc;
-  const double c = in->rule.c, alpha = in->alpha;
-  const real *Phi = in->step.Phi, *r = in->step.r, *w = in->step.w, *gamma = in->step.gamma;
-  real *lam = in->next.lam, *mu = in->step.mu, *x = in->step.x, *change = in->step.lam, *D = in->step.D;
-  *in->at_work = lanes;
-  for (int32_t k = 0; k < nc; k++) mu[k] = ali3_where(reused, ali3_same(0.0), lam[k]) + alpha * Phi[k];
-  ali3_rows_transposed(S, in->tangent.J_made, mu, in->step.w);
-  for (int32_t i = 0; i < nq; i++) x[i] = -(ali3_where(reused, x[i], r[i]) + c * w[i]);
-  ali3_solve(in, in->tangent.F, x);
-  const truth finite = all_finite(x, nq);
-  if (ali3_defect_corrected(S)) ali3_defect_correction(in, in->h, iteration, lanes & finite);
-  ali3_rows_times(S, in->tangent.J_made, x, in->step.gamma);
-  for (int32_t k = 0; k < nc; k++) change[k] = alpha * (Phi[k] + gamma[k]);
-  ali3_accelerate(in, accelerated);
-  for (int32_t k = 0; k < nc; k++) lam[k] = ali3_where(lanes, lam[k] + change[k], lam[k]);
-  for (int32_t i = 0; i < nq; i++) D[i] = ali3_where(lanes, D[i] + x[i], D[i]);
-  return finite;
-}
-
 /* Newton's iteration; sets in->good. */
 static void newton(ali3_lane_group *in) {
   const double h = in->h;
@@ -241,7 +191,7 @@ static void newton(ali3_lane_group *in) {
     const truth outdated = active & ~reused;
     if (ali3_any(outdated)) tangent(in, outdated, iteration == 0);
     active &= ~*in->singular;
-    active &= correct(in, active, reused, accelerated, iteration);
+    active &= correct(in, h, in->alpha, active, iteration, reused, accelerated);
     *in->iterations -= active;
     evaluate(in, active, false);
     active &= update_residual(in);
@@ -257,27 +207,6 @@ static void newton(ali3_lane_group *in) {
     last_residual = *in->residual;
     if (ali3_any(active & ~reused)) evaluate_elements(in, active & ~reused, true);
   }
-}
-
-/* Predicts D and the multipliers. */
-static void predict(ali3_lane_group *in) {
-  const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
-  const double h = in->h;
-  truth extrapolates = {0};
-  if (in->system->n_flexible > 0) {
-    for (int32_t i = 0; i < nq; i++) in->step.D[i] = h * (2.0 * in->now.mean[i] - in->now.mean_before[i]);
-    memcpy(in->next.lam, in->now.lam, (size_t)nc * sizeof *in->next.lam);
-    return;
-  }
-  if (in->settings.predictor == ALI3_PREDICTOR_PARABOLA)
-    extrapolates = ali3_history_smooth(in, ALI3_PARABOLA, h, false);
-  if (ali3_any(extrapolates)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->step.x, in->next.lam);
-  for (int32_t k = 0; k < nc; k++) {
-    const real lam = in->now.lam[k];
-    in->next.lam[k] = lam + ALI3_MULTIPLIER_FRACTION * (ali3_where(extrapolates, in->next.lam[k], lam) - lam);
-  }
-  for (int32_t i = 0; i < nq; i++)
-    in->step.D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(extrapolates, in->step.x[i], in->now.qdd[i]);
 }
 
 /* Sums of balance_squares of methods/energy_balance.c, in its order. */
@@ -310,35 +239,20 @@ static void sum_speed_squares(const ali3_lane_group *in, double h, const real *v
 static void step(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq;
   const double h = in->h;
-  const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
-  const double c = rule.c;
-  in->rule = rule;
-  predict(in);
-  for (int32_t i = 0; i < nq; i++) {
-    in->step.d0[i] = h * in->now.qd[i] + c * in->now.qdd[i];
-    in->step.hat[i] = -in->now.qd[i];
-  }
+  predict(in, h, true, false);
+  trapezoidal(in, h);
   newton(in);
   if (!ali3_any(*in->good)) return;
-  for (int32_t i = 0; i < nq; i++) {
-    in->next.qdd[i] = (in->step.D[i] - in->step.d0[i]) / c;
-    in->mean_a[i] = 2.0 * (in->step.D[i] - h * in->now.qd[i]) / (h * h);
-  }
+  find_accelerations(in);
+  for (int32_t i = 0; i < nq; i++) in->mean_a[i] = 2.0 * (in->step.D[i] - h * in->now.qd[i]) / (h * h);
   memcpy(in->newton_lam, in->next.lam, (size_t)in->system->size.nc * sizeof *in->newton_lam);
   ali3_constraint_rate(in, in->next.q, &in->next, in->step.Phit);
-  const double left = ali3_allowed_round_off(in->system, c);
-  real kinetic, work = ali3_constraint_work(in, h, in->guides);
-  turning_rates(in, in->step.mu, in->step.Phit);
-  *in->at_work = *in->good;
-  *in->velocity_violation = ali3_project(in, c * in->alpha, in->step.Phit, in->next.qd, NULL, VELOCITY_TOLERANCE,
-                                         left * rule.rate, MAX_SWEEPS, true);
-  ali3_constraint_gamma(in, in->next.q, in->next.qd, &in->next, in->step.gamma);
-  *in->at_work = *in->good;
-  ali3_project(in, c * in->alpha, in->step.gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, left / c,
-               MAX_SWEEPS, false);
-  work += ali3_projection_work(in, &kinetic, in->end, in->open, in->guides) + 0.5 * h * *in->open_power;
-  *in->work = work;
-  *in->size = ali3_energy_size(in, h, kinetic);
+  const step_energy e = project_rates(in, h, in->alpha, *in->good, *in->open_power, in->velocity_violation);
+  *in->work = e.error;
+  *in->end = e.end;
+  *in->open = e.open;
+  *in->guides = e.guide_work;
+  *in->size = ali3_energy_size(in, h, e.kinetic);
   *in->weight = *in->mass.gravity_const;
   for (int32_t i = 0; i < nq; i++) *in->weight -= in->mass.gravity[i] * in->next.q[i];
   sum_speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);

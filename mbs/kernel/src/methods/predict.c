@@ -11,29 +11,40 @@
 #include "history.h"
 #include "predict.h"
 
-/* Writes the prediction; returns whether past steps were used. `from_past` false: they are not. */
-ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool from_past) {
-  const double h = request->h;
+/* Writes the prediction of a step h, s; returns the lanes whose past steps were used. `from_past` false: none;
+ * `controlled`: as in a request. */
+ALI3_INLINED truth predict(ali3_instance *in, double h, bool from_past, bool controlled) {
   const ali3_system *S = in->system;
-  const ali3_vectors *from = &in->now;
-  double *lam = in->next.lam;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  const real *qd = in->now.qd, *qdd = in->now.qdd, *last = in->now.lam;
+  real *D = in->step.D, *x = in->step.x, *lam = in->next.lam;
+  truth extrapolates = {0};
   if (S->n_flexible > 0) {
-    for (int32_t i = 0; i < S->size.nq; i++) in->step.D[i] = h * (2.0 * from->mean[i] - from->mean_before[i]);
-    memcpy(lam, from->lam, (size_t)S->size.nc * sizeof *lam);
-    return false;
+    for (int32_t i = 0; i < nq; i++) D[i] = h * (2.0 * in->now.mean[i] - in->now.mean_before[i]);
+    memcpy(lam, last, (size_t)nc * sizeof *lam);
+    return extrapolates;
   }
-  ali3_history_own(in, in->settings.method, from->qdd);
-  const bool extrapolates = from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA &&
-                            ali3_history_smooth(in, ALI3_PARABOLA, h, request->controlled);
-  ali3_history_predict(in, 0.5 * h, extrapolates ? ALI3_PARABOLA : 0, in->step.x, lam);
-  const double *last = from->lam, *qd = from->qd, *x = in->step.x, half = 0.5 * h * h;
-  double *D = in->step.D;
-  ALI3_EACH(0, S->size.nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_MULTIPLIER_FRACTION * (ALI3_AT(lam) - ALI3_AT(last)))
-  ALI3_EACH(0, S->size.nq, ALI3_AT(D) = h * ALI3_AT(qd) + half * ALI3_AT(x))
+  if (from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA)
+    extrapolates = ali3_history_smooth(in, ALI3_PARABOLA, h, controlled);
+  if (ali3_any(extrapolates)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, x, lam);
+  if (ali3_any(ali3_not(extrapolates))) {
+    ALI3_EACH(0, nq, ALI3_AT(x) = ali3_where(extrapolates, ALI3_AT(x), ALI3_AT(qdd)))
+    ALI3_EACH(0, nc, ALI3_AT(lam) = ali3_where(extrapolates, ALI3_AT(lam), ALI3_AT(last)))
+  }
+  const double half = 0.5 * h * h;
+  ALI3_EACH(0, nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_MULTIPLIER_FRACTION * (ALI3_AT(lam) - ALI3_AT(last)))
+  ALI3_EACH(0, nq, ALI3_AT(D) = h * ALI3_AT(qd) + half * ALI3_AT(x))
   return extrapolates;
 }
 
-ALI3_BY_PROCESSOR(in->system, bool, predict, (ali3_instance * in, const ali3_request *request, bool from_past),
+#ifndef ALI3_WIDTH
+/* Writes the prediction with its own history; returns whether past steps were used. */
+ALI3_INLINED bool predict_step(ali3_instance *in, const ali3_request *request, bool from_past) {
+  if (in->system->n_flexible == 0) ali3_history_own(in, in->settings.method, in->now.qdd);
+  return predict(in, request->h, from_past, request->controlled);
+}
+
+ALI3_BY_PROCESSOR(in->system, bool, predict_step, (ali3_instance * in, const ali3_request *request, bool from_past),
                   (in, request, from_past))
 
 void ali3_predict_accept(ali3_instance *in, double h) {
@@ -51,3 +62,4 @@ void ali3_predict_rates(ali3_instance *in, double h) {
     in->next.mean_before[i] = in->now.mean[i];
   }
 }
+#endif
