@@ -63,7 +63,7 @@ def header(kind: type[Element]) -> str:
     if kind._integers:
         lines += [
             "enum {",
-            *(f"  {kind._c_prefix}{integer.name.upper()}," for integer in kind._integers),
+            *(f"  {kind._c_prefix}{integer.name.upper()}, /* {integer.meaning} */" for integer in kind._integers),
             f"  {upper}_INTEGERS",
             "};",
         ]

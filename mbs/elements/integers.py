@@ -41,6 +41,16 @@ class Integer:
         """Noun of the integer in messages."""
         return self.noun or f"the {self.name.replace('_', ' ')}"
 
+    @property
+    def meaning(self) -> str:
+        """What the integer is, for the header of the law."""
+        if self.kind is IntegerKind.NUMBERS:
+            counted = ((self.reals, "real"), (self.states, "state"))
+            each = " and ".join(f"{n} {name}{'s' if n > 1 else ''}" for n, name in counted if n)
+            return f"Number of items with {each} each." if each else "A choice."
+        text = "Index of an input" if self.kind is IntegerKind.INPUTS else "Index of a road"
+        return text + (", -1: none." if self.least == -1 else ".")
+
     def checked(self, value: int | None, label: str) -> int:
         """Return a valid value; None stands for a missing input. `label`: label of the element, for messages."""
         if value is None and self.least == -1:

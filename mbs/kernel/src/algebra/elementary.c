@@ -15,7 +15,7 @@ static const double LN2_1 = 0.6931471804855391, LN2_2 = 7.440617110012397e-11, O
 static const double HALF_PI = 1.5707963267948966;
 static const double MAX_ARGUMENT = 1048576.0;
 
-/* c[0] + c[1] x + ... with n coefficients. */
+/* c[0] + c[1] x + ... with n coefficients, by Horner's rule. */
 static double polynomial(const double *c, int n, double x) {
   double sum = c[n - 1];
   for (int i = n - 2; i >= 0; i--) sum = sum * x + c[i];
@@ -48,7 +48,7 @@ static int reduce(double x, double *r, double *low) {
   return (int)((int64_t)k & 3);
 }
 
-/* sin(x + quarters pi/2) */
+/* sin(x + quarters pi/2), x in rad */
 static double sine_of(double x, int quarters) {
   double r, low;
   if (!(x - x == 0.0)) return x - x; /* NaN */
@@ -72,6 +72,7 @@ void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine) {
     const double k = nearest(x[i] * TWO_OVER_PI), a = x[i] - k * HALF_PI_1, b = k * HALF_PI_2;
     const double near = a - b, low_part = ((a - near) - b) - k * HALF_PI_3;
     const double r = near + low_part, low = (near - r) + low_part;
+    /* k = 2 h + d and h = 2 h' + e with d, e of -1, 0, 1: selections are products, as branches prevent vectors */
     const double h = nearest(0.5 * k), d = k - 2.0 * h, e = h - 2.0 * nearest(0.5 * h);
     const double sign = 1.0 - 2.0 * (e * e), even = 1.0 - d * d;
     const double s = sine_near(r, low), c = cosine_near(r, low);
@@ -88,6 +89,7 @@ static double exp_near(double r) {
   return r + r * r * polynomial(c, COUNT(c), r);
 }
 
+/* 2^k exp(r) with x = k ln 2 + r; beyond its limits the result overflows, or is below the smallest number. */
 double ali3_exp(double x) {
   if (x != x) return x;
   if (x > 710.0) return HUGE_VAL;
@@ -97,6 +99,7 @@ double ali3_exp(double x) {
   return ldexp(1.0 + (exp_near(r) + rest), (int)k);
 }
 
+/* (exp(2 |x|) - 1)/(exp(2 |x|) + 1); from 22 on it is 1 to the last place. */
 double ali3_tanh(double x) {
   const double a = fabs(x);
   if (x != x || x == 0.0) return x;

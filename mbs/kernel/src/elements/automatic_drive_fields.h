@@ -58,11 +58,11 @@ enum {
   ENGAGE_TIME,
 };
 enum {
-  THROTTLE,
-  GEARS,
-  SELECTOR,
-  REQUEST,
-  CLUTCH,
+  THROTTLE, /* Index of an input. */
+  GEARS, /* Number of items with 1 real each. */
+  SELECTOR, /* Index of an input. */
+  REQUEST, /* Index of an input, -1: none. */
+  CLUTCH, /* Index of an input. */
   AUTOMATIC_DRIVE_INTEGERS
 };
 #ifndef ALI3_WIDTH

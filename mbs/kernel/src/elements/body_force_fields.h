@@ -7,9 +7,9 @@
 #include "element.h"
 
 enum {
-  FIRST,
-  SECOND,
-  THIRD,
+  FIRST, /* Index of an input, -1: none. */
+  SECOND, /* Index of an input, -1: none. */
+  THIRD, /* Index of an input, -1: none. */
   BODY_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -7,10 +7,10 @@
 #include "element.h"
 
 enum {
-  FIRST,
-  SECOND,
-  THIRD,
-  AXES,
+  FIRST, /* Index of an input, -1: none. */
+  SECOND, /* Index of an input, -1: none. */
+  THIRD, /* Index of an input, -1: none. */
+  AXES, /* A choice. */
   BODY_TORQUE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -24,9 +24,9 @@ enum {
   BRAKE_REALS
 };
 enum {
-  PEDAL,
-  HAND,
-  BY_SIZE,
+  PEDAL, /* Index of an input. */
+  HAND, /* Index of an input, -1: none. */
+  BY_SIZE, /* A choice. */
   BRAKE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -116,23 +116,46 @@ static normal_contact add_normal_forces(ali3_element_args *a, const double local
   return t;
 }
 
-/* Friction of a point under its load, in the plane of contact. */
-static void add_friction(ali3_element_args *a, const double local[3], const normal_contact *t, const double *y_old,
-                         double *y_new) {
-  const double *p = a->real, k = p[STICK_STIFFNESS], c = p[STICK_DAMPING], half = 0.5 * a->h, D = c + half * k;
-  const double bound = t->friction * p[FRICTION_FACTOR] * t->load, size = ali3_norm(t->normal);
-  double n[3] = {0.0, 0.0, 1.0}, first[3], second[3], foot[3], velocity[3], row[2][SIGNALS], elastic[2], trial[2];
-  for (int i = 0; i < 3 && size > 0.0; i++) n[i] = t->normal[i] / size;
-  for (int i = 0; i < 3; i++) foot[i] = local[i] - p[RADIUS] * ali3_dot(a->u + 3 + 3 * i, n);
-  first[0] = n[2], first[1] = 0.0, first[2] = -n[0]; /* y x n, as no road has a normal along y */
+/* Orthonormal axes of the plane with the unit normal n; the first is along y x n, as no road has a normal along y. */
+static void find_plane(const double n[3], double axis[2][3]) {
+  double *first = axis[0];
+  first[0] = n[2], first[1] = 0.0, first[2] = -n[0];
   const double length = ali3_norm(first);
   if (length > 1e-6)
     for (int i = 0; i < 3; i++) first[i] /= length;
   else
     first[0] = 1.0, first[2] = 0.0;
-  ali3_cross(n, first, second);
+  ali3_cross(n, first, axis[1]);
+}
+
+/* Adds the tangent of friction with damping D, N s/m, that sticks (scale 1), or slides against the force `trial`, N, of
+ * which `scale` is left; row: derivatives of the velocities in the plane. */
+static void add_friction_tangent(ali3_element_args *a, double row[2][SIGNALS], const double trial[2], double scale,
+                                 double D) {
+  if (scale == 1.0) {
+    for (int i = 0; i < 2; i++) ali3_add_outer(a->S, SIGNALS, a->wC * D, row[i]);
+    return;
+  }
+  const double size = ali3_hypot(trial[0], trial[1]);
+  double along[SIGNALS], across[SIGNALS]; /* along and across the sliding: fraction of the secant, and the secant */
+  for (int j = 0; j < SIGNALS; j++) {
+    along[j] = (trial[0] * row[0][j] + trial[1] * row[1][j]) / size;
+    across[j] = (trial[0] * row[1][j] - trial[1] * row[0][j]) / size;
+  }
+  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_FRACTION * D * scale, along);
+  ali3_add_outer(a->S, SIGNALS, a->wC * D * scale, across);
+}
+
+/* Friction of a point under its load, in the plane of contact: a spring-damper k, c per direction, limited. */
+static void add_friction(ali3_element_args *a, const double local[3], const normal_contact *t, const double *y_old,
+                         double *y_new) {
+  const double *p = a->real, k = p[STICK_STIFFNESS], c = p[STICK_DAMPING], half = 0.5 * a->h, D = c + half * k;
+  const double bound = t->friction * p[FRICTION_FACTOR] * t->load, size = ali3_norm(t->normal);
+  double n[3] = {0.0, 0.0, 1.0}, plane[2][3], foot[3], velocity[3], row[2][SIGNALS], elastic[2], trial[2];
+  for (int i = 0; i < 3 && size > 0.0; i++) n[i] = t->normal[i] / size;
+  for (int i = 0; i < 3; i++) foot[i] = local[i] - p[RADIUS] * ali3_dot(a->u + 3 + 3 * i, n);
+  find_plane(n, plane);
   transform(a->ud, foot, velocity);
-  const double *plane[2] = {first, second};
   for (int i = 0; i < 2; i++) {
     elastic[i] = k * (y_old[i] + half * y_old[2 + i]);
     trial[i] = elastic[i] + D * ali3_dot(plane[i], velocity);
@@ -152,18 +175,7 @@ static void add_friction(ali3_element_args *a, const double local[3], const norm
     }
     a->potential += 0.5 * k * y_new[i] * y_new[i];
   }
-  if (!a->S) return;
-  if (scale == 1.0) {
-    for (int i = 0; i < 2; i++) ali3_add_outer(a->S, SIGNALS, a->wC * D, row[i]);
-    return;
-  }
-  double along[SIGNALS], across[SIGNALS]; /* along and across the sliding: fraction of the secant, and the secant */
-  for (int j = 0; j < SIGNALS; j++) {
-    along[j] = (trial[0] * row[0][j] + trial[1] * row[1][j]) / trial_size;
-    across[j] = (trial[0] * row[1][j] - trial[1] * row[0][j]) / trial_size;
-  }
-  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_FRACTION * D * scale, along);
-  ali3_add_outer(a->S, SIGNALS, a->wC * D * scale, across);
+  if (a->S) add_friction_tangent(a, row, trial, scale, D);
 }
 
 /* by_gradients: discrete gradients over a step. */

@@ -29,8 +29,8 @@ enum {
   CONTACT_POINTS_REALS
 };
 enum {
-  ROAD,
-  POINTS,
+  ROAD, /* Index of a road. */
+  POINTS, /* Number of items with 3 reals and 4 states each. */
   CONTACT_POINTS_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -15,33 +15,39 @@
 #include "selector.h"
 
 #define LIMITER_WIDTH 0.05 /* width of the limiter, relative to the limit speed */
+#define GEAR_FADE 5.0 /* rad/s of the motor, below which the loss of the gears, a friction, fades */
+#define BARELY 1e-3 /* fraction of GEAR_FADE below which the loss of the gears is negligible */
+
+enum { MOTOR_SPEED, MOTOR_TORQUE, WHEEL_TORQUE, ELECTRIC_POWER, GEAR, WHEEL_POWER }; /* outputs; one power a wheel */
+
 /* Bits of the active smooth pieces of the law. */
 enum { BY_POWER = 1, LIMITED = 2, CUT_OFF = 4, TAKES_BY_POWER = 8, DRIVES = 16, DIRECTIONS = 32 };
-#define BARELY 1e-3 /* fraction of GEAR_FADE below which the loss of the gears is negligible */
-#define GEAR_FADE 5.0 /* rad/s of the motor, below which the loss of the gears, a friction, fades */
 
 typedef struct {
-  double value, slope; /* torque, and its derivative by the speed */
-  uint32_t piece;
+  double value, slope; /* N m; derivative by the speed of the motor, N m s/rad */
+  uint32_t piece; /* active smooth pieces */
 } torque;
 
-/* min(largest, power / |speed|) */
+/* min(largest, power / |speed|); N m, W, rad/s */
 static torque limit_by_power(double largest, double power, double speed) {
   const double w = fabs(speed);
   if (!(largest * w > power)) return (torque){largest, 0.0, 0u};
   return (torque){power / w, -power / w / speed, BY_POWER};
 }
 
+/* Largest torque of the motor, which falls to 0 within the width of the limiter. */
+static torque find_full_torque(const double *p, double speed, int reverse) {
+  const double limit = reverse ? p[REVERSE_SPEED] : p[LIMIT_SPEED], width = LIMITER_WIDTH * limit;
+  const double over = (speed - limit) / width;
+  if (over >= 1.0) return (torque){0.0, 0.0, CUT_OFF};
+  const torque full = limit_by_power(p[MAX_TORQUE] * (reverse ? p[REVERSE_TORQUE] : 1.0), p[MAX_POWER], speed);
+  if (!(over > 0.0)) return full;
+  return (torque){full.value * (1.0 - over), full.slope * (1.0 - over) - full.value / width, full.piece | LIMITED};
+}
+
 /* Torque of the motor against its speed, both positive in the direction engaged. */
 static torque find_motor_torque(const double *p, double throttle, double speed, int reverse) {
-  const double limit = reverse ? p[REVERSE_SPEED] : p[LIMIT_SPEED], width = LIMITER_WIDTH * limit;
-  torque full = limit_by_power(p[MAX_TORQUE] * (reverse ? p[REVERSE_TORQUE] : 1.0), p[MAX_POWER], speed);
-  const double over = (speed - limit) / width;
-  if (over >= 1.0) {
-    full = (torque){0.0, 0.0, CUT_OFF};
-  } else if (over > 0.0) {
-    full = (torque){full.value * (1.0 - over), full.slope * (1.0 - over) - full.value / width, full.piece | LIMITED};
-  }
+  const torque full = find_full_torque(p, speed, reverse);
   const torque regeneration = limit_by_power(p[REGENERATION_TORQUE], p[REGENERATION_POWER], speed);
   const double x = ali3_clamp(speed / p[REGENERATION_SPEED], -1.0, 1.0), fade = 0.5 * x * (3.0 - x * x);
   const double fade_slope = 1.5 * (1.0 - x * x) / p[REGENERATION_SPEED], closed = 1.0 - throttle;
@@ -81,12 +87,12 @@ static void evaluate(ali3_element_args *a) {
   a->piece = wheels.piece + (uint32_t)(DIRECTIONS * (direction + 1));
   ali3_drive_wheels(a, total, slope);
   a->potential = 0.0;
-  a->out[0] = speed;
-  a->out[1] = m.value;
-  a->out[2] = 0.5 * total;
-  a->out[3] = power > 0.0 ? power / p[EFFICIENCY] : power * p[EFFICIENCY];
-  a->out[4] = direction;
-  for (int i = 0; i < 2; i++) a->out[5 + i] = 0.5 * total * (a->ud[i] - ali3_frame_rate(a));
+  a->out[MOTOR_SPEED] = speed;
+  a->out[MOTOR_TORQUE] = m.value;
+  a->out[WHEEL_TORQUE] = 0.5 * total;
+  a->out[ELECTRIC_POWER] = power > 0.0 ? power / p[EFFICIENCY] : power * p[EFFICIENCY];
+  a->out[GEAR] = direction;
+  for (int i = 0; i < 2; i++) a->out[WHEEL_POWER + i] = 0.5 * total * (a->ud[i] - ali3_frame_rate(a));
 }
 
 static void accept(ali3_element_args *a) {

@@ -40,8 +40,8 @@ enum {
   ELECTRIC_DRIVE_REALS
 };
 enum {
-  THROTTLE,
-  SELECTOR,
+  THROTTLE, /* Index of an input. */
+  SELECTOR, /* Index of an input. */
   ELECTRIC_DRIVE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -29,37 +29,65 @@ static ali3_lane_road load_road(const ali3_instance *in, int32_t number, real *n
   return road;
 }
 
+/* Where the numbers of each of four elements are. */
+typedef struct {
+  const int32_t *signal[ALI3_FOUR];
+  const double *numbers[ALI3_FOUR], *y_old[ALI3_FOUR];
+  double *f[ALI3_FOUR], *S[ALI3_FOUR], *y_new[ALI3_FOUR], *out[ALI3_FOUR];
+} four_places;
+
+static four_places find_places(const ali3_instance *in, const ali3_force_call *call, const int32_t e[ALI3_FOUR]) {
+  const ali3_system *S = in->system;
+  four_places at;
+  for (int l = 0; l < ALI3_FOUR; l++) {
+    const ali3_element_size *size = S->el_size + e[l];
+    at.signal[l] = S->el_sig + S->el_sig_ptr[e[l]];
+    at.numbers[l] = in->parameters.el_real + size->real;
+    at.y_old[l] = call->y_old + size->state;
+    at.f[l] = in->element.force + S->el_sig_ptr[e[l]];
+    at.S[l] = in->element.S + S->el_S_off[e[l]];
+    at.y_new[l] = call->y_new + size->state;
+    at.out[l] = call->out + size->out;
+  }
+  return at;
+}
+
+/* Copies signals, numbers and states of four elements, and sets their forces and tangents to zero. */
+static void load_numbers(const ali3_instance *in, const four_places *at, const ali3_element_size *size, bool tangent,
+                         four_numbers *to) {
+  const int32_t n = size->nsig;
+  for (int32_t i = 0; i < n; i++)
+    for (int l = 0; l < ALI3_FOUR; l++)
+      to->u[i][l] = in->element.u[at->signal[l][i]], to->ud[i][l] = in->element.ud[at->signal[l][i]];
+  interleave((double *)to->numbers, at->numbers, size->nreal);
+  interleave((double *)to->y_old, at->y_old, size->nstate);
+  memset(to->f, 0, (size_t)n * sizeof *to->f);
+  if (tangent) memset(to->S, 0, (size_t)(n * n) * sizeof *to->S);
+}
+
+/* Copies forces, tangents, states and outputs back. */
+static void store_numbers(const four_numbers *from, const four_places *at, const ali3_element_size *size,
+                          bool tangent) {
+  const int32_t n = size->nsig;
+  separate(at->f, (const double *)from->f, n);
+  if (tangent) separate(at->S, (const double *)from->S, n * n);
+  separate(at->y_new, (const double *)from->y_new, size->nstate);
+  separate(at->out, (const double *)from->out, size->nout);
+}
+
 /* Evaluates four elements e of one type with one law; to: work memory. */
 static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32_t e[ALI3_FOUR], four_numbers *to) {
   const ali3_system *S = in->system;
   const ali3_element_size *size = S->el_size + e[0];
-  const int32_t n = size->nsig, *signal[ALI3_FOUR];
   const bool tangent = call->tangent && S->el_front[e[0]] >= 0;
-  const double *element_reals[ALI3_FOUR], *element_states[ALI3_FOUR];
-  double *f[ALI3_FOUR], *T[ALI3_FOUR], *y_new[ALI3_FOUR], *out[ALI3_FOUR];
-  real numbers[ALI3_ROAD_NUMBERS], factor;
+  const four_places at = find_places(in, call, e);
+  real road_numbers[ALI3_ROAD_NUMBERS], factor;
   int32_t integer[ALI3_FOUR_INTEGERS];
-  for (int l = 0; l < ALI3_FOUR; l++) {
-    const ali3_element_size *element_size = S->el_size + e[l];
-    signal[l] = S->el_sig + S->el_sig_ptr[e[l]];
-    element_reals[l] = in->parameters.el_real + element_size->real;
-    element_states[l] = call->y_old + element_size->state;
-    f[l] = in->element.force + S->el_sig_ptr[e[l]];
-    T[l] = in->element.S + S->el_S_off[e[l]];
-    y_new[l] = call->y_new + element_size->state;
-    out[l] = call->out + element_size->out;
-  }
-  for (int32_t i = 0; i < n; i++)
-    for (int l = 0; l < ALI3_FOUR; l++)
-      to->u[i][l] = in->element.u[signal[l][i]], to->ud[i][l] = in->element.ud[signal[l][i]];
-  interleave((double *)to->numbers, element_reals, size->nreal);
-  interleave((double *)to->y_old, element_states, size->nstate);
-  memset(to->f, 0, (size_t)n * sizeof *to->f);
-  if (tangent) memset(to->S, 0, (size_t)(n * n) * sizeof *to->S);
+  load_numbers(in, &at, size, tangent, to);
   memcpy(integer, S->el_int + size->integer, (size_t)size->nint * sizeof *integer);
   ali3_lane_road road;
-  if (S->el_kind[e[0]]->depth != NULL) road = load_road(in, integer[0], numbers, &factor), integer[0] = 0;
-  ali3_element_args a = {.nsig = n,
+  if (S->el_kind[e[0]]->depth != NULL) road = load_road(in, integer[0], road_numbers, &factor), integer[0] = 0;
+  ali3_element_args a = {.nsig = size->nsig,
                          .nreal = size->nreal,
                          .nint = size->nint,
                          .nstate = size->nstate,
@@ -79,10 +107,7 @@ static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32
                          .S = tangent ? to->S : NULL,
                          .out = to->out};
   law_of(S->el_kind[e[0]])(&a);
-  separate(f, (const double *)to->f, n);
-  if (tangent) separate(T, (const double *)to->S, n * n);
-  separate(y_new, (const double *)to->y_new, size->nstate);
-  separate(out, (const double *)to->out, size->nout);
+  store_numbers(to, &at, size, tangent);
   for (int l = 0; l < ALI3_FOUR; l++) call->potential[e[l]] = a.potential[l], in->element.idle[e[l]] = a.idle != 0;
 }
 

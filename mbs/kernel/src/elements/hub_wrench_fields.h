@@ -7,12 +7,12 @@
 #include "element.h"
 
 enum {
-  FORCE_X,
-  FORCE_Y,
-  FORCE_Z,
-  MOMENT_X,
-  MOMENT_Y,
-  MOMENT_Z,
+  FORCE_X, /* Index of an input. */
+  FORCE_Y, /* Index of an input. */
+  FORCE_Z, /* Index of an input. */
+  MOMENT_X, /* Index of an input. */
+  MOMENT_Y, /* Index of an input. */
+  MOMENT_Z, /* Index of an input. */
   HUB_WRENCH_INTEGERS
 };
 #ifndef ALI3_WIDTH

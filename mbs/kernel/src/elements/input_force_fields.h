@@ -7,7 +7,7 @@
 #include "element.h"
 
 enum {
-  INPUT,
+  INPUT, /* Index of an input. */
   INPUT_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -14,8 +14,8 @@ enum {
   LIFT_REALS
 };
 enum {
-  WIND_SPEED,
-  WIND_HEADING,
+  WIND_SPEED, /* Index of an input. */
+  WIND_HEADING, /* Index of an input. */
   LIFT_INTEGERS
 };
 #ifndef ALI3_WIDTH

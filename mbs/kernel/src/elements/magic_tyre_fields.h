@@ -67,10 +67,10 @@ enum {
   BORE = MAGIC_TYRE_REALS + 178,
 };
 enum {
-  ROAD,
-  VERSION,
-  COMBINATION,
-  WITH_BORE,
+  ROAD, /* Index of a road. */
+  VERSION, /* A choice. */
+  COMBINATION, /* A choice. */
+  WITH_BORE, /* A choice. */
   MAGIC_TYRE_INTEGERS
 };
 #ifndef ALI3_WIDTH

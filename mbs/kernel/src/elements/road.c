@@ -1,5 +1,5 @@
-/* Plane, kerb and regular grid: contacts of a wheel, clearance of points, checks. A wheel is a disc; its nearest point
- * is searched in the wheel plane. */
+/* Roads by type: contacts of a wheel, clearance of points, bounds and checks; m, earth axes, z upwards. A wheel is a
+ * disc; its nearest point is searched in the wheel plane. */
 #include "road.h"
 
 #include "../algebra/small_vectors.h"
@@ -9,16 +9,21 @@
 #include "plane_and_kerb.h"
 #include "road_port.h"
 
+/* Numbers of a grid in the System; from GRID_DATA on heights, then frictions. */
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
+#define NEAR 0.1 /* m: distance from the tangent plane above which it is not evaluated again */
+#define INSIDE 0.01 /* m: depth above which the face of a wall is searched: the tangent plane does not include it */
+#define STEEP 1.5 /* depths: radius of that search, which finds every nearer face of 42 degrees or more */
+static const double MAX_POINTS = 1e6; /* in a direction of a grid */
 
-/* Reads the number of points of a grid; 0: its numbers are invalid. */
-static int read_grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
+/* Reads the number of points of a grid; false: its numbers are invalid. */
+static bool read_grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   const double a = p[GRID_NX], b = p[GRID_NY];
-  if (!(a >= 2.0 && a <= 1e6 && b >= 2.0 && b <= 1e6 && GRID_DATA + 2.0 * a * b <= (double)nreal)) return 0;
-  if (!(p[GRID_DX] > 0.0 && p[GRID_DY] > 0.0)) return 0;
+  if (!(a >= 2.0 && a <= MAX_POINTS && b >= 2.0 && b <= MAX_POINTS)) return false;
+  if (!(GRID_DATA + 2.0 * a * b <= (double)nreal && p[GRID_DX] > 0.0 && p[GRID_DY] > 0.0)) return false;
   *nx = (int)a;
   *ny = (int)b;
-  return 1;
+  return true;
 }
 
 /* Type of a road: from its file, otherwise its own. */
@@ -40,28 +45,25 @@ static double find_factor(const ali3_road *road) {
 }
 
 /* Grid of a road; false if a parameter made its header invalid. */
-static int make_grid(const ali3_road *road, ali3_grid *g) {
-  const double *p = road->real;
+static bool make_grid(const ali3_road *road, ali3_grid *g) {
   if (road->file != NULL) {
     const double *header = ali3_road_file_reals(road->file);
-    const ali3_grid grid = {.x0 = header[0], .y0 = header[1], .dx = header[2], .dy = header[3], .file = road->file};
-    *g = grid;
+    *g = (ali3_grid){.x0 = header[0], .y0 = header[1], .dx = header[2], .dy = header[3], .file = road->file};
     ali3_road_file_size(road->file, &g->nx, &g->ny);
-    return 1;
+    return true;
   }
+  const double *p = road->real, *z = p + GRID_DATA;
   int nx, ny;
-  if (!read_grid_size(p, road->nreal, &nx, &ny)) return 0;
-  const double *z = p + GRID_DATA;
-  const ali3_grid grid = {.nx = nx,
-                          .ny = ny,
-                          .x0 = p[GRID_X0],
-                          .y0 = p[GRID_Y0],
-                          .dx = p[GRID_DX],
-                          .dy = p[GRID_DY],
-                          .z = z,
-                          .mu = z + (int64_t)nx * ny};
-  *g = grid;
-  return 1;
+  if (!read_grid_size(p, road->nreal, &nx, &ny)) return false;
+  *g = (ali3_grid){.nx = nx,
+                   .ny = ny,
+                   .x0 = p[GRID_X0],
+                   .y0 = p[GRID_Y0],
+                   .dx = p[GRID_DX],
+                   .dy = p[GRID_DY],
+                   .z = z,
+                   .mu = z + (int64_t)nx * ny};
+  return true;
 }
 
 /* Contacts with a grid in memory or in a file. */
@@ -129,10 +131,6 @@ static int find_kerb_clearance(const double *p, const double point[3], ali3_clea
   return 2;
 }
 
-#define NEAR 0.1 /* m: distance from the tangent plane above which it is not evaluated again */
-#define INSIDE 0.01 /* m: depth above which the face of a wall is searched: the tangent plane does not include it */
-#define STEEP 1.5 /* depths: radius of that search, which finds every nearer face of 42 degrees or more */
-
 /* Distance to the surface by the tangent plane under the point, evaluated twice more at its foot; inside a wall, the
  * distance to the nearest face if that is less deep. */
 static int find_grid_clearance(const ali3_road *road, const double point[3], ali3_clearance *out) {
@@ -161,26 +159,31 @@ static int find_grid_clearance(const ali3_road *road, const double point[3], ali
   return 1;
 }
 
+/* Distance to a plane. */
+static int find_slope_clearance(const double *p, const double point[3], ali3_clearance *out) {
+  double n[3], q[3];
+  ali3_plane_frame(p, n, q);
+  find_plane_clearance(n, q, point, out);
+  out->friction = p[PLANE_FRICTION];
+  return 1;
+}
+
+/* Distance to the plane of the nearest answer of a port. */
+static int find_port_clearance(const ali3_road *road, const double point[3], ali3_clearance *out) {
+  double nearest[3];
+  const ali3_surface under = ali3_port_surface(road, point, nearest);
+  find_plane_clearance(under.normal, nearest, point, out);
+  out->friction = under.friction;
+  return 1;
+}
+
 int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clearance out[2]) {
   const int32_t type = find_type(road);
-  const double *p = find_reals(road);
   int count = 0;
-  if (type == ALI3_ROAD_PLANE) {
-    double n[3], q[3];
-    ali3_plane_frame(p, n, q);
-    find_plane_clearance(n, q, point, out);
-    out->friction = p[PLANE_FRICTION];
-    count = 1;
-  }
-  if (type == ALI3_ROAD_KERB) count = find_kerb_clearance(p, point, out);
+  if (type == ALI3_ROAD_PLANE) count = find_slope_clearance(find_reals(road), point, out);
+  if (type == ALI3_ROAD_KERB) count = find_kerb_clearance(find_reals(road), point, out);
   if (type == ALI3_ROAD_GRID) count = find_grid_clearance(road, point, out);
-  if (type == ALI3_ROAD_PORT) {
-    double nearest[3];
-    const ali3_surface under = ali3_port_surface(road, point, nearest);
-    find_plane_clearance(under.normal, nearest, point, out);
-    out->friction = under.friction;
-    count = 1;
-  }
+  if (type == ALI3_ROAD_PORT) count = find_port_clearance(road, point, out);
   for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(find_factor(road), out[i].friction);
   return count;
 }
@@ -205,32 +208,46 @@ double ali3_road_top(const ali3_road *road, const double place[3], double reach)
   return make_grid(road, &g) ? ali3_grid_top(&g, place, reach) : -INFINITY;
 }
 
-const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {
-  static const char negative[] = "the friction of a road must not be negative";
+static const char NEGATIVE[] = "the friction of a road must not be negative";
+
+static const char *check_plane(const double *real, int32_t nreal) {
+  if (nreal != PLANE_FACTOR && nreal != PLANE_REALS)
+    return "a plane road has 4 numbers: height, grade in x, grade in y, friction; and a factor on the friction";
+  return real[PLANE_FRICTION] < 0.0 || (nreal == PLANE_REALS && real[PLANE_FACTOR] < 0.0) ? NEGATIVE : NULL;
+}
+
+static const char *check_kerb(const double *real, int32_t nreal) {
+  if (nreal != KERB_FACTOR && nreal != KERB_REALS)
+    return "a kerb has 5 numbers: x of the edge, lower height, step, side, friction; and a factor on the friction";
+  if (!(real[KERB_STEP] > 0.0)) return "the step of a kerb must be positive";
+  if (real[KERB_SIDE] != 1.0 && real[KERB_SIDE] != -1.0) return "the side of a kerb must be 1 or -1";
+  return real[KERB_FRICTION] < 0.0 || (nreal == KERB_REALS && real[KERB_FACTOR] < 0.0) ? NEGATIVE : NULL;
+}
+
+static const char *check_grid(const double *real, int32_t nreal) {
   int nx, ny;
+  if (nreal < GRID_DATA || !read_grid_size(real, nreal, &nx, &ny))
+    return "a grid road needs at least 2 x 2 points at positive spacing";
+  if (nx != real[GRID_NX] || ny != real[GRID_NY] || GRID_DATA + 2 * (int64_t)nx * ny != nreal)
+    return "a grid road needs one height and one friction per point";
+  if (real[GRID_FRICTION] < 0.0) return NEGATIVE;
+  for (int64_t i = GRID_DATA + (int64_t)nx * ny; i < nreal; i++)
+    if (real[i] < 0.0) return NEGATIVE;
+  return NULL;
+}
+
+const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {
   switch (type) {
   case ALI3_ROAD_PLANE:
-    if (nreal != PLANE_FACTOR && nreal != PLANE_REALS)
-      return "a plane road has 4 numbers: height, grade in x, grade in y, friction; and a factor on the friction";
-    return real[PLANE_FRICTION] < 0.0 || (nreal == PLANE_REALS && real[PLANE_FACTOR] < 0.0) ? negative : 0;
+    return check_plane(real, nreal);
   case ALI3_ROAD_KERB:
-    if (nreal != KERB_FACTOR && nreal != KERB_REALS)
-      return "a kerb has 5 numbers: x of the edge, lower height, step, side, friction; and a factor on the friction";
-    if (!(real[KERB_STEP] > 0.0)) return "the step of a kerb must be positive";
-    if (real[KERB_SIDE] != 1.0 && real[KERB_SIDE] != -1.0) return "the side of a kerb must be 1 or -1";
-    return real[KERB_FRICTION] < 0.0 || (nreal == KERB_REALS && real[KERB_FACTOR] < 0.0) ? negative : 0;
+    return check_kerb(real, nreal);
   case ALI3_ROAD_GRID:
-    if (nreal < GRID_DATA || !read_grid_size(real, nreal, &nx, &ny))
-      return "a grid road needs at least 2 x 2 points at positive spacing";
-    if (nx != real[GRID_NX] || ny != real[GRID_NY] || GRID_DATA + 2 * (int64_t)nx * ny != nreal)
-      return "a grid road needs one height and one friction per point";
-    if (real[GRID_FRICTION] < 0.0) return negative;
-    for (int64_t i = GRID_DATA + (int64_t)nx * ny; i < nreal; i++)
-      if (real[i] < 0.0) return negative;
-    return 0;
+    return check_grid(real, nreal);
   case ALI3_ROAD_PORT:
-    return nreal < 2 || real[0] != nreal - 1 ? "a road at a port needs the number of its answers and an input of each"
-                                             : 0;
+    if (nreal < 2 || real[0] != nreal - 1)
+      return "a road at a port needs the number of its answers and an input of each";
+    return NULL;
   default:
     return "unknown type of road";
   }

@@ -13,7 +13,7 @@ enum {
   SPIN_TORQUE_REALS
 };
 enum {
-  INPUT,
+  INPUT, /* Index of an input. */
   SPIN_TORQUE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -25,8 +25,8 @@ enum {
   SPRING_DAMPER_TABLE_REALS = STOPS + 12
 };
 enum {
-  SPRING_POINTS,
-  DAMPER_POINTS,
+  SPRING_POINTS, /* Number of items with 4 reals each. */
+  DAMPER_POINTS, /* Number of items with 3 reals each. */
   SPRING_DAMPER_TABLE_INTEGERS
 };
 #ifndef ALI3_WIDTH

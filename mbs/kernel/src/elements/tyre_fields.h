@@ -62,8 +62,8 @@ enum {
   TYRE_BORE = TYRE_REALS,
 };
 enum {
-  TYRE_ROAD,
-  TYRE_WITH_BORE,
+  TYRE_ROAD, /* Index of a road. */
+  TYRE_WITH_BORE, /* A choice. */
   TYRE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -14,8 +14,8 @@ enum {
   WIND_DRAG_REALS
 };
 enum {
-  WIND_SPEED,
-  WIND_HEADING,
+  WIND_SPEED, /* Index of an input. */
+  WIND_HEADING, /* Index of an input. */
   WIND_DRAG_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -40,7 +40,7 @@ static const double EPS_FACTOR = 1e-3; /* of eps_rel: penalty for rows nearly re
 static const double MAX_RATIO = 2.0; /* steps: range of extrapolation of the last collocation polynomial */
 
 static const double node[STAGES] = {0.15505102572168219, 0.64494897427831781, 1.0}; /* (4 -+ sqrt 6)/10 */
-/* A and A^2 of the method to 17 digits */
+/* A and A^2 of the method, to 17 digits. */
 static const double A[STAGES][STAGES] = {{0.19681547722366043, -0.06553542585019839, 0.02377097434822015},
                                          {0.39442431473908728, 0.29207341166522846, -0.04154875212599793},
                                          {0.37640306270046728, 0.51248582618842161, 0.11111111111111111}};
@@ -48,19 +48,19 @@ static const double A2[STAGES][STAGES] = {{0.02183503419072274, -0.0198572540986
                                           {0.17719058743194561, 0.03816496580927726, -0.00737596352989574},
                                           {0.31804138174397717, 0.18195861825602283, 0.00000000000000000}};
 
-/* Arrays of stage i: accelerations (nq), */
+/* Accelerations of stage i, nq. */
 static double *stage_acceleration(const ali3_instance *in, int i) {
   return in->step.stage + (int64_t)i * in->system->size.nq;
 }
-/* residuals (nq), */
+/* Residuals of stage i, nq. */
 static double *stage_residual(const ali3_instance *in, int i) { return stage_acceleration(in, STAGES + i); }
-/* rows or multipliers in v (nc), */
+/* Rows or multipliers of stage i in an array of all stages, nc. */
 static double *stage_rows(const ali3_instance *in, double *v, int i) { return v + (int64_t)i * in->system->size.nc; }
-/* powers of sensed elements (n_work), */
+/* Powers of sensed elements at stage i, n_work, W. */
 static double *stage_power(const ali3_instance *in, int i) {
   return in->watch.stages + (int64_t)i * in->system->n_work;
 }
-/* and entries in the row pattern in v. */
+/* Entries of stage i in an array of all stages, in the row pattern. */
 static double *stage_entries(const ali3_instance *in, double *v, int i) { return v + i * in->system->size.nnz_rows; }
 
 /* Sets position, velocity, guides and inputs of stage i. */

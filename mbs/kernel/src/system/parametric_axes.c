@@ -1,6 +1,6 @@
-/* System with axes set by parameters: its file has entries for every direction of a wheel's signals. The System as
- * loaded drops those that are zero as drawn, so that they cost nothing; `turned` keeps them, for instances with other
- * axes. */
+/* Wheel axes that parameters set. The file of such a System has entries for every direction of a wheel's signals. The
+ * System as loaded (lean) drops those that are zero as drawn, so that they cost nothing; `turned` keeps them, for
+ * instances with other axes. */
 #include <math.h>
 #include <string.h>
 
@@ -10,8 +10,9 @@
 #include "message.h"
 #include "pool.h"
 
-enum { FRAME = ALI3_AXIS_SIGNALS };
-static const double STEEPEST = 1.4, LARGEST_AZIMUTH = 7.0; /* rad: above a whole turn */
+enum { FRAME = ALI3_AXIS_SIGNALS }; /* signals of the frame of a wheel: three vectors */
+static const double STEEPEST = 1.4; /* rad: inclination of an axis from the level, short of upright */
+static const double LARGEST_AZIMUTH = 7.0; /* rad: above a whole turn */
 
 const char *ali3_check_axis(const double *real) {
   return fabs(real[0]) <= LARGEST_AZIMUTH && fabs(real[1]) <= STEEPEST ? NULL
@@ -26,21 +27,27 @@ static bool has_all(const ali3_system *s, int32_t to, int32_t from) {
   return true;
 }
 
-ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
-  const int64_t n = s->n_axis_inertia;
-  for (int64_t k = 0; k < n; k++)
-    if (s->axis_table[k] < 0)
-      for (int64_t i = 0; i < FRAME; i++)
-        CHECK(ali3_check_independent(s, s->axis_frame[FRAME * k + i], "a wheel whose axis has no table", m));
-  for (int64_t i = 0; i < FRAME * n; i++)
-    for (int64_t j = 0; j < FRAME; j += 3) {
-      const int32_t own = s->axis_frame[i], axis = s->axis_frame[i / FRAME * FRAME + i % 3 + j];
-      if (!has_all(s, s->axis_signal[i], axis))
-        return ali3_bad(m, "the signals of axis %d have no room for all directions", (int)(i / FRAME));
-      if (s->axis_table[i / FRAME] < 0 && !ali3_mass_has_room(s, own, axis))
-        return ali3_bad(m, "the mass matrix has no entry for the wheel of axis %d", (int)(i / FRAME));
+/* Checks that signals and, without a table, the mass matrix have entries for all directions of axis k. */
+static ali3_status check_room(const ali3_system *s, int64_t k, ali3_message m) {
+  const int32_t *frame = s->axis_frame + FRAME * k, *signal = s->axis_signal + FRAME * k;
+  const bool has_table = s->axis_table[k] >= 0;
+  for (int i = 0; i < FRAME; i++)
+    for (int j = i % 3; j < FRAME; j += 3) { /* the same component of all three vectors */
+      if (!has_all(s, signal[i], frame[j]))
+        return ali3_bad(m, "the signals of axis %d have no room for all directions", (int)k);
+      if (!has_table && !ali3_mass_has_room(s, frame[i], frame[j]))
+        return ali3_bad(m, "the mass matrix has no entry for the wheel of axis %d", (int)k);
     }
-  if (n > 0 && s->n_tree_parent > 0) return ali3_bad(m, "a parameter writes the axis of a wheel of a tree");
+  return ALI3_OK;
+}
+
+ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
+  for (int64_t k = 0; k < s->n_axis_inertia; k++)
+    for (int i = 0; i < FRAME && s->axis_table[k] < 0; i++)
+      CHECK(ali3_check_independent(s, s->axis_frame[FRAME * k + i], "a wheel whose axis has no table", m));
+  for (int64_t k = 0; k < s->n_axis_inertia; k++) CHECK(check_room(s, k, m));
+  if (s->n_axis_inertia > 0 && s->n_tree_parent > 0)
+    return ali3_bad(m, "a parameter writes the axis of a wheel of a tree");
   return ALI3_OK;
 }
 
@@ -51,7 +58,7 @@ typedef struct {
   bool *written; /* nsig: whether axes write the signal */
 } lean;
 
-/* Places them. */
+/* Places the arrays of the lean System in a pool. */
 static void place_arrays(const ali3_system *s, ali3_pool *p, lean *to) {
   const size_t nsig = (size_t)s->size.nsig, entries = (size_t)s->n_sig_col;
   to->sig_val = ali3_pool_items(p, entries, sizeof(double));
@@ -67,17 +74,22 @@ static bool is_kept(const ali3_system *s, const lean *to, int32_t signal, int32_
   return !to->written[signal] || s->sig_val[k] != 0.0;
 }
 
-/* Fills them, and makes them the arrays of the System. */
-static void drop_zeros(ali3_system *s, lean *to) {
-  int32_t n = 0, at = 0;
-  for (int64_t i = 0; i < s->n_axis_signal; i++) to->written[s->axis_signal[i]] = true;
+/* Fills the places of the coordinates of elements in their fronts; returns their number. */
+static int32_t fill_places(const ali3_system *s, lean *to) {
+  int32_t n = 0;
   for (int32_t e = 0; e < s->size.ne; e++) {
     const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
     for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
       for (int32_t k = s->sig_ptr[s->el_sig[i]]; k < s->sig_ptr[s->el_sig[i] + 1]; k++, loc++)
-        if (is_kept(s, to, s->el_sig[i], k)) to->el_loc[at++] = *loc;
-    to->el_loc_ptr[e + 1] = at;
+        if (is_kept(s, to, s->el_sig[i], k)) to->el_loc[n++] = *loc;
+    to->el_loc_ptr[e + 1] = n;
   }
+  return n;
+}
+
+/* Fills the signals; returns the number of their entries. */
+static int32_t fill_signals(const ali3_system *s, lean *to) {
+  int32_t n = 0;
   for (int32_t i = 0; i < s->size.nsig; i++) {
     for (int32_t k = s->sig_ptr[i]; k < s->sig_ptr[i + 1]; k++) {
       if (!is_kept(s, to, i, k)) continue;
@@ -86,13 +98,20 @@ static void drop_zeros(ali3_system *s, lean *to) {
     }
     to->sig_ptr[i + 1] = n;
   }
+  return n;
+}
+
+/* Fills the arrays of the lean System and makes them those of s. */
+static void drop_zeros(ali3_system *s, lean *to) {
+  for (int64_t i = 0; i < s->n_axis_signal; i++) to->written[s->axis_signal[i]] = true;
+  const int32_t n_place = fill_places(s, to), n_entry = fill_signals(s, to);
   s->sig_ptr = to->sig_ptr;
   s->sig_col = to->sig_col;
   s->sig_val = to->sig_val;
   s->el_loc_ptr = to->el_loc_ptr;
   s->el_loc = to->el_loc;
-  s->n_sig_col = s->n_sig_val = n;
-  s->n_el_loc = at;
+  s->n_sig_col = s->n_sig_val = n_entry;
+  s->n_el_loc = n_place;
 }
 
 ali3_status ali3_system_turn(ali3_system *s, ali3_message m) {
