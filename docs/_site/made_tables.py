@@ -10,7 +10,7 @@ from sphinx.errors import ExtensionError
 from benchmarks.car.variable_tables import blocks
 from benchmarks.car.variable_tables import tables as variable_tables
 from mbs.elements.tables import element_table, law_table, number_table
-from mbs.kernel.read_headers import TABLE_PREFIXES, array_table, sensor_table, size_table, status_table
+from mbs.kernel.header_tables import TABLE_PREFIXES, array_table, sensor_table, size_table, status_table
 from mbs.vehicle.reference import tables
 
 MARK = re.compile(r"<!-- made with the site: (.+) -->\n")

@@ -6,7 +6,7 @@ import shutil
 
 import pytest
 
-from mbs.kernel import read_headers
+from mbs.kernel import header_tables, read_headers
 from mbs.kernel.binding import library, load_library
 from mbs.kernel.header.arrays import ARRAYS
 from mbs.kernel.header.enumerations import SensorType, Status
@@ -27,14 +27,14 @@ def test_every_method_of_the_kernel_has_an_entry_with_its_order():
 
 
 def test_the_tables_of_sensors_and_arrays_have_a_row_for_each():
-    rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", read_headers.sensor_table(), re.MULTILINE)
+    rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", header_tables.sensor_table(), re.MULTILINE)
     assert [(int(number), name) for number, name in rows] == [(t.value, t.name) for t in SensorType]
-    tables = [read_headers.array_table(part) for part in ("", *read_headers.TABLE_PREFIXES)]
+    tables = [header_tables.array_table(part) for part in ("", *header_tables.TABLE_PREFIXES)]
     names = [name for table in tables for name in re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)]
     assert sorted(names) == sorted(ARRAYS)
     assert not re.search(r"\b(ANY|ANY_IF|IF_ANY|OR_NONE|BELOW|WITHIN|OFFSETS|RELATED|FINITE)\b", "\n".join(tables))
     assert "| `row_ptr` | i nc + 1 | offsets in `row_col` |" in tables[0]
-    sizes = dict(re.findall(r"^\| `(\w+)` \| [^|]+ \| items of `(\w+)`", read_headers.size_table(), re.MULTILINE))
+    sizes = dict(re.findall(r"^\| `(\w+)` \| [^|]+ \| items of `(\w+)`", header_tables.size_table(), re.MULTILINE))
     assert set(sizes.values()) <= set(ARRAYS)
 
 
