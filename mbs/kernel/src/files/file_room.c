@@ -9,14 +9,14 @@
 #include "regular_file.h"
 
 struct ali3_file {
-  ali3_file *next;
+  ali3_file *next; /* in the list of registered files */
   char *path;
-  unsigned char *bytes;
+  unsigned char *bytes; /* `size` of them */
   int64_t size;
   int64_t users; /* number of open handles, plus one while registered */
 };
 
-static ali3_file *first;
+static ali3_file *first; /* registered file; NULL: none */
 
 /* Takes one user from a file, and frees it after the last. */
 static void release(ali3_file *file) {
@@ -34,12 +34,9 @@ static ali3_file **link_to(const char *path) {
 }
 
 int32_t ali3_file_add(const char *path, void *bytes, size_t size) {
-  ali3_file *file = NULL;
-  char *copy = NULL;
-  if (path != NULL && path[0] != 0 && strlen(path) < ALI3_MAX_PATH && (bytes != NULL || size == 0)) {
-    file = malloc(sizeof *file);
-    copy = malloc(strlen(path) + 1);
-  }
+  if (path == NULL || path[0] == 0 || strlen(path) >= ALI3_MAX_PATH || (bytes == NULL && size > 0)) return 0;
+  ali3_file *file = malloc(sizeof *file);
+  char *copy = malloc(strlen(path) + 1);
   if (file == NULL || copy == NULL) {
     free(file);
     free(copy);
@@ -47,8 +44,7 @@ int32_t ali3_file_add(const char *path, void *bytes, size_t size) {
   }
   strcpy(copy, path);
   ali3_file_remove(path);
-  const ali3_file entry = {.next = first, .path = copy, .bytes = bytes, .size = (int64_t)size, .users = 1};
-  *file = entry;
+  *file = (ali3_file){.next = first, .path = copy, .bytes = bytes, .size = (int64_t)size, .users = 1};
   first = file;
   return 1;
 }
