@@ -91,5 +91,5 @@ def test_texts_of_the_host_reach_its_log_as_printable_characters(crane: Path, ho
     driven = host(crane)
     with pytest.raises(Exception, match="instantiate"):
         driven.instance(quoted)
-    assert driven.messages[-1].startswith(f"The GUID {'?[2J????' if quoted[0] != 'x' else quoted.rstrip(quoted[-1])}")
+    assert driven.messages[-1].startswith(f"The GUID {'?[2J ???' if quoted[0] != 'x' else quoted.rstrip(quoted[-1])}")
     assert driven.messages[-1].isprintable()

@@ -33,12 +33,12 @@ static size_t measure_character(const char *text) {
   return code >= smallest[n] && code != 0x7f && code <= 0x10ffff && !is_surrogate ? n : 0;
 }
 
-/* Hands a message to the host. Texts of the host that it quotes may hold control characters, or end within a character
- * where they were cut: such bytes become question marks. */
+/* Hands a message to the host, in one line. Texts of the host that it quotes may hold control characters, or end within
+ * a character where they were cut: such bytes become question marks. */
 static void pass_on(slave *s, slave_status status, int category, char *text) {
   for (char *c = text; *c != 0;) {
     const size_t n = measure_character(c);
-    if (n == 0) *c = '?';
+    if (n == 0) *c = *c == '\n' || *c == '\t' ? ' ' : '?';
     c += n > 0 ? n : 1;
   }
   s->logger(s, status, category_name[category], text);
