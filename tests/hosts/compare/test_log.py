@@ -265,7 +265,7 @@ BAD = [
     ("a,pull,bob.x\n" + rows("{t},{f},{x}"), "", "has no column of times"),
     ("time,pull,bob.x\n0,1,2\n0.1,2,3\n", "", "at least 10 are needed"),
     ("time pull bob.x\n" + rows("{t} {f} {x}"), "", "is not a table of numbers"),
-    ("time [s],pull,bob.x\n", "", "has no number in it; below a line of names it needs rows of values"),
+    ('"time [s]",pull,bob.x[1]\n', "", "has no line that begins with a number; below its names it needs rows."),
     (rows("{t},{f},{x}"), "", "has no line of 3 names"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nheading = 1\nunits = 1", "heading and units are both 1"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nencoding = 'punycode'", "is not written in punycode"),
