@@ -30,10 +30,13 @@ class _Lines:
     bar: Bar | None = None
     # The interval grows here: tqdm counts some items twice if its own interval changes during an iteration.
     _interval, _due = DELAY, 0.0
+    _written: float | None = None  # what was done at the last line
 
     def write(self, text: str) -> None:
-        if (line := text.strip()) and (time.monotonic() >= self._due or (self.bar is not None and self.bar.disable)):
+        is_last = self.bar is not None and self.bar.disable and self.bar.n != self._written
+        if (line := text.strip()) and (time.monotonic() >= self._due or is_last):
             sys.stderr.write(f"{line}\n")
+            self._written = self.bar.n if self.bar is not None else None
             self._due, self._interval = (
                 time.monotonic() + self._interval,
                 min(self._interval * _GROWTH, _MAX_INTERVAL),

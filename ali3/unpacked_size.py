@@ -45,6 +45,8 @@ class Unpacked(io.RawIOBase):
     ----------
     taken : int
         Bytes read so far.
+    whole : bool
+        Whether they end with a line end.
     """
 
     def __init__(
@@ -61,6 +63,7 @@ class Unpacked(io.RawIOBase):
         self._name, self._error = name or str(file), error
         self._mark, self._zeros, self._most = mark, zeros, most
         self.taken = self._cells = self._line_length = 0
+        self.whole = True
         self._file = open_file(file, largest, error, self._name)
         is_compressed = Path(file).suffix.lower() == ".gz"
         self._source = gzip.GzipFile(fileobj=self._file) if is_compressed else self._file
@@ -85,6 +88,7 @@ class Unpacked(io.RawIOBase):
             raise self._error(f"{self._name} is not text: there is a zero byte in it.")
         self._cells += data.count(self._mark) if self._mark else 0
         check_memory(self.taken + _BYTES_PER_CELL * self._cells, self._error, self._name, self._most)
+        self.whole = data.endswith((b"\n", b"\r")) if data else self.whole
         end = data.rfind(b"\n")
         self._line_length = self._line_length + len(data) if end < 0 else len(data) - end - 1
         if self._line_length > MAX_LINE:

@@ -53,6 +53,8 @@ def detect_dialect(path: Path, stated: Dialect) -> DetectedDialect:
     delimiter, first, width, _ = max(candidates, key=lambda item: (item[3], item[2]))
     if width < 2:
         _refuse_units_in_cells(path, lines, stated)
+        if not any(map(re.compile(r'\s*"?[+-]?[.,]?\d').match, lines)):
+            raise HostError(f"The log {path} has no line that begins with a number; below its names it needs rows.")
         tried = "' or '".join(repr(d)[1:-1] for d, *_ in candidates)
         raise HostError(
             f"The log {path} is not a table of numbers with a time and signals, divided by '{tried}'; its first line "

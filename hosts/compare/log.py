@@ -62,7 +62,7 @@ def log_for(
     record = record_of(raw.path)
     raw = raw.with_jumps(record)
     columns = _columns(raw, aliases, fmu, inputs, outputs)
-    notes: list[str] = []
+    notes = list(raw.notes)
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
     signals: dict[str, Signal] = {}
     origin: float | None = None

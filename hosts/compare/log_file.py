@@ -40,6 +40,8 @@ class RawLog:
     """Number of lines of the file before the first row."""
     added: int = 0
     """Number of rows that were added from the record of the run that wrote the file."""
+    notes: tuple[str, ...] = ()
+    """What was left out, in a sentence each."""
 
     def with_jumps(self, record: RunRecord) -> RawLog:
         """With a row before each jump of an input of the record of a run. Raises `HostError` if the run is another."""
@@ -112,9 +114,10 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
     if path.suffix.lower() in _PARQUET:
         return _read_parquet(path)
     detected = detect_dialect(path, dialect)
+    content = Unpacked(path, LARGEST, HostError, f"The log {path}", detected.delimiter.encode())
     try:
         table = pd.read_csv(
-            Unpacked(path, LARGEST, HostError, f"The log {path}", detected.delimiter.encode()),
+            content,
             sep=detected.delimiter,
             decimal=detected.decimal,
             encoding=detected.encoding,
@@ -134,7 +137,10 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
             width, line, count = cells.groups()
             raise HostError(f"The log {path}, line {line}: {count} cells; the heading has {width}.") from None
         raise HostError(f"The log {path} is not a table: {one_line(str(error).strip()).rstrip('.')}.") from None
-    return RawLog(path, table, detected.units, detected.first_row)
+    if content.whole or len(table) < 2:
+        return RawLog(path, table, detected.units, detected.first_row)
+    note = "The last line has no line end, as where a log was cut: its row is left out."
+    return RawLog(path, table.iloc[:-1], detected.units, detected.first_row, notes=(note,))
 
 
 def _read_parquet(path: Path) -> RawLog:

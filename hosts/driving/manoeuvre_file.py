@@ -20,7 +20,7 @@ from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, text_of
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_table import check_begin, read_table
+from hosts.driving.manoeuvre_table import check_times, read_table
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.state_file import read_state
@@ -120,7 +120,7 @@ def _read_toml(path: Path) -> Manoeuvre:
     inputs = {name: np.array(column, dtype=np.float64) for name, column in file.inputs.items()}
     time = inputs.pop("time", np.zeros(0))
     if len(time):
-        check_begin(float(time[0]), float(time[-1]), path)
+        check_times(time.tolist(), path)
     stop_time = file.stop_time or (float(time[-1]) if len(time) else math.nan)
     driver = {name: value if isinstance(value, str) else text_of(value) for name, value in file.driver.items()}
     state: tuple[bytes | None, float] = None, 0.0

@@ -1,7 +1,7 @@
 """Manoeuvres as plain CSV files."""
 
 import re
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
@@ -94,7 +94,7 @@ def _rows_of(table: TextTable, path: Path) -> list[list[float]]:
             raise HostError(f"{path}, line {row.line}: time goes back from {rows[-2][0]:g} s to {rows[-1][0]:g} s.")
     if not rows:
         raise HostError(f"{path} contains no values; it needs a heading and at least one row.")
-    check_begin(rows[0][0], rows[-1][0], path)
+    check_times([row[0] for row in rows], path)
     return rows
 
 
@@ -131,14 +131,19 @@ def _with_remarks(record: RunRecord, comments: Iterable[tuple[int, str]], path: 
     return replace(record, start={**record.start, **start})
 
 
-def check_begin(first: float, last: float, path: Path) -> None:
-    """Refuse a table with times, s, before 0 or too large for distinct rows, as those since 1970."""
+def check_times(times: Sequence[float], path: Path) -> None:
+    """Refuse times of rows, s, before 0, too large for distinct rows, as those since 1970, or one of three rows."""
+    first, last = times[0], times[-1]
     if first < 0.0:
         raise HostError(f"{path} begins at {first:.15g} s; a run begins at 0: add {-first:.15g} s to all its times.")
     if last > _LATEST:
         raise HostError(
             f"{path} goes from {first:.15g} to {last:.15g} s; a run begins at 0 and ends before {_LATEST:.2g} s: "
             "subtract the first time from all, and write them in s."
+        )
+    if (thrice := next((a for a, b in zip(times, times[2:], strict=False) if a == b), None)) is not None:
+        raise HostError(
+            f"{path} has more than two rows at {thrice:.15g} s; a jump has two, with the values before and after it."
         )
 
 

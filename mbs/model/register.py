@@ -34,6 +34,7 @@ class Named(Protocol):
 N = TypeVar("N", bound=Named)
 TIME = "time"
 """First column of tables of runs, and a variable of FMI 3.0."""
+_VARIABLES = ("sensor", "input", "parameter", "constant")  # families whose names tables and FMUs share
 
 
 class Register(ModelCoordinates):
@@ -53,7 +54,7 @@ class Register(ModelCoordinates):
         self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
     ) -> None:
         super().__init__(name, dimension, gravity, length)
-        self._names: set[tuple[str, str]] = set()  # kind and name of each registered object
+        self._names: dict[tuple[str, str], str] = {}  # families by kind and name
         # bodies and coordinates
         self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
         self.bodies: list[Body] = []
@@ -102,14 +103,17 @@ class Register(ModelCoordinates):
         ModelError
             The name is empty, cannot be written to a file, is the name of the time, or is taken.
         """
-        key = family, named(name, f"a {family}")
-        if name == TIME and family in ("sensor", "input", "parameter", "constant"):
+        key = "variable" if family in _VARIABLES else family, named(name, f"a {family}")
+        if name == TIME and family in _VARIABLES:
             raise ModelError(f"The name of a {family} is '{TIME}', which tables of runs and FMUs have for their time.")
-        if key in self._names:
-            raise ModelError(f"The model '{self.name}' already has a {family} named '{name}'; names must be unique.")
-        self._names.add(key)
+        if (taken := self._names.get(key)) is not None:
+            raise ModelError(
+                f"The model '{self.name}' already has {'an' if taken[0] in 'aei' else 'a'} {taken} named '{name}'; "
+                f"names must be unique{'' if taken == family else ' in tables of runs and FMUs'}."
+            )
+        self._names[key] = family
         if self._undo is not None:
-            self._undo.append(lambda: self._names.discard(key))
+            self._undo.append(lambda: self._names.__delitem__(key))
         return key[1]
 
     def enter(self, family: str, items: list[N], item: N) -> N:

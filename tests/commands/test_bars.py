@@ -23,6 +23,15 @@ def test_lines_count_each_thing_once_and_become_rarer(
     assert not any(character in line for line in lines for character in "\r\x1b")
 
 
+def test_the_last_line_stands_once(capsys: pytest.CaptureFixture[str]) -> None:
+    with bars.bar(total=2, delay=0.0) as bar:
+        for _ in range(2):
+            bar.fp._due = bar.last_print_t = 0.0  # each state is due, the last too
+            bar.update()
+    counts = re.findall(r"(\d)/2 ", capsys.readouterr().err)
+    assert counts[-2:] == ["1", "2"]
+
+
 @pytest.mark.parametrize(("done", "left"), [(0.0, "?"), (1.0, "?"), (49.0, "?"), (50.0, "26:20")])
 def test_no_remaining_time_is_told_before_a_hundredth_is_done(done: float, left: str) -> None:
     """The first of 5000 s may have waited for a start. A fifth was done before."""

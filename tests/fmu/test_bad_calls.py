@@ -48,6 +48,18 @@ def test_outputs_unknown_references_and_other_types_are_refused(crane: Path, hos
     assert driven.call("setInteger", [driven.references["torque"]], [1]) == ERROR
 
 
+def test_a_tolerance_is_a_number_of_at_least_zero(crane: Path, host: HostMaker) -> None:
+    for wrong in (-1e-6, math.nan, math.inf):
+        driven = host(crane)
+        call = "enterInitializationMode" if driven.three else "setupExperiment"
+        driven.call("setupExperiment", wrong)  # of FMI 3.0 it is an argument of the next call
+        if driven.three:
+            assert driven.call(call) == ERROR
+        assert f"The tolerance is {wrong:g}; a finite number of at least 0 is needed." in driven.messages[-1]
+        driven.slave.setupExperiment(1e-6)
+        assert driven.call("enterInitializationMode") == OK
+
+
 def test_wrong_orders_of_calls(crane: Path, host: HostMaker) -> None:
     driven = host(crane)
     assert driven.step(0.0, 0.01) == ERROR
@@ -71,3 +83,13 @@ def test_a_wrong_guid_is_refused(crane: Path, host: HostMaker) -> None:
     with pytest.raises(Exception, match="instantiate"):
         driven.instance("{00000000-0000-0000-0000-000000000000}")
     assert "GUID" in driven.messages[-1]
+
+
+@pytest.mark.parametrize("quoted", ["\x1b[2J\n\x7f\x9b", f"{63 * 'x'}\u00e4", f"{62 * 'x'}\U0001d54f"])
+def test_texts_of_the_host_reach_its_log_as_printable_characters(crane: Path, host: HostMaker, quoted: str) -> None:
+    """Control characters, and what is left of one that was cut, are question marks: hosts decode messages as UTF-8."""
+    driven = host(crane)
+    with pytest.raises(Exception, match="instantiate"):
+        driven.instance(quoted)
+    assert driven.messages[-1].startswith(f"The GUID {'?[2J ???' if quoted[0] != 'x' else quoted.rstrip(quoted[-1])}")
+    assert driven.messages[-1].isprintable()

@@ -66,6 +66,22 @@ def test_a_communication_point_may_be_off_by_the_round_off_of_a_host(crane: Path
         assert driven.step(0.01 if status == ERROR else 0.02, 0.01) == OK
 
 
+@pytest.mark.parametrize("length", [1e-300, 1e-16, 1e-12])
+def test_a_step_that_is_round_off_of_the_hosts_times_moves_nothing(crane: Path, host: HostMaker, length: float) -> None:
+    """The kernel would take the round-off of positions for motion; what was set counts from the next step on."""
+    driven, plain = host(crane).start(), host(crane).start()
+    assert driven.step(0.0, 0.01) == plain.step(0.0, 0.01) == OK
+    before = driven.outputs()
+    driven.set("torque", 2.0)
+    plain.set("torque", 2.0)
+    for off in (0.0, -5e-7):  # the second would end before the instance stands
+        assert driven.whole_status(0.01 + off, length) == OK
+        assert driven.outputs() == before
+    assert driven.step(0.01 + length, 0.01) == plain.step(0.01, 0.01) == OK
+    assert driven.outputs() == plain.outputs() != before
+    assert not driven.messages
+
+
 def test_pose_moves_and_turns_the_start(build: Callable[..., Path], host: HostMaker) -> None:
     driven = host(build("sled")).start({"initial.x": 2.0, "initial.y": -1.0, "initial.yaw": 0.5, "initial.speed": 3.0})
     assert driven.get("chassis.x") == pytest.approx(2.0 + 0.3 * math.cos(0.5), abs=1e-12)

@@ -80,6 +80,7 @@ def test_a_table_that_begins_late_holds_its_first_row_and_is_reported(tmp_path: 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
+        ('"time","u"\n0,0\n1,1\n1,2\n1,3\n2,0\n', r"more than two rows at 1 s; a jump has two"),
         ('"time","u"\n0,0\n2,1\n1,1\n', r"line 4: time goes back from 2 s to 1 s"),
         ('"time","u"\n0,0\n1,nan\n', r"line 3, column 'u': 'nan' is not a finite number"),
         ('"time","u"\n0,zero\n', r"line 2, column 'u': 'zero' is not a number"),
@@ -229,6 +230,7 @@ def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
         ("[inputs]\ntime = [0, 1]\nu = [0, 'a']\n", r"inputs.u.1 is 'a'; it must be a number"),
         ("[inputs]\ntime = [0, 1]\nu = [0]\n", r"'u' has 1 values where time has 2"),
         ("[inputs]\ntime = [0, 2, 1]\nu = [0, 0, 0]\n", r"time goes back from 2 s to 1 s"),
+        ("[inputs]\ntime = [0, 1, 1, 1]\nu = [0, 1, 2, 3]\n", r"more than two rows at 1 s; a jump has two"),
         ("stop_time = 1\n[state]\nfile = 'a'\n", r"state.time is missing; it must be a number, s"),
         ("stop_time = 1\n[state]\nfile = 'a.state'\ntime = 0\n", r"the state: 'a\.state' cannot be read"),
         ("stop_time = \n", r"is not a TOML file"),

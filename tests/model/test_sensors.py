@@ -224,6 +224,16 @@ def test_the_system_lists_constants():
         m.constant("box.width", 1.0)
 
 
+def test_sensors_inputs_and_constants_share_their_names():
+    """Columns of tables and variables of FMUs are found by them."""
+    m = Model("box", dimension=2)
+    ball = m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
+    m.input("ball")  # the name of another kind of object is free
+    for claim in (lambda: m.sense_position("ball", ball), lambda: m.constant("ball", 1.0)):
+        with pytest.raises(ModelError, match="already has an input named 'ball'; names must be unique in tables of"):
+            claim()
+
+
 def test_the_name_of_the_time_is_taken():
     """Tables of runs have it as their first column, an FMU as its independent variable."""
     m = Model("named", dimension=2)

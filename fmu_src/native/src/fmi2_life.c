@@ -86,8 +86,8 @@ FMI2_ENTRY(fmi2SetupExperiment,
             fmi2Boolean stop_defined, fmi2Real stop),
            (c, tolerance_defined, tolerance, start, stop_defined, stop)) {
   slave *s = fmi2_slave(c, "fmi2SetupExperiment", SLAVE_INSTANTIATED);
-  (void)tolerance_defined, (void)tolerance; /* the inner step is fixed */
-  return s != NULL ? (fmi2Status)fmi2_setup(s, start, stop_defined != 0, stop) : fmi2Error;
+  if (s == NULL || !slave_check_tolerance(s, tolerance_defined != 0, tolerance)) return fmi2Error;
+  return (fmi2Status)fmi2_setup(s, start, stop_defined != 0, stop);
 }
 
 FMI2_ENTRY(fmi2EnterInitializationMode, (fmi2Component c), (c)) {

@@ -172,8 +172,8 @@ FMI3_ENTRY(fmi3EnterInitializationMode,
             fmi3Boolean stop_defined, fmi3Float64 stop),
            (instance, tolerance_defined, tolerance, start, stop_defined, stop)) {
   fmi3_adapter *adapter = fmi3_slave(instance, "fmi3EnterInitializationMode", SLAVE_INSTANTIATED);
-  (void)tolerance_defined, (void)tolerance; /* the inner step is fixed */
-  if (adapter == NULL || slave_setup(adapter->s, start, stop_defined, stop) != SLAVE_OK) return fmi3Error;
+  if (adapter == NULL || !slave_check_tolerance(adapter->s, tolerance_defined, tolerance)) return fmi3Error;
+  if (slave_setup(adapter->s, start, stop_defined, stop) != SLAVE_OK) return fmi3Error;
   return (fmi3Status)slave_enter(adapter->s);
 }
 

@@ -130,6 +130,12 @@ void slave_free(slave *s) {
   release(s);
 }
 
+bool slave_check_tolerance(slave *s, bool defined, double tolerance) {
+  if (!defined || (tolerance >= 0.0 && tolerance < HUGE_VAL)) return true;
+  slave_log(s, SLAVE_ERROR, "The tolerance is %g; a finite number of at least 0 is needed.", tolerance);
+  return false;
+}
+
 slave_status slave_setup(slave *s, double start_time, bool stop_defined, double stop_time) {
   if (!(fabs(start_time) < HUGE_VAL))
     return slave_log(s, SLAVE_ERROR, "The start time is %g s; a finite number is needed.", start_time);

@@ -19,6 +19,31 @@ static bool is_logged(const slave *s, slave_status status, int category) {
   return (s->categories & (1u << category | 1u << ALL)) != 0;
 }
 
+/* Number of bytes of the printable character of UTF-8 at a text; 0: there is none. */
+static size_t measure_character(const char *text) {
+  static const uint32_t smallest[] = {0, ' ', 0xa0, 0x800, 0x10000}; /* by number of bytes */
+  const unsigned char *const bytes = (const unsigned char *)text, first = *bytes;
+  const size_t n = first < 0x80 ? 1 : first < 0xc0 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf8 ? 4 : 0;
+  uint32_t code = n > 1 ? first & 0x7fu >> n : first;
+  for (size_t k = 1; k < n; k++) {
+    if ((bytes[k] & 0xc0) != 0x80) return 0;
+    code = code << 6 | (bytes[k] & 0x3f);
+  }
+  const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
+  return code >= smallest[n] && code != 0x7f && code <= 0x10ffff && !is_surrogate ? n : 0;
+}
+
+/* Hands a message to the host, in one line. Texts of the host that it quotes may hold control characters, or end within
+ * a character where they were cut: such bytes become question marks. */
+static void pass_on(slave *s, slave_status status, int category, char *text) {
+  for (char *c = text; *c != 0;) {
+    const size_t n = measure_character(c);
+    if (n == 0) *c = *c == '\n' || *c == '\t' ? ' ' : '?';
+    c += n > 0 ? n : 1;
+  }
+  s->logger(s, status, category_name[category], text);
+}
+
 slave_status slave_log(slave *s, slave_status status, const char *format, ...) {
   char text[SLAVE_TEXT];
   va_list list;
@@ -27,7 +52,7 @@ slave_status slave_log(slave *s, slave_status status, const char *format, ...) {
   va_start(list, format);
   vsnprintf(text, sizeof text, format, list);
   va_end(list);
-  s->logger(s, status, category_name[category], text);
+  pass_on(s, status, category, text);
   return status;
 }
 
@@ -47,7 +72,7 @@ void slave_log_uncomputed(slave *s, const slave_variable *v) {
         "'%.128s' reads %g: fidelity %zu does not compute it. To have it computed, set the parameter '%.64s' to one of "
         "%s before the start. This is reported once.",
         v->name, s->value[v - t->variable], s->fidelity.number, t->variable[s->fidelity_reference].name, remedy);
-  s->logger(s, SLAVE_WARNING, category_name[NOT_COMPUTED], text);
+  pass_on(s, SLAVE_WARNING, NOT_COMPUTED, text);
 }
 
 slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *categories) {

@@ -8,7 +8,8 @@
 #include "slave.h"
 
 static const double TIME_TOLERANCE = 1e-6; /* s: hosts add up times in floating point */
-static const double STEP_TOLERANCE = 1e-6; /* in inner steps: an end this near is reached with step_size itself */
+static const double STEP_TOLERANCE = 1e-6; /* in inner steps: an end this near is reached with step_size itself, or,
+                                              where it is the start, without a step */
 static const double STEP_DEVIATION = 0.05;
 static const double CLOCK_TOLERANCE = 1e-3; /* largest distance of neighbouring floating-point times, in inner steps */
 static const double OBSERVATIONS =
@@ -127,7 +128,7 @@ static bool check_step(slave *s, double time, double step, double now) {
         "The step of %g s has more than %g inner steps of %g s, and a step that has begun cannot be cancelled; take "
         "shorter communication steps.",
         step, slave_steps_left(s), s->value[s->step_reference]);
-  else if (!(time + step > time) || fabs(time) * DBL_EPSILON > CLOCK_TOLERANCE * s->value[s->step_reference])
+  else if (fabs(time) * DBL_EPSILON > CLOCK_TOLERANCE * s->value[s->step_reference])
     slave_log(
         s, SLAVE_ERROR,
         "At %g s neighbouring floating-point times are %.2g s apart, too far for a step of %g s with inner steps of %g "
@@ -138,12 +139,21 @@ static bool check_step(slave *s, double time, double step, double now) {
   return false;
 }
 
+/* Ends a step that is round-off of the host's times. In so short a one the round-off of positions would be taken for
+ * motion; values that were set wait for the next step, without their derivatives. */
+static slave_status stand_still(slave *s) {
+  memset(s->slope, 0, slave_the_table.n_known * SLAVE_TERMS * sizeof(double));
+  s->calls.phase = SLAVE_STEPPING;
+  return SLAVE_OK;
+}
+
 /* Makes a communication step from `time`, s; if it fails the state before it is restored. */
 static slave_status try_step(slave *s, double time, double step) {
   char details[SLAVE_TEXT / 2];
   const double now = ali3_time(s->fidelity.kernel);
   double h, largest_residual;
   if (!check_step(s, time, step, now)) return SLAVE_ERROR;
+  if (time + step - now <= STEP_TOLERANCE * s->value[s->step_reference]) return stand_still(s);
   slave_hold_normals(s);
   slave_begin_ramps(s, step);
   const slave_variable *const largest_jump = slave_watch_jumps(s);

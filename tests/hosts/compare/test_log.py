@@ -168,7 +168,7 @@ def test_moments(fmu: NamedFmu, tmp_path: Path, unit: str) -> None:
 
 def test_several_rates_leave_cells_empty(fmu: NamedFmu, tmp_path: Path) -> None:
     lines = [f"{0.01 * k:.2f},{0.5 * k},{0.001 * k if k % 4 == 0 else ''}" for k in range(ROWS)]
-    log = read(fmu, tmp_path, "time,pull,bob.x\n" + "\n".join(lines))
+    log = read(fmu, tmp_path, "time,pull,bob.x\n" + "\n".join(lines) + "\n")
     assert log.outputs["bob.x"].interval == pytest.approx(0.04)
     assert log.inputs["pull"].interval == pytest.approx(0.01)
     assert len(log.outputs["bob.x"].values) == ROWS // 4
@@ -203,7 +203,9 @@ def stamped(form: str, shift: float = 0.0) -> str:
     """Rows with stamps of ISO 8601; `shift`: from row 20 on, s."""
     begin = pd.Timestamp(SUMMER_ENDS)
     stamps = [begin + pd.Timedelta(seconds=0.01 * k + shift * (k >= 20)) for k in range(ROWS)]
-    return "\n".join(form.format(stamp.isoformat(timespec="milliseconds"), 0.001 * k) for k, stamp in enumerate(stamps))
+    return "".join(
+        form.format(stamp.isoformat(timespec="milliseconds"), 0.001 * k) + "\n" for k, stamp in enumerate(stamps)
+    )
 
 
 def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: NamedFmu, tmp_path: Path) -> None:
@@ -211,7 +213,7 @@ def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: NamedFmu, tmp_path: P
     with_comma = "stamp;x\n" + stamped("{0};{1}").replace("+00:00", "").replace(".", ",").replace("T", " ")
     lines = stamped("{0};{1}").splitlines()
     lines[20:] = [line.replace("T02:", "T03:").replace("+00:00", "+01:00") for line in lines[20:]]
-    for text in (with_comma, "\n".join(["stamp;x", *lines])):
+    for text in (with_comma, "\n".join(["stamp;x", *lines, ""])):
         actual = read(fmu, tmp_path, text, alias).outputs["bob.x"]
         assert actual.time == pytest.approx(0.01 * np.arange(ROWS))
         assert actual.values == pytest.approx(0.001 * np.arange(ROWS))
@@ -226,7 +228,7 @@ def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
     new[0] = 0
     staircase = np.sin(new)[np.searchsorted(new, np.arange(count), side="right") - 1]
     lines = [f"{0.01 * k:.2f},{0.5 * k},{float(staircase[k])!r},{0.25 * (k // rate)}" for k in range(count)]
-    log = read(fmu, tmp_path, "time,pull,bob.x,bob.y\n" + "\n".join(lines))
+    log = read(fmu, tmp_path, "time,pull,bob.x,bob.y\n" + "\n".join(lines) + "\n")
     actual = log.outputs["bob.x"]
     assert actual.time == pytest.approx(0.01 * new)
     assert actual.values == pytest.approx(np.sin(new))
@@ -263,6 +265,7 @@ BAD = [
     ("a,pull,bob.x\n" + rows("{t},{f},{x}"), "", "has no column of times"),
     ("time,pull,bob.x\n0,1,2\n0.1,2,3\n", "", "at least 10 are needed"),
     ("time pull bob.x\n" + rows("{t} {f} {x}"), "", "is not a table of numbers"),
+    ('"time [s]",pull,bob.x[1]\n', "", "has no line that begins with a number; below its names it needs rows."),
     (rows("{t},{f},{x}"), "", "has no line of 3 names"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nheading = 1\nunits = 1", "heading and units are both 1"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nencoding = 'punycode'", "is not written in punycode"),
@@ -277,6 +280,15 @@ def test_bad_logs_are_reported_in_a_sentence(
         read(fmu, tmp_path, text, aliases)
     assert message in str(refusal.value)
     assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("cut", ["0.4,20.0,0.0", "0.4,20.0", "0."])
+def test_a_row_without_a_line_end_is_left_out_and_reported(fmu: NamedFmu, tmp_path: Path, cut: str) -> None:
+    """Of 0.04 a cut log has left 0.0, which nothing tells from a whole number."""
+    log = read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}") + cut)
+    assert_read(log)
+    assert "The last line has no line end, as where a log was cut: its row is left out." in log.notes
+    assert read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")).notes == []
 
 
 def test_what_pandas_has_written_besides_does_not_matter(tmp_path: Path) -> None:
