@@ -21,6 +21,11 @@ def check_angle_axes(model: Model) -> None:
         for joint in model.joints
         if joint.type in ("revolute", "cylindrical") and joint.ends is not None and joint.ends.axis is not None
     ]
+    turns = {joint.name: joint.turn for joint in model.joints if joint.turn is not None}
+    for screw in (joint for joint in model.joints if joint.type == "screw"):
+        turn = turns[f"{screw.name}.angle"]
+        assert turn.axis is not None
+        hinges.append((set(map(id, turn.bodies)), screw.name, np.asarray(turn.axis, float)))
     for angle in model.joints:
         if angle.turn is None or angle.turn.axis is None:
             continue

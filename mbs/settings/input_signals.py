@@ -219,6 +219,11 @@ def _check_signal(name: str, signal: Signal) -> Signal:
         )
     if not np.isfinite(times).all() or (np.diff(times) < 0.0).any():
         raise ValueError(f"The times of input {name!r} must be finite and must not decrease.")
+    if (thrice := times[2:] == times[:-2]).any():
+        raise ValueError(
+            f"The table of input {name!r} has more than two values at t = {times[2:][thrice][0]:g} s; a jump has two, "
+            "before and after it."
+        )
     if not np.isfinite(values).all():  # checked here, as interpolation would make it NaN at other times
         k = int(np.argmin(np.isfinite(values)))
         raise ValueError(f"The table of input {name!r} has {values[k]:g} at t = {times[k]:g} s; it must be finite.")

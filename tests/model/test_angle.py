@@ -109,14 +109,14 @@ def test_a_torque_on_an_angle_acts_on_both_bodies():
     assert t["one"][-1] == pytest.approx(-0.75, rel=1e-5)
 
 
-@pytest.mark.parametrize("joint", ["revolute", "cylindrical"])
-def test_an_angle_across_the_hinge_of_its_bodies_is_refused(joint):
+@pytest.mark.parametrize(("joint", "sizes"), [("revolute", {}), ("cylindrical", {}), ("screw", {"pitch": 0.01})])
+def test_an_angle_across_the_hinge_of_its_bodies_is_refused(joint, sizes):
     """It would stay at 0 while the hinge turns, and a torque on it would do nothing; an oblique axis projects."""
 
     def model(axis):
         m = Model("door")
         door = m.body("door", mass=1.0, com=(0.5, 0, 0), inertia=(0.1, 0.1, 0.1))
-        getattr(m, joint)("hinge", m.ground, door, point=(0, 0, 0), axis=(0, 0, 1))
+        getattr(m, joint)("hinge", m.ground, door, point=(0, 0, 0), axis=(0, 0, 1), **sizes)
         m.relative_angle("opening", m.ground, door, axis=axis)
         return m
 

@@ -47,6 +47,7 @@ def test_columns_follow_the_signals_given():
         ({"force": ([0.0, 1.0], [0.0])}, r"times of shape \(2,\) and values of shape \(1,\)"),
         ({"force": ([0.0, 1.0],)}, "1 parts; it must be a pair"),
         ({"force": ([1.0, 0.0], [0.0, 0.0])}, "must not decrease"),
+        ({"force": ([0.0, 0.5, 0.5, 0.5], [0.0, 1.0, 2.0, 3.0])}, r"more than two values at t = 0\.5 s"),
         ({"force": ([0.0, 1.0], [0.0, np.inf])}, "table of input 'force' has inf at t = 1 s; it must be finite"),
     ],
 )
