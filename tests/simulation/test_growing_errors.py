@@ -41,13 +41,13 @@ def mass_on_a_line(speed: float) -> tuple[mbs.Model, PointMass]:
 @pytest.mark.parametrize(
     ("method", "gap", "speed", "stiffness"),
     [
-        ("runge_kutta_8", 0.0219, 0.595, 209.6),
-        ("runge_kutta_8", 0.0117, 0.874, 325.5),
-        ("radau_5", 0.0198, 0.852, 208.7),
+        ("runge_kutta_8", 0.041, 0.87, 230.0),
+        ("runge_kutta_8", 0.048, 0.35, 233.0),
+        ("radau_5", 0.036, 0.91, 130.0),
     ],
 )
 def test_a_step_that_meets_a_stop_keeps_no_order(method: str, gap: float, speed: float, stiffness: float) -> None:
-    """By the order of the method the error of the kink counted as a 31st or 63rd of what it is; both runs shared it."""
+    """By the order of the method the error of the kink counted as a 31st or 63rd of what it is."""
     m, mass = mass_on_a_line(speed)
     stop = EndStops(rebound_length=1.0 + gap, rebound_stiffness=stiffness)
     m.spring_damper("stop", (m.ground, (0.0, 0.0)), (mass, None), stiffness=0.0, free_length=1.0, stops=stop)
@@ -61,10 +61,10 @@ def test_a_step_that_meets_a_stop_keeps_no_order(method: str, gap: float, speed:
     assert np.abs(run["x"] - true).max() < 10.0 * run.control.error
 
 
-@pytest.mark.parametrize(("gap", "speed", "stiffness"), [(0.0176, 0.640, 58.9), (0.0078, 0.749, 51.9)])
-def test_runs_to_two_tolerances_do_not_begin_with_the_same_steps(gap: float, speed: float, stiffness: float) -> None:
+def test_runs_to_two_tolerances_do_not_begin_with_the_same_steps() -> None:
     """A row of the table in these steps left the same error in both runs, ten times their difference."""
-    m, mass = mass_on_a_line(speed)
+    gap, stiffness = 0.0176, 58.9
+    m, mass = mass_on_a_line(0.64)
     rows = ((-0.5, 0.0), (0.0, 0.0), (gap, 0.0), (gap + 0.05, -0.025 * stiffness), (gap + 1.0, -stiffness))
     spring = SpringDamperTable(spring=rows, free_length=1.0)
     m.add(spring.record("spring", mass.point() - m.ground.point((0.0, 0.0))))
