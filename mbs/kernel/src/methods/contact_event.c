@@ -15,8 +15,8 @@ void ali3_events_begin(ali3_instance *in, int32_t depth) {
   in->parting.events_left = depth > 0 && in->system->nr == 0 ? MAX_EVENTS : -1;
 }
 
-/* Share of the step from in->now to in->next at which the first element reports an event; 1 if none does. */
-static double first_event(const ali3_instance *in, double h) {
+/* Share of a step of h from the outputs `from` to `to` at which the first element reports an event; 1: none does. */
+static double first_event(const ali3_instance *in, const double *from, const double *to, double h) {
   const ali3_system *S = in->system;
   double first = 1.0;
   for (int32_t c = 0; c < S->n_contact; c++) {
@@ -24,15 +24,19 @@ static double first_event(const ali3_instance *in, double h) {
     const ali3_element_type *kind = S->el_kind[e];
     if (kind->event == NULL) continue;
     const ali3_element_size *at = S->el_size + e;
-    first = fmin(first, kind->event(in->parameters.el_real + at->real, at->nreal, in->now.out + at->out,
-                                    in->next.out + at->out, h));
+    first = fmin(first, kind->event(in->parameters.el_real + at->real, at->nreal, from + at->out, to + at->out, h));
   }
   return first;
 }
 
+bool ali3_meets_event(const ali3_instance *in, const ali3_vectors *from, const ali3_vectors *to, double h) {
+  return first_event(in, from->out, to->out, h) < 1.0;
+}
+
 bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
   if (in->parting.events_left < 0) return false;
-  const double h = request->h, fraction = first_event(in, h), near = ALI3_AT_END * in->inputs.whole_length;
+  const double h = request->h, fraction = first_event(in, in->now.out, in->next.out, h),
+               near = ALI3_AT_END * in->inputs.whole_length;
   if (!(fraction * h > near && (1.0 - fraction) * h > near)) return false;
   if (in->parting.events_left == 0) {
     in->report.abrupt_steps++; /* an event that is not located is reported */

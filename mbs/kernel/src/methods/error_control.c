@@ -35,7 +35,7 @@ static const double KINK_RATIO = 0.5, KICK_RATIO = 0.7;
 enum { MAX_KICKS = 2 }; /* in one step */
 static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
-static const double FIRST_STEP = 1e-3; /* first step / span, if none is given */
+static const double FIRST_STEP = 1e-3; /* first step / span for a tolerance of 1, if none is given */
 static const double ROAD_LENGTHS = 0.05; /* largest path in a step, in lengths: bumps within a step are missed */
 static const double MIN_ERROR = 1e-4; /* of the allowed error of a step: smaller errors are round-off */
 
@@ -164,6 +164,14 @@ static void undo_step(ali3_instance *in, const ali3_report *end_before) {
   ali3_balance_restore(&in->report, end_before);
 }
 
+/* The first step, s, in proportion to the later ones of a tolerance: steps that runs to two tolerances begin with alike
+ * leave an error in both, which their difference does not show. */
+static double first_step(const ali3_instance *in, const ali3_measure *measure) {
+  const ali3_control *c = measure->control;
+  const double h = FIRST_STEP * c->span * power(fmin(c->tolerance, 1.0), 1.0 / (ali3_method_order(in) + 1));
+  return fmin(c->longest, fmax(h, min_step(in, measure, ali3_time(in), MIN_STEP)));
+}
+
 /* The longest step, s: as given, and shorter where errors of the motion may not show in the estimate. */
 static double longest_step(const ali3_instance *in, const ali3_measure *measure) {
   const double limit = ali3_tables_resolved_step(in, measure->control->longest);
@@ -271,7 +279,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   if (status != ALI3_OK) return status;
   const ali3_measure measure = {control, scale};
   ali3_roads_clear_read_errors(in);
-  if (control->h == 0.0) control->h = fmin(control->longest, FIRST_STEP * control->span);
+  if (control->h == 0.0) control->h = first_step(in, &measure);
   if (inputs_have_jumped(in)) status = ali3_refresh(in);
   if (status == ALI3_OK) status = ali3_inputs_set_end(in, 0.0, NULL);
   ali3_branch_before(in); /* assembly modes of the start, if not evaluated yet */

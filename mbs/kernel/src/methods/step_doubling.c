@@ -6,6 +6,7 @@
 #include "../instance.h"
 #include "../method.h"
 #include "../state/vectors.h"
+#include "contact_event.h"
 #include "energy_balance.h"
 #include "error_control.h"
 #include "steps.h"
@@ -47,6 +48,15 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all)
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
+/* Order by which halves of the step from stored.origin over stored.centre to now err less than the whole one: 1 where an
+ * end stop is met or left, as the error of a kink depends on where it lies in the step. */
+static int32_t order_of_step(const ali3_instance *in, double h) {
+  const ali3_stored_states *s = &in->stored;
+  if (ali3_meets_event(in, &s->origin, &s->centre, 0.5 * h) || ali3_meets_event(in, &s->centre, &in->now, 0.5 * h))
+    return 1;
+  return ali3_method_order(in) < MAX_ORDER ? ali3_method_order(in) : MAX_ORDER;
+}
+
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;
@@ -62,8 +72,7 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
     status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h, ALI3_READ_SENSORS);
   }
   if (status == ALI3_OK) {
-    const int32_t order = ali3_method_order(in) < MAX_ORDER ? ali3_method_order(in) : MAX_ORDER;
-    const double error_factor = 1.0 / (ldexp(1.0, order) - 1.0);
+    const double error_factor = 1.0 / (ldexp(1.0, order_of_step(in, h)) - 1.0);
     for (int32_t i = 0; i < nq; i++) {
       in->step.w[i] = error_factor * (in->now.q[i] - in->stored.coarse.q[i]);
       in->step.x[i] = error_factor * (in->now.qd[i] - in->stored.coarse.qd[i]);
