@@ -130,6 +130,28 @@ def test_a_broken_wire_is_reported_and_mended_and_a_world_that_comes_then_is_no_
 
 
 @pytest.mark.slow
+def test_the_page_of_a_car_that_comes_back_keeps_its_settings_and_the_focus(program: Program) -> None:
+    """It is another program, which counts its frames and epochs anew and records in another file."""
+    page = program.page
+    shown(program, 2.0, RUNNING)
+    page.evaluate("window.before = player.cockpit; player.cockpit.side(true); player.cockpit.setLook({ arrowScale: 2 })")
+    page.keyboard.press("Tab")
+    page.locator("[data-a3=settings]").focus()
+    program.hello["recording"] = "again.npz"
+    program.count, program.epoch = 0, 1
+    program.sockets[-1].close()
+    wait_text(page, "recording", "again.npz")
+    assert page.evaluate("[player.cockpit === before, before.look.arrowScale, document.activeElement.dataset.a3]") == [
+        True,
+        2,
+        "settings",
+    ]
+    assert [m for m in program.heard if m["type"] == "watch devices"][-2:] == [{"type": "watch devices", "on": True}] * 2
+    shown(program, 0.5, RUNNING)
+    assert page.evaluate("player.cockpit.source.time") == pytest.approx(0.5)
+
+
+@pytest.mark.slow
 def test_the_car_is_drawn_at_its_frame_in_every_camera(chromium: Any, lane_change: Recording) -> None:
     """Points inside the wheels, which are magenta here."""
     scene = dict(lane_change.scene or {})

@@ -17,6 +17,8 @@ const MAX_ANGLE_SHARE = 0.5;
 const MAX_PATH = 0.3;
 /** Distance between trackside cameras, and from the path, relative to the size of the followed body. */
 const [CAMERA_SPACING, PATH_DISTANCE] = [10, 3];
+/** Turn, rad, and shift, pixels, of the free camera by a key, and the factor of its distance. */
+const [KEY_TURN, KEY_SHIFT, KEY_ZOOM] = [Math.PI / 36, 40, 0.9];
 
 /** The cameras of a view, with positions relative to the origin of the picture. */
 export class Cameras {
@@ -120,6 +122,27 @@ export class Cameras {
 
   _wheelName(frame) {
     return /^wheel/.test(frame) ? frame : `wheel ${frame}`;
+  }
+
+  /** Actions of keys on the free camera; false while another camera is chosen. */
+  get acts() {
+    const free = (/** @type {(event: KeyboardEvent) => void} */ move) => (/** @type {KeyboardEvent} */ event) => {
+      if (!this.controls.enabled) return false;
+      this.moved = true;
+      move(event);
+      return true;
+    };
+    const arrow = (across, upward) => free(({ shiftKey }) => {
+      const { controls } = this;
+      if (shiftKey || !controls.enableRotate) controls.pan(-across * KEY_SHIFT, upward * KEY_SHIFT);
+      else if (across) controls.rotateLeft(-across * KEY_TURN);
+      else controls.rotateUp(upward * KEY_TURN);
+    });
+    return {
+      ...{ ArrowLeft: arrow(-1, 0), ArrowRight: arrow(1, 0), ArrowUp: arrow(0, 1), ArrowDown: arrow(0, -1) },
+      "+": free(() => this.controls.dollyIn(KEY_ZOOM)),
+      "-": free(() => this.controls.dollyOut(KEY_ZOOM)),
+    };
   }
 
   /** Moves the free camera to its initial position, unless the user has moved it. */

@@ -64,7 +64,8 @@ export class Marks {
   constructor(layer, view, canvas) {
     this.view = view;
     this.layer = el("div", { style: "position:absolute;inset:0", "aria-live": "off" });
-    layer.prepend(this.layer); // below legends
+    this.spoken = el("div", { role: "status", style: "position:absolute;clip-path:inset(50%)" }); // for screen readers
+    layer.prepend(this.layer, this.spoken); // below legends
     let from = null;
     canvas.addEventListener("pointerdown", ({ clientX, clientY }) => (from = [clientX, clientY]));
     canvas.addEventListener("pointerup", ({ clientX, clientY }) => {
@@ -76,9 +77,22 @@ export class Marks {
 
   /** Labels the object at a pixel of the picture, if there is one. @returns {string[]} lines of its label */
   pick(x, y) {
-    this._picked = this._hit(x, y);
+    return this._choose(this._hit(x, y));
+  }
+
+  /** Labels the next moving body, after the last one none. */
+  pickNext() {
+    const frames = [...new Set(this.view.parts.moving.map(([frame]) => frame))];
+    const frame = frames[frames.indexOf(this._picked?.frame) + 1];
+    this._choose(frame === undefined ? null : { frame, at: [0, 0, 0], lines: this._bodyWords(frame) });
+  }
+
+  _choose(picked) {
+    this._picked = picked;
     this.place();
-    return this._picked?.lines() ?? [];
+    const lines = picked?.lines() ?? [];
+    this.spoken.textContent = lines.join(", ");
+    return lines;
   }
 
   /** Updates all labels. @param {boolean} [again] whether to repeat it when the overlays are settled */

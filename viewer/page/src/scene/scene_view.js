@@ -8,6 +8,7 @@ import { Notes } from "./notes.js";
 import { Parts } from "./parts.js";
 import { wrongName } from "./plain_names.js";
 import { makeRenderer } from "./renderer.js";
+import { addKeys } from "../common/keys.js";
 import { makeLook } from "../looks/index.js";
 
 /** A picture of a scene, drawn relative to the focus so that positions are accurate at 100 km too. */
@@ -48,7 +49,6 @@ export class SceneView {
       return;
     }
     const { renderer, software, problem } = makeRenderer(container, {
-      label: `drawing of ${scene.name ?? "a scene"}`,
       antialias: options.antialias ?? (options.quality === "high" || scene.planar ? true : undefined),
       keep: options.keep,
     });
@@ -63,6 +63,7 @@ export class SceneView {
     this.cameras = new Cameras(this, renderer.domElement);
     this.marks = new Marks(this.notes.layer, this, renderer.domElement);
     this.look = makeLook(this);
+    addKeys(renderer.domElement, `drawing of ${scene.name ?? "a scene"}`, { ...this.cameras.acts, Enter: () => this.marks.pickNext() });
     this._watchContext();
     this.camera(options.camera ?? this.cameras.names[0]);
     this.observer = new ResizeObserver(() => this._resized());

@@ -2,6 +2,7 @@
 import uPlot from "uplot";
 import uplotStyle from "uplot/dist/uPlot.min.css";
 import { el, write } from "../common/dom.js";
+import { addKeys } from "../common/keys.js";
 import { linear, place } from "../sources/sampler.js";
 import { styled } from "../styles.js";
 import { resampled, values } from "./series.js";
@@ -24,6 +25,7 @@ const AXIS = {
 const LINE = "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid var(--accent, #8888);pointer-events:none;display:none";
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
 const CURSOR_KEY = "ali3"; // common cursor of all diagrams
+const KEY_ZOOM = 0.7; // factor of the shown span of time by a key
 const NULL_RETAIN = 1; // of uPlot.join: retains gaps of a run
 
 /** Text of a number. @param {number} value @returns {string} */
@@ -56,6 +58,8 @@ export class Chart {
     this.plot = new uPlot(this._settings(), this._data(), this.box);
     this.plot.over.append(this.line);
     this.plot.over.addEventListener("click", (event) => this._seekAt(event));
+    const acts = { "+": () => this._narrow(KEY_ZOOM), "-": () => this._narrow(1 / KEY_ZOOM) };
+    addKeys(this.plot.over, `diagram of ${names.join(", ")}`, acts);
   }
 
   /** Curves: {label, colour, dash, t, data}. */
@@ -169,6 +173,16 @@ export class Chart {
       const value = inside && data[k] !== null ? linear(data, k, data[k + 1] === null ? 0 : share) : NaN;
       write(output, `${numberText(value)}${this.unit ? ` ${this.unit}` : ""}`);
     }
+  }
+
+  /** Shows a narrower or wider range of time around the current time. @param {number} factor of its length */
+  _narrow(factor) {
+    const { data: [t], scales: { x: { min, max } } } = this.plot; // prettier-ignore
+    const [first, last] = [t[0], t.at(-1)];
+    const centre = Math.min(last, Math.max(first, this.source.time));
+    const within = (time) => Math.min(last, Math.max(first, centre + factor * (time - centre)));
+    const range = { min: within(Math.min(min, centre)), max: within(Math.max(max, centre)) };
+    if (range.max > range.min) this.plot.setScale("x", range);
   }
 
   /** Sets the range of time. @param {[number, number]} range s */
