@@ -3,7 +3,6 @@ import uPlot from "uplot";
 import uplotStyle from "uplot/dist/uPlot.min.css";
 import { el, write } from "../common/dom.js";
 import { addKeys } from "../common/keys.js";
-import { linear, place } from "../sources/sampler.js";
 import { styled } from "../styles.js";
 import { resampled, values } from "./series.js";
 
@@ -62,7 +61,7 @@ export class Chart {
     addKeys(this.plot.over, `diagram of ${names.join(", ")}`, acts);
   }
 
-  /** Curves: {label, colour, dash, t, data}. */
+  /** Curves: {label, colour, dash, t, data}, and their `value` at the instant of a lookup of each run. */
   _curves() {
     const [first, ...others] = this.runs;
     const curves = [];
@@ -73,14 +72,16 @@ export class Chart {
           if (!(name in run.columns) || !(name in first.columns)) continue;
           const other = resampled(run.t, run.columns[name].data, first.t);
           const data = Array.from(first.columns[name].data, (v, i) => (other[i] === null || !Number.isFinite(v) ? null : other[i] - v));
-          curves.push({ label: `${name}: ${run.name} - ${first.name}`, colour, dash: DASHES[k % 4], t: first.t, data });
+          const value = (lookups) => lookups[k + 1](name) - lookups[0](name);
+          curves.push({ label: `${name}: ${run.name} - ${first.name}`, colour, dash: DASHES[k % 4], t: first.t, data, value });
         }
         continue;
       }
       for (const [k, run] of this.runs.entries()) {
         if (!(name in run.columns)) continue;
         const label = this.runs.length > 1 ? `${name}, ${run.name}` : name;
-        curves.push({ label, colour, dash: DASHES[k % 4], t: run.t, data: values(run.columns[name].data) });
+        const value = (lookups) => lookups[k](name);
+        curves.push({ label, colour, dash: DASHES[k % 4], t: run.t, data: values(run.columns[name].data), value });
       }
     }
     return curves;
@@ -165,13 +166,12 @@ export class Chart {
 
   /** Updates the line and the values at the current time. */
   now() {
-    const { time } = this.source;
+    const { time, grows } = this.source;
     this._putLine();
-    for (const { t, data, output } of this.curves) {
-      const inside = time >= t[0] && time <= t[t.length - 1];
-      const [k, share] = place(t, time);
-      const value = inside && data[k] !== null ? linear(data, k, data[k + 1] === null ? 0 : share) : NaN;
-      write(output, `${numberText(value)}${this.unit ? ` ${this.unit}` : ""}`);
+    const lookups = this.source.sample();
+    for (const { t, value, output } of this.curves) {
+      const inside = grows || (time >= t[0] && time <= t[t.length - 1]);
+      write(output, `${numberText(inside ? value(lookups) : NaN)}${this.unit ? ` ${this.unit}` : ""}`);
     }
   }
 

@@ -3,7 +3,7 @@ import { Desk } from "../live/desk.js";
 import { heldVariables, outputNames } from "../live/engine.js";
 import { between, Record } from "../live/record.js";
 import { speedActions, unitsOf } from "./source_actions.js";
-import { Blend, turnsOf } from "./blend.js";
+import { Blend } from "./blend.js";
 import { clock } from "../live/worker.js";
 
 /** Delay of the picture behind the run, so that there is a row before and after it, s. */
@@ -179,9 +179,10 @@ export class Session {
     return record.csv(comments, [...inputs, ...tuned], outputs);
   }
 
-  /** Lookups of the numbers of each FMU at a time; fixed parameters have their start values. @param {number} [time] - s. */
+  /** Lookups of the numbers of each FMU at a time, NaN before the first row; fixed parameters have their start values. @param {number} [time] - s. */
   sample(time = this.time) {
     return this._bound.map(({ blend, columns, fixed }) => {
+      if (this.record.end === 0) return () => NaN;
       const lookup = between(this.record, time, blend, columns);
       return (name) => (columns.has(name) ? lookup(name) : fixed.get(name));
     });
@@ -194,7 +195,7 @@ export class Session {
       const outputColumns = variables.filter((v) => v.causality === "output").map((v) => [v.name, this.record.column(this.prefixes[k] + v.name)]);
       const columns = new Map([...this.held.map((v, i) => /** @type {[string, number]} */ ([v.name, i])), ...outputColumns.filter(([, index]) => index >= 0)]);
       const fixed = new Map(variables.filter((v) => !columns.has(v.name)).map((v) => [v.name, this.start[v.name] ?? v.start]));
-      return { blend: new Blend(turnsOf(scene)), columns, fixed };
+      return { blend: new Blend(scene, variables), columns, fixed };
     });
   }
 
