@@ -81,7 +81,7 @@ export const worded = (value, unitName, like) => parted(value, unitName, like).j
  */
 export function parted(value, unitName, like = value) {
   const reference = Math.abs(value) < Math.abs(like) / 1000 ? value : like;
-  const fits = ([factor]) => Number(Math.abs(reference).toPrecision(3)) >= factor;
+  const fits = (/** @type {[number, string]} */ [factor]) => Number(Math.abs(reference).toPrecision(3)) >= factor;
   const [size, prefix] = value === 0 ? [1, ""] : (PREFIXES.find(fits) ?? PREFIXES[PREFIXES.length - 1]);
   return [Number((value / size).toPrecision(3)), `${prefix}${unitName.replaceAll(".", "\u00b7")}`];
 }

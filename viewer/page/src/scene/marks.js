@@ -181,6 +181,7 @@ export class Marks {
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2((2 * x) / size[0] - 1, 1 - (2 * y) / size[1]), cameras.current);
     const solid = (/** @type {any} */ object) => !object.material?.transparent && visible(object);
+    /** @type {Data[]} */
     const hits = this._targets().flatMap((target) => ray.intersectObject(target.object, true).filter((hit) => solid(hit.object)).map((hit) => ({ ...target, hit })));
     if (hits.length === 0) return null;
     const { frame, made, hit } = hits.reduce((a, b) => (b.hit.distance < a.hit.distance ? b : a));

@@ -19,7 +19,6 @@ export class SceneView {
    * @param {object} [options]
    * @param {string} [options.quality] of QUALITIES in looks/picture_quality.js; auto: by the measured drawing time
    * @param {boolean} [options.driven] pictures follow a simulation in real time: auto may choose a draft
-   * @param {"outdoors" | "studio" | "board"} [options.look] by default depending on the scene
    * @param {string} [options.camera] the first camera
    * @param {boolean} [options.antialias] smooth edges; by default with a graphics card, on boards and in high quality
    * @param {boolean} [options.words] legend of the grid, by default true
@@ -148,11 +147,6 @@ export class SceneView {
     };
   }
 
-  /** Names of the arrows of the scene. @returns {string[]} */
-  get arrowNames() {
-    return this.parts.arrows.list.map(({ name }) => name);
-  }
-
   /** Factor that makes the largest displacement so far visible. @returns {number} 1, 2, 5, 10, ... */
   get fittingDeformation() {
     return this.parts.fittingFactor(this.extent);
@@ -171,7 +165,7 @@ export class SceneView {
    */
   set({ arrows, arrowScale, stress, stressMost, deformation, closed, quality }) {
     const { parts } = this;
-    if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? this.arrowNames : arrows || []);
+    if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? parts.arrows.list.map(({ name }) => name) : arrows || []);
     if (arrowScale !== undefined) parts.arrows.factor = arrowScale;
     if (stress !== undefined) parts.bending.coloured = stress;
     if (stressMost !== undefined) Object.assign(parts.bending, { most: stressMost, fixed: stressMost > 0 });

@@ -21,7 +21,7 @@ export class Session {
 
   /**
    * @param {Data[]} fmus - `{description, wasm, resources, title}` with unpacked bytes.
-   * @param {Data} options - `step`, `start`, `script` (inputs over time), `worker`, `places` (start values by name).
+   * @param {Data} options - `step`, `start`, `script` (inputs over time), `places` (start values by name).
    * @param {Data} listeners - Functions: started, refused, message, error, back, moved (another instant is to be shown), ran.
    */
   constructor(fmus, options, listeners) {
@@ -53,7 +53,7 @@ export class Session {
       ...(options.places ? { place: (name) => this.again({ ...this.start, ...options.places[name] }) } : {}),
     };
     this._newRecord();
-    this._desk = new Desk((message) => this._receive(message), options);
+    this._desk = new Desk((message) => this._receive(message));
     this.threaded = this._desk.threaded;
     const parts = fmus.map(({ description, wasm, resources }) => ({ description, wasm, resources }));
     const { script } = options;
@@ -82,12 +82,17 @@ export class Session {
 
   /** Run; from the shown instant if it is an earlier one. @param {number} [speed] - Simulated seconds per second. */
   async run(speed = this.speed) {
-    if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
+    await this._leaveScrubbed();
     this.speed = speed;
     this.running = true;
     this._last = Math.min(this.end, this._last);
     this._desk.send({ do: "run", speed });
     this._listeners.ran();
+  }
+
+  /** Go back to the shown instant, if it is an earlier one. */
+  async _leaveScrubbed() {
+    if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
   }
 
   /** Pause the run. */
@@ -98,7 +103,7 @@ export class Session {
 
   /** Compute some communication steps, then pause. @param {number} [count] */
   async advance(count = 1) {
-    if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
+    await this._leaveScrubbed();
     this.running = false;
     await this._ask("paused", { do: "step", count });
     this._listeners.moved();
