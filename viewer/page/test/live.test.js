@@ -10,7 +10,7 @@ import { RealTimeClock } from "../src/live/real_time_clock.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "../src/live/ranges.js";
 import { between, Record } from "../src/live/record.js";
 import { movedRoads } from "../src/live/roads.js";
-import { missingParts } from "../src/bytes.js";
+import { missingParts } from "../src/common/browser_support.js";
 import { Runner } from "../src/live/worker.js";
 
 test("a pacer keeps absolute deadlines: a late wake makes up for what it missed", () => {
