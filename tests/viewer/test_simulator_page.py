@@ -416,7 +416,7 @@ class TestOnePage:
         reused.until_heard({"type": "report"})
         reused.until_heard({"type": "watch devices", "on": True})
         bins = REPORT["cost"]["bins"]
-        reused.say(REPORT)
+        reused.say(REPORT | {"step": 0.00225})
         reused.page.wait_for_selector('[data-a3="histogram"] rect')
         bars = reused.ask(
             "[...document.querySelectorAll('[data-a3=\"histogram\"] rect')].map(r => r.getAttribute('fill'))"
@@ -435,5 +435,5 @@ class TestOnePage:
         assert {"1", "10", "100", "1k", "steps"} == set(marks)
         for (_, count), top in zip(bins, tops, strict=True):  # both axes by powers of ten
             assert top == pytest.approx(marks["1"] + np.log10(count) / 3 * (marks["1k"] - marks["1"]), abs=0.01)
-        assert {"100 µs", "1 ms", "cost of a step; the step of 2 ms is dashed"} <= {text for text, *_ in message}
+        assert {"100 µs", "1 ms", "cost of a step; the step of 2.25 ms is dashed"} <= {text for text, *_ in message}
         reused.page.keyboard.press("g")
