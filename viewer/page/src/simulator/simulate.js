@@ -102,8 +102,8 @@ class Simulator {
     }
     const camera = this.cockpit?.cameraName;
     this.cockpit?.dispose();
-    this._car = text;
     this.cockpit = new Cockpit(this.container, hello, this.link, pageTime);
+    this._car = text;
     if (camera) this.cockpit.camera(camera);
   }
 
