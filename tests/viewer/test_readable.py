@@ -281,7 +281,8 @@ def test_a_picture_and_a_diagram_have_keys_while_the_focus_is_on_them(shown: Any
         spoken = "document.querySelector('.a3-notes [role=status]').textContent"
         none, body = changed_by("Enter", picture, spoken)
         assert none == ""
-        assert (body != "") is shown.evaluate(f"{shell}.view.parts.moving.length > 0"), "the body of the live page has no pose"
+        has_bodies = shown.evaluate(f"{shell}.view.parts.moving.length > 0")  # that of the live page has no pose
+        assert (body != "") is has_bodies
         shown.evaluate(f"{shell}.view.pick(-1, -1)")
     shown.evaluate(f"{shell}.side(true)")
     shown.evaluate(f"{shell}.plots.choose({shell}.plots.names.slice(-1))")
