@@ -358,6 +358,9 @@ def test_a_road_of_the_user_is_in_the_page_and_under_the_car(live_car: Path, chr
     opened.ask("player.advance(500)")
     level = opened.ask("player.session.record.series(player.session.record.column('chassis.az'), 100, 1)[1]")
     assert np.ptp(level) < 0.5
+    opened.ask("player.advance(503)")  # more rows than a curve has points
+    beside = opened.page.locator(".a3-legend output").first.inner_text()
+    assert float(beside.split()[0]) == pytest.approx(opened.get("speed")[0], rel=1e-4)
     opened.ask("player.set('road.kerb_height', 0.2)")
     opened.ask("player.advance(1)")
     assert opened.ask("player.view.scene.roads[0].heights") == [0.0, -0.2]

@@ -23,7 +23,7 @@ from tests.viewer.simulator_program import REPORT, Program
 from viewer.bundle import HERE
 from viewer.page_file import write_page
 
-CONTROLS = "button, select, input, summary, a[href]"
+CONTROLS = "button, select, input, summary, a[href], [role=application]"
 SEEN = f"""() => [...document.querySelectorAll('{CONTROLS}')]
   .filter((part) => part.checkVisibility({{ visibilityProperty: true }}) && !part.disabled)"""
 OPEN = """() => {
@@ -257,6 +257,41 @@ def test_what_the_keyboard_opens_it_closes_and_the_focus_comes_back(shown: Any, 
     press("g")
     assert not side.is_visible()
     assert focused(shown) == "panels"
+
+
+@pytest.mark.slow
+def test_a_picture_and_a_diagram_have_keys_while_the_focus_is_on_them(shown: Any, kind: str) -> None:
+    shell = "(player.cockpit ?? player)"
+    press = shown.keyboard.press
+
+    def changed_by(key: str, part: str, expression: str) -> tuple[Any, Any]:
+        press("Tab")  # the keyboard moves the focus
+        shown.locator(part).first.focus()
+        before = shown.evaluate(expression)
+        press(key)
+        return before, shown.evaluate(expression)
+
+    if kind != "plots":
+        picture, camera = ".a3-views canvas[aria-label^=drawing]", f"{shell}.view.cameras.current.position.toArray()"
+        shown.evaluate(f"{shell}.camera('orbit')")
+        for key in ("Shift+ArrowLeft", "+") if shown.evaluate(f"{shell}.view.scene.planar") else ("ArrowLeft", "+"):
+            expression = f"[{camera}, {shell}.view.cameras.free.zoom]"
+            before, after = changed_by(key, picture, expression)
+            assert before != after, key
+        spoken = "document.querySelector('.a3-notes [role=status]').textContent"
+        none, body = changed_by("Enter", picture, spoken)
+        assert none == ""
+        has_bodies = shown.evaluate(f"{shell}.view.parts.moving.length > 0")  # that of the live page has no pose
+        assert (body != "") is has_bodies
+        shown.evaluate(f"{shell}.view.pick(-1, -1)")
+    shown.evaluate(f"{shell}.side(true)")
+    shown.evaluate(f"{shell}.plots.choose({shell}.plots.names.slice(-1))")
+    if kind in ("recorded", "plots"):
+        span = f"(({{ min, max }}) => max - min)({shell}.plots.charts[0].plot.scales.x)"
+        for key, shorter in (("+", True), ("-", False)):
+            before, after = changed_by(key, ".u-over", span)
+            assert (after < before) is shorter
+    shown.evaluate("document.activeElement.blur()")
 
 
 @pytest.mark.slow

@@ -130,6 +130,29 @@ def test_a_broken_wire_is_reported_and_mended_and_a_world_that_comes_then_is_no_
 
 
 @pytest.mark.slow
+def test_the_page_of_a_car_that_comes_back_keeps_its_settings_and_the_focus(program: Program) -> None:
+    """It is another program, which counts its frames and epochs anew and records in another file."""
+    page = program.page
+    shown(program, 2.0, RUNNING)
+    page.evaluate("window.before = player.cockpit; before.side(true); before.setLook({ arrowScale: 2 })")
+    page.keyboard.press("Tab")
+    page.locator("[data-a3=settings]").focus()
+    program.hello["recording"] = "again.npz"
+    program.count, program.epoch = 0, 1
+    program.sockets[-1].close()
+    wait_text(page, "recording", "again.npz")
+    assert page.evaluate("[player.cockpit === before, before.look.arrowScale, document.activeElement.dataset.a3]") == [
+        True,
+        2,
+        "settings",
+    ]
+    watched = [message["on"] for message in program.heard if message["type"] == "watch devices"]
+    assert watched[-2:] == [True, True]
+    shown(program, 0.5, RUNNING)
+    assert page.evaluate("player.cockpit.source.time") == pytest.approx(0.5)
+
+
+@pytest.mark.slow
 def test_the_car_is_drawn_at_its_frame_in_every_camera(chromium: Any, lane_change: Recording) -> None:
     """Points inside the wheels, which are magenta here."""
     scene = dict(lane_change.scene or {})
@@ -394,7 +417,7 @@ class TestOnePage:
         reused.until_heard({"type": "report"})
         reused.until_heard({"type": "watch devices", "on": True})
         bins = REPORT["cost"]["bins"]
-        reused.say(REPORT)
+        reused.say(REPORT | {"step": 0.00225})
         reused.page.wait_for_selector('[data-a3="histogram"] rect')
         bars = reused.ask(
             "[...document.querySelectorAll('[data-a3=\"histogram\"] rect')].map(r => r.getAttribute('fill'))"
@@ -413,5 +436,5 @@ class TestOnePage:
         assert {"1", "10", "100", "1k", "steps"} == set(marks)
         for (_, count), top in zip(bins, tops, strict=True):  # both axes by powers of ten
             assert top == pytest.approx(marks["1"] + np.log10(count) / 3 * (marks["1k"] - marks["1"]), abs=0.01)
-        assert {"100 µs", "1 ms", "cost of a step; the step of 2 ms is dashed"} <= {text for text, *_ in message}
+        assert {"100 µs", "1 ms", "cost of a step; the step of 2.25 ms is dashed"} <= {text for text, *_ in message}
         reused.page.keyboard.press("g")

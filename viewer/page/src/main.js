@@ -10,4 +10,6 @@ export { simulate } from "./simulator/simulate.js";
 // Calibration of devices of the driving simulator.
 export { CalibrationPanel } from "./simulator/calibration.js";
 // Marks, dust and sound of a driven car.
-export { CarSound, Dust, TyreMarks } from "./effects/index.js";
+export { Dust } from "./effects/dust.js";
+export { CarSound } from "./effects/sound/car_sound.js";
+export { TyreMarks } from "./effects/tyre_marks.js";

@@ -80,7 +80,7 @@ test("round numbers and words for people", () => {
   assert.deepEqual([1, 1.01, 2, 4.9, 9, 0.013].map(niceAbove), [1, 2, 2, 5, 10, 0.02]);
   close([1, 1.99, 2, 7, 0.09].map(niceStep), [1, 1, 2, 5, 0.05]);
   assert.deepEqual([-858e3, 3e9, 2e4].map((x) => worded(x, "Pa", 3e7)), ["-0.858 MPa", "3000 MPa", "20 kPa"]);
-  assert.deepEqual([2.5e8, 0, 1234, 0.05].map((x) => worded(x, "N.m")), ["250 MN\u00b7m", "0 N.m", "1.23 kN\u00b7m", "50 mN\u00b7m"]);
+  assert.deepEqual([2.5e8, 0, 1234, 999.7, 0.05].map((x) => worded(x, "N.m")), ["250 MN\u00b7m", "0 N\u00b7m", "1.23 kN\u00b7m", "1 kN\u00b7m", "50 mN\u00b7m"]);
 });
 
 test("a coil begins and ends with its wire on the seats, and its middle turns share the length", () => {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { actOf, ROWS } from "../src/common/key_table.js";
-import { keys, needed } from "../src/common/keys.js";
+import { addKeys, keys, needed } from "../src/common/keys.js";
 import { cameraActs } from "../src/common/views.js";
 import { Recordings } from "../src/sources/recordings.js";
 
@@ -65,6 +65,21 @@ test("driving comes first, and a key is let go whatever has the focus", () => {
   assert.equal(press(" ", "Space", { target: button, type: "keyup" }), false);
   assert.deepEqual(seen, ["keydown", "keyup"]);
   assert.deepEqual(done, []);
+});
+
+test("a part to which the keyboard has moved the focus has its own keys first, a clicked one none", () => {
+  const { done, press, listeners } = listening(({ code, type }) => code === "ArrowLeft" && type === "keydown" && done.push("steer") > 0);
+  const part = /** @type {any} */ ({ tagName: "CANVAS", addEventListener: (name, listener) => (listeners[name] = listener), blur: () => done.push("blur") });
+  addKeys(part, "a picture", { ArrowLeft: () => done.push("turn"), ArrowRight: () => false });
+  assert.deepEqual([part.tabIndex, part.role, part.ariaLabel], [0, "application", "a picture"]);
+  const left = () => press("ArrowLeft", "ArrowLeft", { target: part });
+  for (const byKeyboard of [false, true]) {
+    listeners.focusin({ target: { matches: () => byKeyboard } });
+    assert.equal(left(), true);
+    listeners.click();
+  }
+  assert.equal(press("ArrowRight", "ArrowRight", { target: part }), false); // left to the page, which has no such key
+  assert.deepEqual(done, ["steer", "blur", "turn"]);
 });
 
 test("while the list of keys is open only its own keys act, and keys of driving are let go", () => {

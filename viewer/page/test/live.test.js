@@ -10,7 +10,7 @@ import { RealTimeClock } from "../src/live/real_time_clock.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "../src/live/ranges.js";
 import { between, Record } from "../src/live/record.js";
 import { movedRoads } from "../src/live/roads.js";
-import { missingParts } from "../src/bytes.js";
+import { missingParts } from "../src/common/browser_support.js";
 import { Runner } from "../src/live/worker.js";
 
 test("a pacer keeps absolute deadlines: a late wake makes up for what it missed", () => {
@@ -115,10 +115,10 @@ test("a record: rows in blocks, cut, thinned, as a table, and a picture between 
   record.add([0], [0, 3]);
   for (let k = 1; k < 2100; k++) record.add([k - 1], [10 * k, k % 2 ? -3.1 : 3.1]);
   assert.equal(record.row(1200)[0], 1200); // the input of the step that begins there
-  const at = between(record, 120.05, new Blend({ angles: new Set(["angle"]) }), new Map([["x", 1], ["angle", 2]]));
+  const at = between(record, 120.05, new Blend(null, [{ name: "angle", unit: "rad" }]), new Map([["x", 1], ["angle", 2]]));
   assert.ok(Math.abs(at("x") - 12005) < 1e-6);
   assert.ok(Math.abs(Math.abs(at("angle")) - Math.PI) < 1e-9); // the short way, not through nought
-  assert.deepEqual(record.series(1, 2000, 50)[1], [20000, 20500]);
+  assert.deepEqual(record.series(1, 2000, 50)[1], [20000, 20500, 20990]);
   record.cut(1100);
   assert.equal(record.time, 110);
   record.add([7], [5, 5]);

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { decoded, fromPlanes } from "../src/sources/decode.js";
+import { decodePage, fromPlanes } from "../src/sources/decode.js";
 import { slerp } from "../src/sources/blend.js";
 import { Sampler, linear, place } from "../src/sources/sampler.js";
 import { Recordings, signalNames } from "../src/sources/recordings.js";
@@ -109,12 +109,12 @@ test("a page becomes runs", async () => {
     notes: [],
     missing: [],
   };
-  const { runs } = await decoded({ format: "ALi3 page", version: 1, scenes: [{ frames: {} }], runs: [run], options: {} });
+  const { runs } = await decodePage({ format: "ALi3 page", version: 1, scenes: [{ frames: {} }], runs: [run], options: {} });
   assert.deepEqual(Array.from(runs[0].columns.a.data), [3, 4]);
   assert.equal(runs[0].columns.a.unit, "m");
   assert.deepEqual([runs[0].t, runs[0].epoch].map((numbers) => Array.from(numbers)), [[0, 1], [5, 6]]); // prettier-ignore
   assert.deepEqual(Object.keys(runs[0].columns), ["a", "b"]);
-  await assert.rejects(decoded({ format: "other" }), /another format/);
+  await assert.rejects(decodePage({ format: "other" }), /another format/);
 });
 
 test("signals are found by words, grouped by unit, and those of poses come last", () => {

@@ -1,9 +1,10 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Blend, turnsOf } from "../src/sources/blend.js";
+import { Blend } from "../src/sources/blend.js";
 import { InputArbiter } from "../src/live/input_arbiter.js";
 import { TrailingDirection } from "../src/scene/trailing_direction.js";
 import { Beat, Frames } from "../src/sources/frames.js";
+import { gearWords } from "../src/instruments/cluster.js";
 import { Trail } from "../src/instruments/map.js";
 import { Factor } from "../src/sources/factor.js";
 import { Surfaces, frictionOf } from "../src/instruments/surfaces.js";
@@ -93,9 +94,7 @@ test("a page that was busy itself does not say that nothing comes", () => {
 test("between frames: quaternions turn the short way, angles too, turns are counted, whole numbers jump", () => {
   const names = ["x", "yaw", "spin", "gear", "qw", "qx", "qy", "qz"];
   const scene = { frames: { body: { position: ["x"], quaternion: ["qw", "qx", "qy", "qz"] }, wheel: { angle: "spin" } } };
-  const turns = turnsOf(scene);
-  turns.angles.add("yaw");
-  const blend = new Blend(turns, new Set(["gear"]));
+  const blend = new Blend(scene, [{ name: "yaw", unit: "rad" }, { name: "gear", type: "Integer" }]);
   const half = 0.1;
   const a = [0, 3.1, 100, 2, Math.cos(half), 0, 0, Math.sin(half)];
   const b = [2, -3.1, 108, 3, -Math.cos(3 * half), 0, 0, -Math.sin(3 * half)];
@@ -108,6 +107,12 @@ test("between frames: quaternions turn the short way, angles too, turns are coun
   const turned = 2 * Math.atan2(at("qz"), at("qw"));
   assert.ok(Math.abs(turned - (2 * half + 0.25 * 4 * half)) < 1e-12, String(turned));
   assert.equal(at("no such column"), undefined);
+});
+
+test("the gear between two rows is that of the nearer one, and no number is told as none", () => {
+  const words = (numbers) => gearWords((name) => numbers[name], { selector: "selector", gear: "gear" });
+  assert.deepEqual([1.4, 1.6, NaN].map((gear) => words({ selector: 1, gear })), ["gear 1", "gear 2", "gear –"]);
+  assert.deepEqual([-1, -0.6, -0.4, 0.4, 0.6].map((selector) => words({ selector, gear: 1 })), ["R", "R", "N", "N", "gear 1"]);
 });
 
 test("wishes are told with all that their source holds; after a new start the selector is the car's", () => {

@@ -103,7 +103,7 @@ export function icon(name) {
 }
 
 /** Text of a number rounded to an integer, never -0. @param {number} value */
-export const whole = (value) => String(Math.round(value));
+export const whole = (value) => (Number.isFinite(value) ? String(Math.round(value)) : "–");
 
 /** Text of a number with four digits. */
 export function short(value) {

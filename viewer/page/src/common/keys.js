@@ -1,8 +1,11 @@
-// Dispatches key events of a page: to the focused element, else to driving, else to an action; keeps the focus.
+// Dispatches key events of a page: to the focused element or part, else to driving, else to an action; keeps the focus.
 import { actOf } from "./key_table.js";
 
 /** Whether the focus was moved by the keyboard; a clicked check box does not take keys. */
 let focusedByKeyboard = false;
+
+/** Actions of parts that have keys of their own, by these keys. @type {WeakMap<EventTarget, Object<string, (event: KeyboardEvent) => unknown>>} */
+const actsOfParts = new WeakMap();
 
 /** Actions of the list of keys. */
 const DIALOG_ACTS = ["help", "close"];
@@ -25,6 +28,20 @@ export function needed({ tagName, type, value, isContentEditable }, key, byKeybo
 /** Whether a part of the page has the focus, moved there by the keyboard. @param {HTMLElement} part */
 export function hasKeyboardFocus(part) {
   return focusedByKeyboard && part.contains(document.activeElement);
+}
+
+/**
+ * Gives a part of the page keys of its own, which act while the keyboard has moved the focus to it.
+ * @param {HTMLElement} part
+ * @param {string} label - Its name for screen readers.
+ * @param {Object<string, (event: KeyboardEvent) => unknown>} acts - By `KeyboardEvent.key`; false: the key is left to the page.
+ */
+export function addKeys(part, label, acts) {
+  part.tabIndex = 0;
+  part.role = "application"; // otherwise screen readers keep the arrows to themselves
+  part.ariaLabel = label;
+  part.addEventListener("click", () => focusedByKeyboard || part.blur()); // clicked, it leaves the keys to the page
+  actsOfParts.set(part, acts);
 }
 
 /**
@@ -57,6 +74,11 @@ export function keys({ acts, first = () => false, dialog, signal }) {
     const name = actOf(event, acts);
     const isBehind = dialog?.open && !DIALOG_ACTS.includes(name);
     if (down && (isNeeded || isBehind || ctrlKey || altKey || metaKey)) return; // releases are handled in any case
+    const ofPart = down && focusedByKeyboard ? actsOfParts.get(event.target)?.[key] : undefined;
+    if (ofPart && ofPart(event) !== false) {
+      event.preventDefault();
+      return;
+    }
     const driven = first(event);
     const act = acts[name];
     if (isNeeded || isBehind || !(driven || act)) return;

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { colourAt } from "../looks/colour_map.js";
 import { Bending } from "../scene/bending.js";
-import { floats } from "../scene/data.js";
+import { floats } from "../bytes.js";
 import { FrameTubes } from "../shapes/frame_tubes.js";
 
 /** Number of times at which stress is computed. */

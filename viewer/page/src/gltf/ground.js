@@ -7,7 +7,7 @@ import { LIFT } from "../looks/ground_offset.js";
 import { groundAxes, makeRoads } from "../looks/roads.js";
 import { errorOf, strided } from "../looks/terrain_mesh.js";
 import { feetOf } from "../player/traces.js";
-import { floats } from "../scene/data.js";
+import { floats } from "../bytes.js";
 import { add, length, scale, subtract } from "../scene/math.js";
 
 /** Width of the drawn ground beside the path, m. */

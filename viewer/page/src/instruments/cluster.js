@@ -37,13 +37,13 @@ export class Cluster {
   /** @param {(name: string) => number} lookup */
   show(lookup) {
     const speed = lookup("speed");
-    write(this._speed, Number.isFinite(speed) ? (3.6 * Math.abs(speed)).toFixed(0) : "–");
+    write(this._speed, whole(3.6 * Math.abs(speed)));
     write(this._gear, gearWords(lookup, { selector: this._selector, gear: this._names.has("gear") ? "gear" : undefined }));
     if (this._turns) {
       const turns = RPM * Math.abs(lookup(this._turns));
       if (turns > this._most) this._most = 1000 * Math.ceil(turns / 1000);
       this._revolutions.show(turns / this._most, turns > RED_SHARE * this._most ? "#ff5a4d" : undefined);
-      this._revolutions.words(`${turns.toFixed(0)} rpm`);
+      this._revolutions.words(`${whole(turns)} rpm`);
     }
     if (this._used) {
       const value = lookup(this._used);
@@ -60,7 +60,8 @@ export class Cluster {
  * @param {(name: string) => number} lookup
  * @param {{selector?: string, gear?: string}} columns - Those that the FMU has.
  */
-function gearWords(lookup, { selector, gear }) {
-  if (selector && lookup(selector) < 1) return lookup(selector) < 0 ? "R" : "N";
-  return gear ? `gear ${lookup(gear)}` : "";
+export function gearWords(lookup, { selector, gear }) {
+  const position = selector ? Math.round(lookup(selector)) : 1;
+  if (position < 1) return position < 0 ? "R" : "N";
+  return gear ? `gear ${whole(lookup(gear))}` : ""; // a recording has no types and is interpolated
 }

@@ -1,5 +1,6 @@
 // The map of the world: ground, scenery and places, the car and its path.
 import { el } from "../common/dom.js";
+import { addKeys } from "../common/keys.js";
 import { besides } from "../common/labels.js";
 import { Surfaces } from "./surfaces.js";
 
@@ -13,6 +14,8 @@ const CLICK_RADIUS = 18;
 const MARGIN = 0.5;
 /** Height of a line of text, pixels. */
 const LINE_HEIGHT = 14;
+/** Factor of the zoom by a key. */
+const KEY_ZOOM = 1.25;
 const BACKGROUND = "#3d4a36";
 const PAINTS = { white: "#f2f2ee", yellow: "#f0c84a", red: "#d8503f", blue: "#4a7fd8" };
 
@@ -195,9 +198,14 @@ export class WorldMap {
     this._free = free;
     this.zoom = 1;
     this._ground = new Ground(plan);
-    this._canvas = el("canvas", { role: "img", "aria-label": "map" });
+    this._canvas = el("canvas");
+    addKeys(this._canvas, "map", { "+": () => this._zoom(KEY_ZOOM), "-": () => this._zoom(1 / KEY_ZOOM) });
     this.element = el(whole ? "div.a3-map" : "div.a3-inset", { data: whole ? "map" : "map inset" }, this._canvas);
-    this._canvas.addEventListener("wheel", (event) => this._zoom(event), { passive: false });
+    const turned = (event) => {
+      event.preventDefault();
+      this._zoom(Math.exp(-0.0015 * event.deltaY));
+    };
+    this._canvas.addEventListener("wheel", turned, { passive: false });
     if (go) this._canvas.addEventListener("click", (event) => this._click(event, go));
   }
 
@@ -277,9 +285,9 @@ export class WorldMap {
     context.restore();
   }
 
-  _zoom(event) {
-    event.preventDefault();
-    this.zoom = Math.max(this._whole ? 1 : 0.2, Math.min(30, this.zoom * Math.exp(-0.0015 * event.deltaY)));
+  /** @param {number} factor */
+  _zoom(factor) {
+    this.zoom = Math.max(this._whole ? 1 : 0.2, Math.min(30, this.zoom * factor));
     if (this._car) this.show(this._car);
   }
 

@@ -1,6 +1,6 @@
 // Surfaces of a world: friction at a point, and pictures for the map.
 import { el } from "../common/dom.js";
-import { floats } from "../scene/data.js";
+import { floats } from "../bytes.js";
 import { SurfaceRaster, gripOf, nearest, slickness } from "../looks/heights.js";
 
 /** Colours of surfaces on the map. */

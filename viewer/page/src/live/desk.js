@@ -6,19 +6,15 @@ const script = typeof document === "undefined" ? null : /** @type {HTMLScriptEle
 
 /** Connection to the worker of the FMUs; without workers the FMUs run in the page. */
 export class Desk {
-  /**
-   * @param {(message: Data) => void} take - Receives messages of the worker.
-   * @param {{worker?: boolean}} [options] - `worker: false`: in the page.
-   */
-  constructor(take, { worker = true } = {}) {
-    this.threaded = false;
+  /** @param {(message: Data) => void} take - Receives messages of the worker. */
+  constructor(take) {
     try {
-      if (worker) this._worker = startWorker();
+      this._worker = startWorker();
     } catch {
-      this._worker = null; // `threaded` is then false
+      this._worker = null;
     }
+    this.threaded = Boolean(this._worker);
     if (this._worker) {
-      this.threaded = true;
       this._worker.onmessage = (event) => take(event.data);
       this._worker.onerror = (event) => take({ is: "error", at: "worker", text: event.message || "it ended" });
     } else {

@@ -3,14 +3,15 @@ import { button, el, short } from "../common/dom.js";
 import { DRIVING_WORDS } from "../common/key_table.js";
 import { instead } from "../common/notices.js";
 import { Shell } from "../shell/shell.js";
-import { decoded } from "../sources/decode.js";
+import { decodePage } from "../sources/decode.js";
 import { InputArbiter } from "./input_arbiter.js";
 import { inputPanel, parameterPanel } from "./panel.js";
 import { Session } from "../sources/fmu.js";
 import { Stage } from "./stage.js";
 import { levers } from "./touch.js";
 import { Sampler } from "../sources/sampler.js";
-import { missingParts, unpack, unpackedJson } from "../bytes.js";
+import { unpack, unpackJson } from "../bytes.js";
+import { missingParts } from "../common/browser_support.js";
 
 const ACTS = ["steering", "throttle", "brake"];
 const PLOTTED_NAMES = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
@@ -143,23 +144,23 @@ class Drive extends Shell {
   }
 
   async _open(parts, { beside, ends, script }) {
-    const runs = beside ? (await decoded(beside)).runs : [];
+    const runs = beside ? (await decodePage(beside)).runs : [];
     const recordings = runs.map((run, k) => {
       const sampler = new Sampler(run);
       return { title: `${run.name} (recorded)`, scene: run.scene, sample: (time) => sampler.at(time), recording: { ...run, end: ends[k] } };
     });
-    const table = script ? await unpackedJson(script) : null;
+    const table = script ? await unpackJson(script) : null;
     this.script = table;
     const fmus = [];
     for (const part of parts) {
       const resources = {};
       for (const [path, compressed] of Object.entries(part.resources ?? {})) resources[path] = await unpack(compressed);
-      fmus.push({ ...part, scene: await unpackedJson(part.scene), wasm: await unpack(part.wasm), resources });
+      fmus.push({ ...part, scene: await unpackJson(part.scene), wasm: await unpack(part.wasm), resources });
     }
     const pictures = [];
     for (const [k, { title, scene, roads, world: compressed, description }] of fmus.entries()) {
-      const choices = roads ? await unpackedJson(roads) : {};
-      const world = compressed ? await unpackedJson(compressed) : null;
+      const choices = roads ? await unpackJson(roads) : {};
+      const world = compressed ? await unpackJson(compressed) : null;
       const drawn = world ? { ...scene, roads: choices[world.road], scenery: world.scenery } : scene;
       pictures.push({ title, scene: drawn, sample: (time) => this.session.sample(time)[k], roads: choices, world, variables: new Map(description.variables.map((v) => [v.name, v])) });
     }

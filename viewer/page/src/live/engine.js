@@ -103,13 +103,6 @@ export class Engine {
     this._save();
   }
 
-  /** Frees the instances. */
-  free() {
-    this._freeStates();
-    for (const run of this.runs) run.slave.free();
-    this.runs = [];
-  }
-
   /** Time, s. */
   get time() {
     return this.k * this.step;

@@ -63,7 +63,7 @@ export class Gamepad {
     const changed = (this.pad?.id ?? null) !== this._id;
     if (changed) {
       this._id = this.pad?.id ?? null;
-      this.assigned = { ...(this.pad?.mapping === "standard" ? STANDARD : OTHER), ...stored(this._id) };
+      this.assigned = { ...(this.pad?.mapping === "standard" ? STANDARD : OTHER), ...loadAssigned(this._id) };
       this._before = null;
     }
     if (!this.pad) return { changed, touched: false };
@@ -92,7 +92,8 @@ export class Gamepad {
   }
 }
 
-function stored(id) {
+/** Assignments that were stored for a device. @param {string | null} id */
+function loadAssigned(id) {
   try {
     return JSON.parse(localStorage.getItem(`ali3 gamepad ${id}`) ?? "{}");
   } catch {

@@ -16,11 +16,6 @@ export class Record {
     this.step = step;
     this.width = inputs.length + outputs.length;
     this._blocksMost = Math.max(2, Math.floor(most / (8 * ROWS * this.width)));
-    this.clear();
-  }
-
-  /** Removes all rows. */
-  clear() {
     this._blocks = [];
     this.first = 0;
     this.end = 0; // index after the last row
@@ -66,7 +61,7 @@ export class Record {
   }
 
   /**
-   * Every `stride`th value of a column.
+   * Every `stride`th value of a column, and the last one.
    * @param {number} index - Of the column.
    * @param {number} from - First row.
    * @param {number} stride
@@ -76,10 +71,12 @@ export class Record {
     const t = [];
     const values = [];
     const begin = Math.ceil(Math.max(from, this.first) / stride) * stride;
-    for (let k = begin; k < this.end; k += stride) {
+    const add = (k) => {
       t.push(k * this.step);
       values.push(this._row(k)[index]);
-    }
+    };
+    for (let k = begin; k < this.end - 1; k += stride) add(k);
+    if (this.end > this.first) add(this.end - 1);
     return [t, values];
   }
 

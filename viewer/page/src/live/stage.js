@@ -25,16 +25,8 @@ export class Stage {
     this._epoch = 0;
     this._surveyed = 0;
     /** @type {Data[]} items with their elements, views and effects */
-    this.parts = items.map((item) => {
-      const holder = el("div.a3-picture");
-      const timing = new Timing(item.title);
-      const names = new Set(item.variables ? [...item.variables].filter(([, v]) => v.causality === "output").map(([name]) => name) : Object.keys(item.recording?.columns ?? {}));
-      const fixed = (name) => item.variables?.get(name)?.start;
-      const instruments = Instruments.of(names) ? new Instruments(names, { scene: item.scene, fixed }) : null;
-      const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.layer()] : []), timing.element);
-      box.append(element);
-      return { ...item, holder, timing, instruments, element };
-    });
+    this.parts = items.map(addElements);
+    box.append(...this.parts.map(({ element }) => element));
     this._options = { driven: !options.keep, onMessage: (sentence) => notices.note(sentence), ...options };
   }
 
@@ -84,6 +76,7 @@ export class Stage {
     for (const { instruments } of this.parts) instruments?.plan.trail.lift();
   }
 
+  /** Draws the roads of a part anew if parameters have changed them. */
   _drawRoads(part, lookup) {
     if (part.view.problem || !part.variables) return;
     const { roads, key } = movedRoads(part.roads?.[part.road] ?? part.scene.roads ?? [], lookup);
@@ -91,7 +84,11 @@ export class Stage {
     if (part.drawn === drawn) return;
     const first = part.drawn === undefined && JSON.stringify(roads) === JSON.stringify(part.scene.roads ?? []);
     part.drawn = drawn;
-    if (first) return;
+    if (!first) this._replaceView(part, roads);
+  }
+
+  /** Draws a part anew on other roads. @param {Data} part @param {Data[]} roads */
+  _replaceView(part, roads) {
     const camera = part.view.cameras?.name;
     part.view.dispose();
     const isOtherRoad = part.world && part.road !== part.world.road;
@@ -123,8 +120,8 @@ export class Stage {
       part.view.update(lookup);
       part.effects?.update(lookup, time, this._epoch);
       const end = part.recording ? part.recording.t[part.recording.t.length - 1] : Infinity;
-      const warn = part.timing.show(Math.min(time, end), part.recording ? null : pace);
-      if (!part.recording) this._notices.flag("behind", warn, { bad: true });
+      const warning = part.timing.show(Math.min(time, end), part.recording ? null : pace);
+      if (!part.recording) this._notices.flag("behind", warning, { bad: true });
       part.instruments?.show(lookup);
       if (part.recording?.end) this._notices.flag(`end ${part.title}`, time > end ? `${part.title}: ${part.recording.end}` : "");
     }
@@ -141,4 +138,16 @@ export class Stage {
       part.view?.dispose();
     }
   }
+}
+
+/** An item with its element: picture, instruments of a car, times. @param {Data} item */
+function addElements(item) {
+  const { title, scene, variables, recording } = item;
+  const outputs = [...(variables?.values() ?? [])].filter((v) => v.causality === "output").map((v) => v.name);
+  const names = new Set(variables ? outputs : Object.keys(recording?.columns ?? {}));
+  const holder = el("div.a3-picture");
+  const timing = new Timing(title);
+  const instruments = Instruments.of(names) ? new Instruments(names, { scene, fixed: (name) => variables?.get(name)?.start }) : null;
+  const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.layer()] : []), timing.element);
+  return { ...item, holder, timing, instruments, element };
 }

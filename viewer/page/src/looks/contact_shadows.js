@@ -1,6 +1,6 @@
 // Contact shadows: soft dark areas on the ground below the body and each wheel.
 import * as THREE from "three";
-import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
+import { add, cross, dot, perpendicular, rotate, scale, subtract } from "../scene/math.js";
 import { discard } from "./discard.js";
 import { laid, LIFT } from "./ground_offset.js";
 import { groundHeight } from "./road_height.js";
@@ -53,7 +53,7 @@ export function contactShadows(view) {
       mesh.visible = count > 0 && centres.every((centre) => centre !== null);
       if (!mesh.visible) return;
       const { rotation } = parts.frames.pose(scene.focus || wheels[0].frame);
-      const level = (direction) => unit(subtract(direction, scale(up, dot(direction, up)))) ?? [1, 0, 0];
+      const level = (direction) => perpendicular(direction, up) ?? [1, 0, 0];
       const forward = level(rotate(rotation, [1, 0, 0]));
       const left = cross(up, forward);
       const least = Math.min(...centres.map((centre, k) => dot(centre, up) - wheels[k].radius));

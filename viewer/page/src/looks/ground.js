@@ -1,6 +1,6 @@
 // Material of roads and ground, whose pattern is fixed to the earth while the origin of the picture follows the focus.
 import * as THREE from "three";
-import { across, cross, dot, modulo } from "../scene/math.js";
+import { cross, dot, modulo, sideways } from "../scene/math.js";
 import { vertexLit } from "./draft/vertex_lighting.js";
 import { oneLevel } from "./noise.js";
 import { SKYLIGHT } from "./skylight.js";
@@ -68,7 +68,7 @@ if (fade > 0.0) {
  *   fine: with relief and gloss, else the least expensive lighting
  */
 export function groundMaterial({ noise, up, paint = 0, grass = false, fine = false }) {
-  const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? axisAcross(up, [1, 0, 0]) : across(up);
+  const x = sideways(up);
   const y = cross(up, x);
   const uniforms = {
     aX: { value: new THREE.Vector3(...x) },
@@ -106,11 +106,4 @@ function addPattern(shader) {
   onTheEarth(shader);
   atEachPoint(shader, "attribute vec2 slick;\nvarying vec2 vSlick;", "vSlick = slick;");
   atEachPixel(shader, PARAMETERS, { map_fragment: ASPHALT });
-}
-
-/** Unit vector of the horizontal part of an axis. */
-function axisAcross(up, axis) {
-  const rest = axis.map((a, i) => a - dot(up, axis) * up[i]);
-  const size = Math.hypot(...rest);
-  return rest.map((a) => a / size);
 }

@@ -1,6 +1,6 @@
 // Heights of a terrain of patches with different spacings, and surfaces at a point.
-import { bytesOf } from "../bytes.js";
-import { floats } from "../scene/data.js";
+import { decodeBase64 } from "../bytes.js";
+import { floats } from "../bytes.js";
 import looks from "../../../looks.json" with { type: "json" };
 
 /** Number of cells of a side of the table that finds the patch at a point. */
@@ -123,7 +123,7 @@ export class SurfaceRaster {
     this.origin = surface?.origin ?? [0, 0];
     this.spacing = surface?.spacing ?? [1, 1];
     this.shape = surface?.shape ?? [1, 1];
-    this.classes = surface === undefined ? new Uint8Array(1) : bytesOf(surface.classes);
+    this.classes = surface === undefined ? new Uint8Array(1) : decodeBase64(surface.classes);
     if (this.classes.length !== this.shape[0] * this.shape[1]) {
       throw new Error(`The surface of the terrain has ${this.classes.length} classes, not ${this.shape[0]} x ${this.shape[1]}.`);
     }

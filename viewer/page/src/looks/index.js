@@ -4,6 +4,7 @@ import { outdoors } from "./outdoors.js";
 import { studio } from "./studio.js";
 import { PictureQuality } from "./picture_quality.js";
 
+/** @type {Object<string, (view: Data, fine: boolean) => Data>} */
 const LOOKS = { board, outdoors, studio };
 
 /** Name of the look of a scene. @param {Data} scene */
@@ -21,8 +22,7 @@ const draftRatio = (area) => Math.min(1, Math.max(MIN_RESOLUTION, Math.sqrt(DRAF
 /** Makes the look of a picture. @param {Data} view the SceneView */
 export function makeLook(view) {
   const { options, scene, renderer, software } = view;
-  const name = options.look ?? lookOf(scene);
-  if (LOOKS[name] === undefined) throw new Error(`There is no look '${name}'; there are ${Object.keys(LOOKS).join(", ")}.`);
+  const name = lookOf(scene);
   const pace = new PictureQuality(renderer, options.quality ?? "auto", { software, driven: options.driven ?? false });
   renderer.shadowMap.enabled = name !== "board";
   const look = LOOKS[name](view, pace.level === "high");
@@ -36,7 +36,6 @@ export function makeLook(view) {
   pace.changed = apply;
   look.quality(pace.level);
   return {
-    name,
     caption: look.caption ?? "",
     height: look.height ?? null,
     /** Resolution of the picture relative to the page, by side. @param {number} area of the picture in the page */

@@ -9,7 +9,7 @@ import { reflecting } from "./environment_map.js";
 import { noiseTexture } from "./noise.js";
 import { makeRoads } from "./roads.js";
 import { HAZE, seenSky, skyBall } from "./sky.js";
-import { sharpen, sunLight } from "./sun.js";
+import { sunLight } from "./sun.js";
 import { makeWorld } from "./world.js";
 
 /** Direction of the sun: components upwards, across and along the scene. It is chosen by eye, as are the next numbers. */
@@ -79,7 +79,6 @@ export function outdoors(view, fine) {
       land?.follow(origin, eye, renderer.getDrawingBufferSize(pixels));
     },
     quality(level) {
-      sharpen(sun, level === "high" ? 2048 : 1024);
       draft.set(level);
       setDraft(draft.on);
       land?.show(level, draft.light);

@@ -1,5 +1,5 @@
 // Computes the height of the ground below a point from the roads of a scene.
-import { floats } from "../scene/data.js";
+import { floats } from "../bytes.js";
 import { dot, scale, subtract, unit } from "../scene/math.js";
 import { heldWithin } from "./heights.js";
 import { between, border, groundAxes, levelOf } from "./roads.js";

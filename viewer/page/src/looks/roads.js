@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
-import { floats } from "../scene/data.js";
+import { floats } from "../bytes.js";
 import { alongY, turn } from "../shapes/place.js";
 import shared from "../../../looks.json" with { type: "json" };
 import { gripOf, heldWithin, slickness } from "./heights.js";

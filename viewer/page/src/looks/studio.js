@@ -1,6 +1,6 @@
 // The look of mechanisms: a studio with a floor with a grid in metres, and soft light.
 import * as THREE from "three";
-import { across, add, cross, dot, fromColumns, scale, unit } from "../scene/math.js";
+import { add, cross, dot, fromColumns, scale, sideways, unit } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
 import { niceStep } from "../scene/forces.js";
 import { discard } from "./discard.js";
@@ -8,14 +8,14 @@ import { makeDraft } from "./draft/index.js";
 import { gridSurface } from "./grid.js";
 import { reflecting } from "./environment_map.js";
 import { room } from "./room.js";
-import { sharpen, sunLight } from "./sun.js";
+import { sunLight } from "./sun.js";
 
 const BACKGROUND = "#dfe4e8";
 
 /** Makes the look. @param {Data} view the SceneView @param {boolean} fine whether there is a graphics card */
 export function studio(view, fine) {
   const { world, renderer, up, extent } = view;
-  const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? unit([1, 0, 0].map((a, i) => a - up[0] * up[i])) : across(up);
+  const x = sideways(up);
   const y = cross(up, x);
   const direction = unit(add(scale(up, 1.3), add(scale(x, 0.55), scale(y, -0.75))));
   const sun = sunLight({ direction, reach: 1.5 * view.radius, strength: 3.1, color: "#fffaf2", size: fine ? 2048 : 1024 });
@@ -38,7 +38,6 @@ export function studio(view, fine) {
       floor.mesh.position.fromArray(scale(up, view.floor - dot(up, origin)));
     },
     quality(level) {
-      sharpen(sun, level === "high" ? 2048 : 1024);
       draft.set(level);
     },
     restore: light.bake,

@@ -2,12 +2,10 @@
 import * as THREE from "three";
 import { coverage } from "./coverage.js";
 import { HeightField, SURFACES, SurfaceRaster } from "./heights.js";
+import { groundAxes } from "./roads.js";
 import { makeScenery, tellOf } from "./scenery/index.js";
 import { surfaceMaterials } from "./surface.js";
 import { FINE, ROUGH, terrain } from "./terrain.js";
-
-/** Axes of a world: x, y and up. @param {number[]} up */
-const axesOf = (up) => (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0], up] : [[1, 0, 0], [0, 0, -1], up]); // prettier-ignore
 
 /**
  * Makes the world of a scene.
@@ -19,7 +17,7 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   const roads = (scene.roads ?? []).filter(({ kind }) => kind === "terrain");
   const things = scene.scenery ?? [];
   if (roads.length === 0 && things.length === 0) return null;
-  const axes = axesOf(up);
+  const axes = [...groundAxes({}, up), up];
   const tell = [];
   if (roads.length > 1) tell.push(`${roads.length} terrains are in the scene; the first is drawn.`);
   const [field, raster] = roads.length > 0 ? [new HeightField(roads[0]), new SurfaceRaster(roads[0].surface)] : [null, null];

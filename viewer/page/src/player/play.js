@@ -6,7 +6,7 @@ import { Instruments } from "../instruments/index.js";
 import { SceneView } from "../scene/scene_view.js";
 import { digitsOf } from "../shell/bar.js";
 import { Shell } from "../shell/shell.js";
-import { decoded } from "../sources/decode.js";
+import { decodePage } from "../sources/decode.js";
 import { extremesOf } from "../sources/extremes.js";
 import { Recordings } from "../sources/recordings.js";
 import { fromHash, toHash } from "./link.js";
@@ -35,7 +35,7 @@ class Player extends Shell {
   constructor(container, page) {
     super(container, page.options);
     /** Resolved when the first picture or an error is shown. */
-    this.ready = decoded(page)
+    this.ready = decodePage(page)
       .then((given) => this._open(given))
       .catch((error) => {
         this._wrong = error.message;

@@ -1,5 +1,5 @@
 // Computes displacement and stress of a flexible body from the amplitudes of its modes.
-import { floats } from "./data.js";
+import { floats } from "../bytes.js";
 
 /** Displacement and stress of a flexible body. */
 export class Bending {

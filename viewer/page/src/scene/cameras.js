@@ -1,7 +1,7 @@
 // The cameras of a scene: their positions, and how they follow the car or another body.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { across, add, cross, dot, rotate, scale, subtract, unit } from "./math.js";
+import { across, add, cross, dot, perpendicular, rotate, scale, subtract, unit } from "./math.js";
 import { TrailingDirection } from "./trailing_direction.js";
 
 /** Position of the eyes of the driver behind and above the centre of the steering wheel, m. */
@@ -17,6 +17,8 @@ const MAX_ANGLE_SHARE = 0.5;
 const MAX_PATH = 0.3;
 /** Distance between trackside cameras, and from the path, relative to the size of the followed body. */
 const [CAMERA_SPACING, PATH_DISTANCE] = [10, 3];
+/** Turn, rad, and shift, pixels, of the free camera by a key, and the factor of its distance. */
+const [KEY_TURN, KEY_SHIFT, KEY_ZOOM] = [Math.PI / 36, 40, 0.9];
 
 /** The cameras of a view, with positions relative to the origin of the picture. */
 export class Cameras {
@@ -50,6 +52,11 @@ export class Cameras {
     this.name = "orbit";
   }
 
+  /** Size of the followed body, m. */
+  get extent() {
+    return Math.min(this.view.extent, 2 * this.view.radius);
+  }
+
   _names(focus) {
     const wheels = this.wheels.length <= 6 ? this.wheels.map((frame) => this._wheelName(frame)) : [];
     return ["orbit", ...(focus ? ["chase"] : []), ...(focus && this.seat ? ["driver"] : []), ...(focus ? wheels : []), "side", "top"];
@@ -61,7 +68,7 @@ export class Cameras {
    */
   stand(path) {
     const { up } = this.view;
-    const extent = Math.min(this.view.extent, 2 * this.view.radius);
+    const { extent } = this;
     const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((k) => path.reduce((a, point) => most(a, point[k]), path[0][k])));
     const rightOf = (from, to) => unit(cross(subtract(to, from), up)) ?? across(up);
     const right = rightOf(path[0], path[path.length - 1]);
@@ -104,8 +111,8 @@ export class Cameras {
   }
 
   /** Trackside camera nearest to the followed body. */
-  _showFromTrack(extent) {
-    const { up, origin } = this.view;
+  _showFromTrack() {
+    const { extent, view: { up, origin } } = this; // prettier-ignore
     const from = this.posts.map((post) => subtract(post, origin)).reduce((a, b) => (Math.hypot(...a) <= Math.hypot(...b) ? a : b));
     const angle = (2 * Math.atan((0.7 * extent) / Math.hypot(...from)) * 180) / Math.PI;
     this._angle(Math.min(60, Math.max(6, angle)));
@@ -120,6 +127,27 @@ export class Cameras {
 
   _wheelName(frame) {
     return /^wheel/.test(frame) ? frame : `wheel ${frame}`;
+  }
+
+  /** Actions of keys on the free camera; false while another camera is chosen. */
+  get acts() {
+    const free = (/** @type {(event: KeyboardEvent) => void} */ move) => (/** @type {KeyboardEvent} */ event) => {
+      if (!this.controls.enabled) return false;
+      this.moved = true;
+      move(event);
+      return true;
+    };
+    const arrow = (aside, upward) => free(({ shiftKey }) => {
+      const { controls } = this;
+      if (shiftKey || !controls.enableRotate) controls.pan(-aside * KEY_SHIFT, upward * KEY_SHIFT);
+      else if (aside) controls.rotateLeft(-aside * KEY_TURN);
+      else controls.rotateUp(upward * KEY_TURN);
+    });
+    return {
+      ...{ ArrowLeft: arrow(-1, 0), ArrowRight: arrow(1, 0), ArrowUp: arrow(0, 1), ArrowDown: arrow(0, -1) },
+      "+": free(() => this.controls.dollyIn(KEY_ZOOM)),
+      "-": free(() => this.controls.dollyOut(KEY_ZOOM)),
+    };
   }
 
   /** Moves the free camera to its initial position, unless the user has moved it. */
@@ -142,7 +170,7 @@ export class Cameras {
     const { up, scene, parts } = this.view;
     const { rotation, shown } = parts.frames.pose(scene.focus || "ground");
     const x = shown ? rotate(rotation, [1, 0, 0]) : [1, 0, 0];
-    const forward = unit(subtract(x, scale(up, dot(x, up)))) ?? across(up);
+    const forward = perpendicular(x, up) ?? across(up);
     return [cross(up, forward), forward];
   }
 
@@ -163,22 +191,22 @@ export class Cameras {
   follow() {
     if (this.name === "orbit") return;
     const { up } = this.view;
-    const extent = Math.min(this.view.extent, 2 * this.view.radius);
+    const { extent } = this;
     const [left, forward] = this._axes();
     const mix = (ahead, aside, above) => add(add(scale(forward, ahead * extent), scale(left, aside * extent)), scale(up, above * extent));
     const north = Math.abs(up[1]) > 0.7 ? [0, 0, -1] : [0, 1, 0];
-    if (this.name === "chase") this._chase(forward, extent);
+    if (this.name === "chase") this._chase(forward);
     else if (this.name === "side") this._look(mix(0, -2.1, 0.14), [0, 0, 0], up);
     else if (this.name === "top") this._look(scale(up, 4 * extent), [0, 0, 0], north);
     else if (this.name === "driver") this._showFromDriver();
     else if (this.name === "fixed") this._showPath();
-    else if (this.name === "trackside") this._showFromTrack(extent);
+    else if (this.name === "trackside") this._showFromTrack();
     else this._showWheel(this.wheels.find((frame) => this._wheelName(frame) === this.name));
   }
 
   /** Chase camera behind the followed body, above the ground. */
-  _chase(forward, extent) {
-    const { up, origin, look } = this.view;
+  _chase(forward) {
+    const { extent, view: { up, origin, look } } = this; // prettier-ignore
     const direction = this.trailing.along(forward, up);
     const offset = (ahead, above) => add(scale(direction, ahead * extent), scale(up, above * extent));
     const from = offset(-1.6, 0.42);
@@ -211,13 +239,13 @@ export class Cameras {
     if (this.name !== "driver") return false;
     const { position, shown } = ghost.frames.pose(ghost.scene.focus || "ground");
     const from = subtract(subtract(position, this.view.origin), this.rig.position.toArray());
-    return shown && Math.hypot(...from) < Math.min(this.view.extent, 2 * this.view.radius) / 2;
+    return shown && Math.hypot(...from) < this.extent / 2;
   }
 
   /** Camera at a wheel and its suspension, from the front and outside. */
   _showWheel(frame) {
     const { parts, up, origin } = this.view;
-    const extent = Math.min(this.view.extent, 2 * this.view.radius);
+    const { extent } = this;
     const place = parts.frames.point(frame, [0, 0, 0]);
     if (place === null) return;
     const at = subtract(place, origin);

@@ -80,8 +80,8 @@ export const worded = (value, unitName, like) => parted(value, unitName, like).j
  * @returns {[number, string]}
  */
 export function parted(value, unitName, like = value) {
-  if (value === 0) return [0, unitName];
   const reference = Math.abs(value) < Math.abs(like) / 1000 ? value : like;
-  const [size, prefix] = PREFIXES.find(([factor]) => Math.abs(reference) >= factor * 0.9999999) ?? PREFIXES[PREFIXES.length - 1];
+  const fits = (/** @type {[number, string]} */ [factor]) => Number(Math.abs(reference).toPrecision(3)) >= factor;
+  const [size, prefix] = value === 0 ? [1, ""] : (PREFIXES.find(fits) ?? PREFIXES[PREFIXES.length - 1]);
   return [Number((value / size).toPrecision(3)), `${prefix}${unitName.replaceAll(".", "\u00b7")}`];
 }

@@ -57,6 +57,8 @@ function tubeWords(bending, beam, ends) {
 export class Marks {
   _made = new Map();
   _over = { at: -Infinity, boxes: [] };
+  /** Index of the object labelled by a key. */
+  _index = 0;
   /** @type {{frame: string, at: number[], lines: () => string[]} | null} */
   _picked = null;
 
@@ -64,7 +66,8 @@ export class Marks {
   constructor(layer, view, canvas) {
     this.view = view;
     this.layer = el("div", { style: "position:absolute;inset:0", "aria-live": "off" });
-    layer.prepend(this.layer); // below legends
+    this.spoken = el("div", { role: "status", style: "position:absolute;clip-path:inset(50%)" }); // for screen readers
+    layer.prepend(this.layer, this.spoken); // below legends
     let from = null;
     canvas.addEventListener("pointerdown", ({ clientX, clientY }) => (from = [clientX, clientY]));
     canvas.addEventListener("pointerup", ({ clientX, clientY }) => {
@@ -76,9 +79,25 @@ export class Marks {
 
   /** Labels the object at a pixel of the picture, if there is one. @returns {string[]} lines of its label */
   pick(x, y) {
-    this._picked = this._hit(x, y);
+    return this._choose(this._hit(x, y));
+  }
+
+  /** Labels the next object, after the last one none. */
+  pickNext() {
+    const targets = this._targets();
+    this._index = this._picked ? this._index + 1 : 0;
+    const { frame, made, object } = targets[this._index] ?? {};
+    if (object === undefined) this._choose(null);
+    else if (made) this._choose(shapeLabel(made, add(new THREE.Box3().setFromObject(object).getCenter(new THREE.Vector3()).toArray(), this.view.origin)));
+    else this._choose({ frame, at: [0, 0, 0], lines: this._bodyWords(frame) });
+  }
+
+  _choose(picked) {
+    this._picked = picked;
     this.place();
-    return this._picked?.lines() ?? [];
+    const lines = picked?.lines() ?? [];
+    this.spoken.textContent = lines.join(", ");
+    return lines;
   }
 
   /** Updates all labels. @param {boolean} [again] whether to repeat it when the overlays are settled */
@@ -149,19 +168,25 @@ export class Marks {
     return this._over.boxes;
   }
 
+  /** Objects that can be labelled: those that move with a frame, and shapes between frames. @returns {Data[]} */
+  _targets() {
+    const { moving, shapes } = this.view.parts;
+    return [...moving.map(([frame, object]) => ({ frame, object })), ...shapes.filter((made) => made.update).map((made) => ({ made, object: made.object }))];
+  }
+
   /** The nearest solid object at a pixel; null if there is none. */
   _hit(x, y) {
     const { view } = this;
     const { parts, size, cameras } = view;
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2((2 * x) / size[0] - 1, 1 - (2 * y) / size[1]), cameras.current);
-    const targets = [...parts.moving.map(([frame, object]) => ({ frame, object })), ...parts.shapes.filter((made) => made.update).map((made) => ({ made, object: made.object }))];
     const solid = (/** @type {any} */ object) => !object.material?.transparent && visible(object);
-    const hits = targets.flatMap((target) => ray.intersectObject(target.object, true).filter((hit) => solid(hit.object)).map((hit) => ({ ...target, hit })));
+    /** @type {Data[]} */
+    const hits = this._targets().flatMap((target) => ray.intersectObject(target.object, true).filter((hit) => solid(hit.object)).map((hit) => ({ ...target, hit })));
     if (hits.length === 0) return null;
     const { frame, made, hit } = hits.reduce((a, b) => (b.hit.distance < a.hit.distance ? b : a));
     const point = add(hit.point.toArray(), view.origin);
-    if (made) return { frame: "ground", at: point, lines: () => [made.shape.name ?? made.shape.body ?? made.shape.kind] };
+    if (made) return shapeLabel(made, point);
     const at = rotate(transpose(parts.frames.pose(frame).rotation), subtract(point, parts.frames.pose(frame).position));
     const body = parts.flexible.find(({ object }) => object === hit.object);
     const beam = body?.tubes.beamAt(hit.faceIndex) ?? -1;
@@ -177,7 +202,7 @@ export class Marks {
     return () => {
       const { lookup } = this.view;
       const { position } = parts.frames.pose(frame);
-      const positionText = `at ${position.map((x) => x.toFixed(3)).join(", ")} m`;
+      const positionText = `at ${position.map((x) => (Math.round(1e3 * x) / 1e3 + 0).toFixed(3)).join(", ")} m`; // never -0
       if (lookup === null) return [frame, positionText];
       const forces = arrows.flatMap((arrow) => {
         const found = forcesOf(arrow, parts.frames, lookup);
@@ -187,6 +212,9 @@ export class Marks {
     };
   }
 }
+
+/** Label of a shape between frames. @param {Data} made @param {number[]} at earth position */
+const shapeLabel = ({ shape }, at) => ({ frame: "ground", at, lines: () => [shape.name ?? shape.body ?? shape.kind] });
 
 /** @param {THREE.Object3D | null} object @returns {boolean} */
 const visible = (object) => object === null || (object.visible && visible(object.parent));

@@ -33,6 +33,12 @@ export function across(a) {
   return unit(cross(a, x <= y && x <= z ? [1, 0, 0] : y <= z ? [0, 1, 0] : [0, 0, 1]));
 }
 
+/** Unit vector of the part of `a` that is perpendicular to a unit vector; null if there is none. @param {Vector} a @param {Vector} axis @returns {Vector | null} */
+export const perpendicular = (a, axis) => unit(subtract(a, scale(axis, dot(a, axis))));
+
+/** Unit vector perpendicular to a unit vector, towards x where that is not nearly along it. @param {Vector} axis @returns {Vector} */
+export const sideways = (axis) => (Math.abs(axis[0]) < 0.9 ? perpendicular([1, 0, 0], axis) : across(axis));
+
 /** R v. @param {Rotation} R @param {Vector} v @returns {Vector} */
 export function rotate(R, v) {
   return [

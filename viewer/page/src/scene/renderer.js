@@ -16,13 +16,12 @@ function drawsBySoftware(gl) {
 /**
  * Makes a renderer with its canvas.
  * @param {HTMLElement} container
- * @param {{label: string, antialias?: boolean, keep?: boolean}} options label: alternative
- *   text; keep: whether the picture can be read after it is drawn
+ * @param {{antialias?: boolean, keep?: boolean}} options keep: whether the picture can be read after it is drawn
  * @returns {{renderer?: THREE.WebGLRenderer, software?: boolean, problem?: string}}
  */
-export function makeRenderer(container, { label, antialias, keep = false }) {
-  const style = "display:block;width:100%;height:100%;outline:none;touch-action:none";
-  const canvas = el("canvas", { role: "img", "aria-label": label, style });
+export function makeRenderer(container, { antialias, keep = false }) {
+  const style = "display:block;width:100%;height:100%;touch-action:none";
+  const canvas = el("canvas", { style });
   // The context is created here, because three.js would write an error to the console if there is none.
   /** @type {WebGL2RenderingContext | null} */
   let gl;

@@ -8,6 +8,7 @@ import { Notes } from "./notes.js";
 import { Parts } from "./parts.js";
 import { wrongName } from "./plain_names.js";
 import { makeRenderer } from "./renderer.js";
+import { addKeys } from "../common/keys.js";
 import { makeLook } from "../looks/index.js";
 
 /** A picture of a scene, drawn relative to the focus so that positions are accurate at 100 km too. */
@@ -18,7 +19,6 @@ export class SceneView {
    * @param {object} [options]
    * @param {string} [options.quality] of QUALITIES in looks/picture_quality.js; auto: by the measured drawing time
    * @param {boolean} [options.driven] pictures follow a simulation in real time: auto may choose a draft
-   * @param {"outdoors" | "studio" | "board"} [options.look] by default depending on the scene
    * @param {string} [options.camera] the first camera
    * @param {boolean} [options.antialias] smooth edges; by default with a graphics card, on boards and in high quality
    * @param {boolean} [options.words] legend of the grid, by default true
@@ -48,7 +48,6 @@ export class SceneView {
       return;
     }
     const { renderer, software, problem } = makeRenderer(container, {
-      label: `drawing of ${scene.name ?? "a scene"}`,
       antialias: options.antialias ?? (options.quality === "high" || scene.planar ? true : undefined),
       keep: options.keep,
     });
@@ -63,6 +62,7 @@ export class SceneView {
     this.cameras = new Cameras(this, renderer.domElement);
     this.marks = new Marks(this.notes.layer, this, renderer.domElement);
     this.look = makeLook(this);
+    addKeys(renderer.domElement, `drawing of ${scene.name ?? "a scene"}`, { ...this.cameras.acts, Enter: () => this.marks.pickNext() });
     this._watchContext();
     this.camera(options.camera ?? this.cameras.names[0]);
     this.observer = new ResizeObserver(() => this._resized());
@@ -147,11 +147,6 @@ export class SceneView {
     };
   }
 
-  /** Names of the arrows of the scene. @returns {string[]} */
-  get arrowNames() {
-    return this.parts.arrows.list.map(({ name }) => name);
-  }
-
   /** Factor that makes the largest displacement so far visible. @returns {number} 1, 2, 5, 10, ... */
   get fittingDeformation() {
     return this.parts.fittingFactor(this.extent);
@@ -170,7 +165,7 @@ export class SceneView {
    */
   set({ arrows, arrowScale, stress, stressMost, deformation, closed, quality }) {
     const { parts } = this;
-    if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? this.arrowNames : arrows || []);
+    if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? parts.arrows.list.map(({ name }) => name) : arrows || []);
     if (arrowScale !== undefined) parts.arrows.factor = arrowScale;
     if (stress !== undefined) parts.bending.coloured = stress;
     if (stressMost !== undefined) Object.assign(parts.bending, { most: stressMost, fixed: stressMost > 0 });

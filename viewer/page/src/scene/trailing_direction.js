@@ -1,5 +1,5 @@
 // A direction that follows another one with a first-order lag, for smooth motion of a camera.
-import { add, dot, scale, subtract, unit } from "./math.js";
+import { add, perpendicular, scale } from "./math.js";
 
 /** Time without a picture after which the lag is discarded, s. */
 const MAX_PAUSE = 1;
@@ -28,7 +28,7 @@ export class TrailingDirection {
     if (this.direction === null || elapsed > MAX_PAUSE) this.direction = forward;
     const share = 1 - Math.exp(-elapsed / this.lag);
     const mixed = add(scale(this.direction, 1 - share), scale(forward, share));
-    this.direction = unit(subtract(mixed, scale(up, dot(mixed, up)))) ?? forward;
+    this.direction = perpendicular(mixed, up) ?? forward;
     return this.direction;
   }
 

@@ -1,7 +1,7 @@
 // Meshes of a scene.
 import * as THREE from "three";
 import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
-import { floats, integers } from "../scene/data.js";
+import { floats, integers } from "../bytes.js";
 import { cross, dot } from "../scene/math.js";
 import { turnByAxes } from "./place.js";
 

@@ -1,7 +1,7 @@
 // Coil springs.
 import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
-import { across, add, cross, dot, fromColumns, length, rotate, scale, subtract, unit } from "../scene/math.js";
+import { across, add, cross, dot, fromColumns, length, perpendicular, rotate, scale, subtract, unit } from "../scene/math.js";
 import { coilSurface, coilTriangles } from "./coil.js";
 import { set } from "./plate.js";
 import { stretch, turn } from "./place.js";
@@ -33,7 +33,7 @@ export function spring(shape, { materials, frames, rigid = false }) {
     const body = frames.pose(ends[0][0]).rotation;
     const candidates = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => rotate(body, axis)); // prettier-ignore
     const best = candidates.reduce((a, b) => (Math.abs(dot(a, z)) <= Math.abs(dot(b, z)) ? a : b));
-    const x = unit(subtract(best, scale(z, dot(best, z)))) ?? across(z);
+    const x = perpendicular(best, z) ?? across(z);
     const height = length(subtract(to, from));
     if (!rigid || drawnHeight === 0) {
       const { positions, normals } = coilSurface({ coils, radius, wire }, height);

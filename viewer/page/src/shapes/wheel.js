@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
 import { atEachPoint } from "../looks/vertex_code.js";
-import { across, cross, dot, fromColumns, rotate, scale, subtract, transpose, unit } from "../scene/math.js";
+import { cross, dot, fromColumns, rotate, sideways, subtract, transpose, unit } from "../scene/math.js";
 import { composed, profileOf } from "./composite_solids.js";
 import { turn } from "./place.js";
 import { treadTexture } from "./tread.js";
@@ -54,7 +54,7 @@ export function wheel(shape, context) {
   const object = new THREE.Group().add(...composed(WHEEL.parts, lengths, look, outward(shape, axis, context)));
   object.position.fromArray(shape.at ?? [0, 0, 0]);
   const y = unit(axis) ?? [0, 1, 0];
-  const x = Math.abs(y[0]) < 0.9 ? unit(subtract([1, 0, 0], scale(y, y[0]))) : across(y);
+  const x = sideways(y);
   turn(object, fromColumns(x, y, cross(x, y)));
   const road = flattened(tyre);
   object.updateMatrix();

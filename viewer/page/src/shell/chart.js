@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import uplotStyle from "uplot/dist/uPlot.min.css";
 import { el, write } from "../common/dom.js";
-import { linear, place } from "../sources/sampler.js";
+import { addKeys } from "../common/keys.js";
 import { styled } from "../styles.js";
 import { resampled, values } from "./series.js";
 
@@ -24,6 +24,7 @@ const AXIS = {
 const LINE = "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid var(--accent, #8888);pointer-events:none;display:none";
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
 const CURSOR_KEY = "ali3"; // common cursor of all diagrams
+const KEY_ZOOM = 0.7; // factor of the shown span of time by a key
 const NULL_RETAIN = 1; // of uPlot.join: retains gaps of a run
 
 /** Text of a number. @param {number} value @returns {string} */
@@ -56,9 +57,11 @@ export class Chart {
     this.plot = new uPlot(this._settings(), this._data(), this.box);
     this.plot.over.append(this.line);
     this.plot.over.addEventListener("click", (event) => this._seekAt(event));
+    const acts = { "+": () => this._narrow(KEY_ZOOM), "-": () => this._narrow(1 / KEY_ZOOM) };
+    addKeys(this.plot.over, `diagram of ${names.join(", ")}`, acts);
   }
 
-  /** Curves: {label, colour, dash, t, data}. */
+  /** Curves: {label, colour, dash, t, data}, and their `value` at the instant of a lookup of each run. */
   _curves() {
     const [first, ...others] = this.runs;
     const curves = [];
@@ -69,14 +72,16 @@ export class Chart {
           if (!(name in run.columns) || !(name in first.columns)) continue;
           const other = resampled(run.t, run.columns[name].data, first.t);
           const data = Array.from(first.columns[name].data, (v, i) => (other[i] === null || !Number.isFinite(v) ? null : other[i] - v));
-          curves.push({ label: `${name}: ${run.name} - ${first.name}`, colour, dash: DASHES[k % 4], t: first.t, data });
+          const value = (lookups) => lookups[k + 1](name) - lookups[0](name);
+          curves.push({ label: `${name}: ${run.name} - ${first.name}`, colour, dash: DASHES[k % 4], t: first.t, data, value });
         }
         continue;
       }
       for (const [k, run] of this.runs.entries()) {
         if (!(name in run.columns)) continue;
         const label = this.runs.length > 1 ? `${name}, ${run.name}` : name;
-        curves.push({ label, colour, dash: DASHES[k % 4], t: run.t, data: values(run.columns[name].data) });
+        const value = (lookups) => lookups[k](name);
+        curves.push({ label, colour, dash: DASHES[k % 4], t: run.t, data: values(run.columns[name].data), value });
       }
     }
     return curves;
@@ -161,14 +166,23 @@ export class Chart {
 
   /** Updates the line and the values at the current time. */
   now() {
-    const { time } = this.source;
+    const { time, grows } = this.source;
     this._putLine();
-    for (const { t, data, output } of this.curves) {
-      const inside = time >= t[0] && time <= t[t.length - 1];
-      const [k, share] = place(t, time);
-      const value = inside && data[k] !== null ? linear(data, k, data[k + 1] === null ? 0 : share) : NaN;
-      write(output, `${numberText(value)}${this.unit ? ` ${this.unit}` : ""}`);
+    const lookups = this.source.sample();
+    for (const { t, value, output } of this.curves) {
+      const inside = grows || (time >= t[0] && time <= t[t.length - 1]);
+      write(output, `${numberText(inside ? value(lookups) : NaN)}${this.unit ? ` ${this.unit}` : ""}`);
     }
+  }
+
+  /** Shows a narrower or wider range of time around the current time. @param {number} factor of its length */
+  _narrow(factor) {
+    const { data: [t], scales: { x: { min, max } } } = this.plot; // prettier-ignore
+    const [first, last] = [t[0], t.at(-1)];
+    const centre = Math.min(last, Math.max(first, this.source.time));
+    const within = (time) => Math.min(last, Math.max(first, centre + factor * (time - centre)));
+    const range = { min: within(Math.min(min, centre)), max: within(Math.max(max, centre)) };
+    if (range.max > range.min) this.plot.setScale("x", range);
   }
 
   /** Sets the range of time. @param {[number, number]} range s */

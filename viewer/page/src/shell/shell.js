@@ -114,7 +114,8 @@ export class Shell {
     this.notices.fallbackFocus = this.bar.buttons.toggle;
     if (drive) this.touch(matchMedia("(pointer: coarse)").matches);
     this.settings = new Settings(this.foot, this, source);
-    this.help = new Help(Object.keys(this.acts), drive !== undefined);
+    const ofParts = ["zoom", ...(this.view ? ["turn", "pick"] : [])]; // keys of pictures, maps and diagrams
+    this.help = new Help([...Object.keys(this.acts), ...ofParts], drive !== undefined);
     this.root.append(this.help.element);
     keys({ acts: this.acts, first: drive, dialog: this.help.element, signal: this.listeners.signal });
   }
@@ -165,9 +166,9 @@ export class Shell {
     else this.root.requestFullscreen?.().catch(() => {}); // browsers may refuse it, such as in a frame
   }
 
-  /** Marks pictures as changed at mouse and touch events. @param {HTMLElement} box */
+  /** Marks pictures as changed at events of mouse, touch and keys. @param {HTMLElement} box */
   watch(box) {
-    for (const event of ["pointerdown", "pointermove", "wheel", "touchmove", "pointerup"]) {
+    for (const event of ["pointerdown", "pointermove", "wheel", "touchmove", "pointerup", "keydown"]) {
       box.addEventListener(event, () => (this.dirty = true), { passive: true, signal: this.listeners.signal });
     }
   }

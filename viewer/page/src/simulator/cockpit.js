@@ -1,5 +1,5 @@
 // The page of one car: picture, instruments, input devices, messages of the program.
-import { el, short } from "../common/dom.js";
+import { el, short, write } from "../common/dom.js";
 import { Effects } from "../effects/car_effects.js";
 import { InputArbiter } from "../live/input_arbiter.js";
 import { section } from "../live/panel.js";
@@ -10,7 +10,7 @@ import { Timing } from "../instruments/timing.js";
 import { SceneView } from "../scene/scene_view.js";
 import { Shell } from "../shell/shell.js";
 import { Factor } from "../sources/factor.js";
-import { Beat } from "../sources/frames.js";
+import { Beat, Frames } from "../sources/frames.js";
 import { Socket } from "../sources/socket.js";
 import { CalibrationPanel } from "./calibration.js";
 import { readByHost } from "./device_words.js";
@@ -71,10 +71,28 @@ export class Cockpit extends Shell {
     this._factor = this._factors.add(frame);
     // A frame from before the refusal may arrive after its message; it does not end the refusal.
     if (!frame.refused && (restarted || frame.time > this._refusal.time)) this._refusal = { time: Infinity, text: "" };
-    if (!restarted) return;
+    if (restarted) this._restart();
+  }
+
+  /** Go on after the connection was lost. @param {string} recording - File of the program; empty: none. */
+  resume(recording) {
+    this._refusal = { time: Infinity, text: "" };
+    this.source.frames = new Frames();
+    this._restart();
+    this.notices.flag("lost", "");
+    this._showRecording(recording);
+    this.side(this.sideOpen); // the program may be another one
+  }
+
+  /** Forget what leads to the present state of the car, which was moved or begins anew. */
+  _restart() {
     this.plan.trail.lift();
     this.source.wants.renew();
     this.view.cameras?.trailing.snap();
+  }
+
+  _showRecording(recording) {
+    write(this._recording, recording ? `Everything is recorded in ${recording}` : "Nothing is recorded.");
   }
 
   /** Show an event of the program. @param {Data} event - Kind, text and simulated time, s. */
@@ -175,9 +193,9 @@ export class Cockpit extends Shell {
     const send = (message) => link.send(message);
     this._devices = new CalibrationPanel({ send });
     this.report = new Report(() => send({ type: "report" }));
-    const recordingText = hello.recording ? `Everything is recorded in ${hello.recording}` : "Nothing is recorded.";
-    const recording = section("Recording", true, el("p", { data: "recording" }, recordingText));
-    this.sideBox.append(this._devices.element, section("Report", true, this.report.element), recording, this.driven(this.hands, this._inputs));
+    this._recording = el("p", { data: "recording" });
+    this._showRecording(hello.recording);
+    this.sideBox.append(this._devices.element, section("Report", true, this.report.element), section("Recording", true, this._recording), this.driven(this.hands, this._inputs));
     const actions = { instruments: () => this.instruments.toggle(), costs: () => this.timing.toggle() };
     const places = (world.places ?? []).map(({ name }) => name);
     this.controls(this.source, actions, { places }, (event) => this.hands.key(event, this.driverSpeed));

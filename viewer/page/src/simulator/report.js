@@ -50,7 +50,7 @@ function histogram(bins, deadline) {
   const x = at(deadline);
   drawing.append(line(LEFT, WIDTH, baseline, baseline), line(LEFT, LEFT, 0, baseline));
   drawing.append(line(x, x, 0, baseline, { stroke: "#e8412d", "stroke-dasharray": "3 2" }));
-  drawing.append(label((LEFT + WIDTH) / 2, HEIGHT - 3, `cost of a step; the step of ${milliseconds(deadline)} ms is dashed`));
+  drawing.append(label((LEFT + WIDTH) / 2, HEIGHT - 3, `cost of a step; the step of ${short(1e3 * deadline)} ms is dashed`));
   const steps = label(8, baseline / 2, "steps");
   steps.setAttribute("transform", `rotate(-90 8 ${baseline / 2})`);
   drawing.append(steps);
@@ -83,7 +83,7 @@ export class Report {
     if (!steps) return this._body.replaceChildren(el("p.a3-hint", {}, "No step was computed yet."));
     const quantiles = ({ median, p99, p999, largest }) => `${[median, p99, p999, largest].map(milliseconds).join(" · ")} ms`;
     const rows = [
-      ["steps", `${steps} of ${milliseconds(step)} ms`],
+      ["steps", `${steps} of ${short(1e3 * step)} ms`],
       ["simulated / wall", `${simulated.toFixed(2)} s / ${wall.toFixed(2)} s`],
       ["missed deadlines", `${missed} (${short((100 * missed) / steps)} %)`],
       ...(missed && by ? [["late while", `the step ran ${by.ran} · other programs ran ${by.others} · the processor stood still ${by.stolen}`]] : []),

@@ -85,14 +85,26 @@ class Simulator {
       return hello.scene ?? {};
     });
     if (this._ended) return;
-    const camera = this.cockpit?.cameraName;
-    this.cockpit?.dispose();
-    this.cockpit = new Cockpit(this.container, { ...hello, scene }, this.link, pageTime);
+    this._show({ ...hello, scene });
     if (missing) this.cockpit.tell(missing);
-    if (camera) this.cockpit.camera(camera);
     this.problem = this.cockpit.problem;
     if (!this._running) this._loop();
     this._resolve(this);
+  }
+
+  /** Show a car. One that is shown already stays, with the settings and the focus of its page. @param {Data} hello */
+  _show(hello) {
+    const { recording, ...car } = hello;
+    const text = JSON.stringify(car);
+    if (this.cockpit && text === this._car) {
+      this.cockpit.resume(recording);
+      return;
+    }
+    const camera = this.cockpit?.cameraName;
+    this.cockpit?.dispose();
+    this.cockpit = new Cockpit(this.container, hello, this.link, pageTime);
+    this._car = text;
+    if (camera) this.cockpit.camera(camera);
   }
 
   /** Show an error of the page itself, and throw it so that the browser's console has its stack. */

@@ -1,20 +1,6 @@
 // Interpolates numbers between two instants: linearly, angles by the shorter turn and quaternions by the shorter arc.
 import { Quaternion } from "three";
 
-/** Columns that are angles, and the four columns of each quaternion. @typedef {{angles: Set<string>, quaternions: string[][]}} Turns */
-
-/**
- * Columns of angles and quaternions of a scene.
- * @param {Data | null | undefined} scene
- * @returns {Turns}
- */
-export function turnsOf(scene) {
-  const frames = Object.values(scene?.frames ?? {});
-  const quaternions = frames.map((frame) => frame.quaternion).filter(Boolean);
-  const angles = new Set(frames.map((frame) => frame.angle).filter((angle) => typeof angle === "string"));
-  return { angles, quaternions };
-}
-
 /**
  * The change of an angle from one row to the next, rad. An angle between -pi and pi may jump from one end to the other;
  * one outside of them counts turns and does not jump.
@@ -45,11 +31,16 @@ export class Blend {
   /** By the name of a quaternion's part: the names of all four, and its index. @type {Map<string, [string[], number]>} */
   _parts = new Map();
 
-  /** @param {Partial<Turns>} [turns] @param {Set<string>} [whole] names of whole numbers, which are taken from the nearer row */
-  constructor({ angles = new Set(), quaternions = [] } = {}, whole = new Set()) {
-    this._angles = angles;
-    this._whole = whole;
-    for (const names of quaternions) names.forEach((name, part) => this._parts.set(name, [names, part]));
+  /**
+   * @param {Data | null | undefined} scene - Its frames say which columns are angles and quaternions.
+   * @param {Iterable<{name: string, unit?: string, type?: string}>} [variables] - Those in rad are angles too; those of the type
+   *   Integer are taken from the nearer row.
+   */
+  constructor(scene, variables = []) {
+    const [frames, listed] = [Object.values(scene?.frames ?? {}), [...variables]];
+    this._angles = new Set([...frames.map(({ angle }) => angle), ...listed.filter(({ unit }) => unit === "rad").map(({ name }) => name)]);
+    this._whole = new Set(listed.filter(({ type }) => type === "Integer").map(({ name }) => name));
+    for (const { quaternion = [] } of frames) quaternion.forEach((name, part) => this._parts.set(name, [quaternion, part]));
   }
 
   /**

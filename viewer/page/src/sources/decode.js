@@ -1,5 +1,6 @@
 // Decodes the JSON of a page into runs with arrays.
-import { bytesOf, gunzipped, missingParts } from "../bytes.js";
+import { decodeBase64, decompress } from "../bytes.js";
+import { missingParts } from "../common/browser_support.js";
 
 /**
  * @typedef {{scene: Data | null, t: Float64Array, epoch: ArrayLike<number>, columns: Object<string, {unit: string, data: ArrayLike<number>}>,
@@ -24,9 +25,18 @@ export function fromPlanes(planes, kind) {
 
 /** Columns of a block, by name. @param {{names: string[], kind: "f8" | "f4", data: string}} block @returns {Promise<Map<string, ArrayLike<number>>>} */
 async function columnsOf(block) {
-  const numbers = fromPlanes(await gunzipped(bytesOf(block.data)), block.kind);
+  const numbers = fromPlanes(await decompress(decodeBase64(block.data)), block.kind);
   const count = numbers.length / block.names.length;
   return new Map(block.names.map((name, k) => [name, numbers.subarray(k * count, (k + 1) * count)]));
+}
+
+/** A run from its JSON. @param {Data} run @param {Data[]} scenes of the page @returns {Promise<Run>} */
+async function decodeRun({ scene, time, blocks, order, units, name, notes, missing }, scenes) {
+  const [times, ...parts] = await Promise.all([time, ...blocks].map(columnsOf));
+  const arrays = new Map(parts.flatMap((part) => [...part]));
+  const columns = Object.create(null);
+  for (const column of order) columns[column] = { unit: units[column] ?? "", data: arrays.get(column) };
+  return { scene: scene === null ? null : scenes[scene], t: /** @type {Float64Array} */ (times.get("time")), epoch: times.get("epoch"), columns, name, notes, missing };
 }
 
 /**
@@ -34,20 +44,9 @@ async function columnsOf(block) {
  * @param {Data} page JSON made by viewer/page_data.py
  * @returns {Promise<{runs: Run[], options: Data}>}
  */
-export async function decoded(page) {
+export async function decodePage(page) {
   if (page.format !== "ALi3 page" || page.version !== 1) throw new Error("The data of this page are of another format.");
   const problem = missingParts(globalThis, false);
   if (problem) throw new Error(problem);
-  const runs = await Promise.all(
-    page.runs.map(async (run) => {
-      const times = await columnsOf(run.time);
-      const arrays = new Map();
-      for (const block of run.blocks) for (const [name, data] of await columnsOf(block)) arrays.set(name, data);
-      const columns = Object.create(null);
-      for (const name of run.order) columns[name] = { unit: run.units[name] ?? "", data: arrays.get(name) };
-      const scene = run.scene === null ? null : page.scenes[run.scene];
-      return { scene, t: times.get("time"), epoch: times.get("epoch"), columns, name: run.name, notes: run.notes, missing: run.missing };
-    }),
-  );
-  return { runs, options: page.options };
+  return { runs: await Promise.all(page.runs.map((run) => decodeRun(run, page.scenes))), options: page.options };
 }

@@ -3,7 +3,7 @@ import { Desk } from "../live/desk.js";
 import { heldVariables, outputNames } from "../live/engine.js";
 import { between, Record } from "../live/record.js";
 import { speedActions, unitsOf } from "./source_actions.js";
-import { Blend, turnsOf } from "./blend.js";
+import { Blend } from "./blend.js";
 import { clock } from "../live/worker.js";
 
 /** Delay of the picture behind the run, so that there is a row before and after it, s. */
@@ -21,7 +21,7 @@ export class Session {
 
   /**
    * @param {Data[]} fmus - `{description, wasm, resources, title}` with unpacked bytes.
-   * @param {Data} options - `step`, `start`, `script` (inputs over time), `worker`, `places` (start values by name).
+   * @param {Data} options - `step`, `start`, `script` (inputs over time), `places` (start values by name).
    * @param {Data} listeners - Functions: started, refused, message, error, back, moved (another instant is to be shown), ran.
    */
   constructor(fmus, options, listeners) {
@@ -53,7 +53,7 @@ export class Session {
       ...(options.places ? { place: (name) => this.again({ ...this.start, ...options.places[name] }) } : {}),
     };
     this._newRecord();
-    this._desk = new Desk((message) => this._receive(message), options);
+    this._desk = new Desk((message) => this._receive(message));
     this.threaded = this._desk.threaded;
     const parts = fmus.map(({ description, wasm, resources }) => ({ description, wasm, resources }));
     const { script } = options;
@@ -82,12 +82,17 @@ export class Session {
 
   /** Run; from the shown instant if it is an earlier one. @param {number} [speed] - Simulated seconds per second. */
   async run(speed = this.speed) {
-    if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
+    await this._leaveScrubbed();
     this.speed = speed;
     this.running = true;
     this._last = Math.min(this.end, this._last);
     this._desk.send({ do: "run", speed });
     this._listeners.ran();
+  }
+
+  /** Go back to the shown instant, if it is an earlier one. */
+  async _leaveScrubbed() {
+    if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
   }
 
   /** Pause the run. */
@@ -98,7 +103,7 @@ export class Session {
 
   /** Compute some communication steps, then pause. @param {number} [count] */
   async advance(count = 1) {
-    if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
+    await this._leaveScrubbed();
     this.running = false;
     await this._ask("paused", { do: "step", count });
     this._listeners.moved();
@@ -179,9 +184,10 @@ export class Session {
     return record.csv(comments, [...inputs, ...tuned], outputs);
   }
 
-  /** Lookups of the numbers of each FMU at a time; fixed parameters have their start values. @param {number} [time] - s. */
+  /** Lookups of the numbers of each FMU at a time, NaN before the first row; fixed parameters have their start values. @param {number} [time] - s. */
   sample(time = this.time) {
     return this._bound.map(({ blend, columns, fixed }) => {
+      if (this.record.end === 0) return () => NaN;
       const lookup = between(this.record, time, blend, columns);
       return (name) => (columns.has(name) ? lookup(name) : fixed.get(name));
     });
@@ -194,7 +200,7 @@ export class Session {
       const outputColumns = variables.filter((v) => v.causality === "output").map((v) => [v.name, this.record.column(this.prefixes[k] + v.name)]);
       const columns = new Map([...this.held.map((v, i) => /** @type {[string, number]} */ ([v.name, i])), ...outputColumns.filter(([, index]) => index >= 0)]);
       const fixed = new Map(variables.filter((v) => !columns.has(v.name)).map((v) => [v.name, this.start[v.name] ?? v.start]));
-      return { blend: new Blend(turnsOf(scene)), columns, fixed };
+      return { blend: new Blend(scene, variables), columns, fixed };
     });
   }
 

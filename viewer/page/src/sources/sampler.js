@@ -1,5 +1,5 @@
 // Numbers of a recorded run at any time.
-import { Blend, turnsOf } from "./blend.js";
+import { Blend } from "./blend.js";
 
 /**
  * Index of the last time that is not after t, and the share of the way from it to the next.
@@ -34,7 +34,7 @@ export class Sampler {
   /** @param {{scene: Data | null, t: ArrayLike<number>, epoch: ArrayLike<number>, columns: import("./decode.js").Run["columns"]}} run */
   constructor(run) {
     this.run = run;
-    this._blend = new Blend(turnsOf(run.scene));
+    this._blend = new Blend(run.scene, Object.entries(run.columns).map(([name, { unit }]) => ({ name, unit })));
     this.lookup = (name) => this._now(name);
     this.at(run.t[0]);
   }

@@ -1,6 +1,6 @@
 // A car that another program drives, as a source of a page (see `Source` in shell/shell.js): its frames arrive by a socket.
 import { speedActions, unitsOf } from "./source_actions.js";
-import { Blend, turnsOf } from "./blend.js";
+import { Blend } from "./blend.js";
 import { Frames } from "./frames.js";
 import { InputRequests } from "./input_requests.js";
 
@@ -22,9 +22,7 @@ export class Socket {
     this.index = new Map(columns.map((name, k) => [name, k]));
     const units = new Map(variables.map(({ name, unit }) => [name, unit]));
     this.columns = unitsOf(columns, (name) => units.get(name));
-    const { quaternions, angles } = turnsOf(scene);
-    const turns = { quaternions, angles: new Set([...angles, ...variables.filter((v) => v.unit === "rad").map((v) => v.name)]) };
-    this._blend = new Blend(turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
+    this._blend = new Blend(scene, variables);
     this._fixed = new Map([...variables.map((v) => [v.name, v.start]), ...Object.entries(constants)]);
     this.wants = new InputRequests(link);
     const command = (name, value) => link.command(name, value);
@@ -74,8 +72,9 @@ export class Socket {
     return this._shown;
   }
 
-  /** Lookup of the numbers of the car at the instant of the picture. @returns {import("../shell/shell.js").Lookup[]} */
+  /** Lookup of the numbers of the car at the instant of the picture, NaN before the first frame. @returns {import("../shell/shell.js").Lookup[]} */
   sample() {
+    if (!this._shown) return [() => NaN];
     const { before, after, share } = this._shown;
     const numbers = (/** @type {Data} */ { values }) => (name) => values[this.index.get(name)];
     const row = this._blend.lookup(numbers(before), numbers(after), share);
@@ -97,7 +96,7 @@ export class Socket {
     const first = (this._past.at(-1)?.time ?? 0) - span;
     const recent = this._past.filter(({ time }) => time >= first);
     const stride = Math.max(1, Math.ceil(recent.length / MAX_POINTS));
-    const thinned = recent.filter((_, k) => k % stride === 0);
+    const thinned = recent.filter((_, k) => k % stride === 0 || k === recent.length - 1);
     const column = (name) => thinned.map(({ values }) => values[this.index.get(name)]);
     const columns = Object.fromEntries(names.map((name) => [name, { unit: this.columns.get(name), data: column(name) }]));
     return [{ name: "", t: thinned.map(({ time }) => time), columns }];

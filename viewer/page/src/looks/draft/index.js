@@ -1,5 +1,6 @@
 // The draft quality, for machines without a graphics card: one call for moving parts, no shadow map, lighting at points.
 import { baked } from "./baked_solids.js";
+import { sharpen } from "../sun.js";
 import { lightOf } from "./vertex_lighting.js";
 import { leastOf } from "./tubes.js";
 
@@ -20,8 +21,9 @@ export function makeDraft(view, sun) {
   return {
     light,
     on: false,
-    /** Sets the quality. @param {string} level */
+    /** Sets the quality, of shadows too. @param {string} level */
     set(level) {
+      sharpen(sun, level === "high" ? 2048 : 1024);
       sun.castShadow = level === "high" || level === "medium";
       const on = level === "draft";
       if (on === this.on) return;

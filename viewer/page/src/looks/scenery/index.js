@@ -117,10 +117,16 @@ function makeShared(things, texts, coarse) {
   return shared;
 }
 
-/** Meshes of the objects of a square. */
-function squareMeshes(square, base, { shared, texts, paint, ground, off }) {
-  const of = (kind) => square.filter((thing) => thing.kind === kind);
-  const meshes = [];
+/** Meshes of the objects of a square. @param {Data[]} square @param {number[]} base its origin @param {Data} looks */
+function squareMeshes(square, base, looks) {
+  const of = (/** @type {string} */ kind) => square.filter((thing) => thing.kind === kind);
+  const meshes = [...merged(of, base, looks), ...repeated(of, base, looks.shared)];
+  for (const mesh of meshes) mesh.receiveShadow = mesh.material === looks.paint;
+  return meshes;
+}
+
+/** Meshes of all lines, walls and signs, one for each material. @param {(kind: string) => any[]} of @param {number[]} base @param {Data} looks */
+function merged(of, base, { shared, texts, paint, ground, off }) {
   const [painted, plain, boards, walls] = Array.from({ length: 4 }, () => new Triangles(base));
   for (const line of of("line")) addLine(painted, line, ground, off);
   for (const arrow of of("arrow")) for (const strip of arrowStrips(arrow, ground)) addStrip(painted, strip, PAINTS.white);
@@ -130,16 +136,16 @@ function squareMeshes(square, base, { shared, texts, paint, ground, off }) {
     const index = texts.indexOf(sign.text);
     if (index >= 0) addSign(boards, plain, sign, index, texts.length);
   }
-  const add = (triangles, material, placed) => {
-    if (!triangles.empty) meshes.push(new THREE.Mesh(triangles.geometry(placed), material));
-  };
-  add(painted, paint, false);
-  add(plain, shared.plain, false);
-  add(boards, shared.boards, true);
-  add(walls, shared.walls, true);
-  const colours = [...new Set(of("cone").map(({ colour }) => colour ?? "orange"))];
-  for (const colour of colours) {
-    const cones = of("cone").filter((cone) => (cone.colour ?? "orange") === colour);
+  const all = [[painted, paint, false], [plain, shared.plain, false], [boards, shared.boards, true], [walls, shared.walls, true]]; // prettier-ignore
+  return all.filter(([triangles]) => !triangles.empty).map(([triangles, material, placed]) => new THREE.Mesh(triangles.geometry(placed), material));
+}
+
+/** Instanced meshes of cones, posts and trees, one for each form. @param {(kind: string) => any[]} of @param {number[]} base @param {Data} shared */
+function repeated(of, base, shared) {
+  const meshes = [];
+  const colourOf = ({ colour }) => colour ?? "orange";
+  for (const colour of new Set(of("cone").map(colourOf))) {
+    const cones = of("cone").filter((cone) => colourOf(cone) === colour);
     meshes.push(instances(shared.cone(colour), shared.plain, cones, base, ({ height = 0.5 }) => [height, height, height]));
   }
   const posts = of("post");
@@ -148,7 +154,6 @@ function squareMeshes(square, base, { shared, texts, paint, ground, off }) {
     const trees = of("tree").filter(({ seed }) => kindOf(seed ?? 0) === kind);
     if (trees.length > 0) meshes.push(treeInstances(shared.forest, kind, trees, base));
   }
-  for (const mesh of meshes) mesh.receiveShadow = mesh.material === paint;
   return meshes;
 }
 

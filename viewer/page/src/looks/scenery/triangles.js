@@ -1,5 +1,6 @@
 // Collects coloured triangles and builds geometries from them.
 import * as THREE from "three";
+import { cross, subtract, unit } from "../../scene/math.js";
 
 /** A list of triangles, whose positions are relative to `base`. */
 export class Triangles {
@@ -16,7 +17,7 @@ export class Triangles {
 
   /** Adds a point. @param {number[]} at @param {number[]} normal @param {number[]} colour linear @param {number[]} [uv] @param {number[]} [aside] from the middle of a line @returns {number} its index */
   point(at, normal, colour, uv = [0, 0], aside = []) {
-    this.positions.push(at[0] - this.base[0], at[1] - this.base[1], at[2] - this.base[2]);
+    this.positions.push(...subtract(at, this.base));
     this.normals.push(...normal);
     this.colours.push(...colour);
     this.places.push(...uv);
@@ -27,12 +28,8 @@ export class Triangles {
   /** Adds a flat face of four corners, counterclockwise as seen from outside. @param {number[][]} corners @param {number[]} colour @param {number[][]} [uvs] */
   quad(corners, colour, uvs = []) {
     const [a, b, , d] = corners;
-    const u = b.map((value, k) => value - a[k]);
-    const v = d.map((value, k) => value - a[k]);
-    const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    const size = Math.hypot(...normal) || 1;
-    const unitNormal = normal.map((value) => value / size);
-    const first = corners.map((corner, k) => this.point(corner, unitNormal, colour, uvs[k]))[0];
+    const normal = unit(cross(subtract(b, a), subtract(d, a))) ?? [0, 0, 0];
+    const first = corners.map((corner, k) => this.point(corner, normal, colour, uvs[k]))[0];
     this.index.push(first, first + 1, first + 2, first, first + 2, first + 3);
   }
 
