@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ContextDecorator
 from functools import cache
-from threading import Lock
+from threading import Lock, Thread
 from types import TracebackType
 
 import scipy.linalg  # noqa: F401  (loads SciPy's own BLAS, which `_libraries` must find)
@@ -23,7 +24,7 @@ class _OneThread(ContextDecorator):
     def __enter__(self) -> None:
         with self._lock:
             if self._depth == 0:
-                self._limit = _libraries().limit(limits=1, user_api="blas")
+                _run_in_a_new_thread(self._restrict)
             self._depth += 1
 
     def __exit__(
@@ -32,7 +33,17 @@ class _OneThread(ContextDecorator):
         with self._lock:
             self._depth -= 1
             if self._depth == 0:
-                self._limit.restore_original_limits()
+                _run_in_a_new_thread(self._limit.restore_original_limits)
+
+    def _restrict(self) -> None:
+        self._limit = _libraries().limit(limits=1, user_api="blas")
+
+
+def _run_in_a_new_thread(change: Callable[[], None]) -> None:
+    """While the thread that set a limit lives, threadpoolctl ignores other threads."""
+    thread = Thread(target=change)
+    thread.start()
+    thread.join()
 
 
 @cache

@@ -4,6 +4,7 @@ import hashlib
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 from threading import Thread
@@ -70,14 +71,24 @@ def numbers_of_threads() -> set[int]:
     return {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
 
 
+def run_in_a_thread(function: Callable[..., object], *arguments: object) -> None:
+    """A thread that lives on would keep the right to set limits."""
+    thread = Thread(target=function, args=arguments)
+    thread.start()
+    thread.join()
+
+
 def test_the_threads_are_given_back_by_the_last_of_several_contexts() -> None:
-    with threadpool_limits(2, user_api="blas"):
+    run_in_a_thread(threadpool_limits, 2, "blas")
+    try:
         before = numbers_of_threads()
         if before != {2}:
             pytest.skip("this BLAS has one thread")
+        in_one_thread.__enter__()
         with in_one_thread:
-            other = Thread(target=in_one_thread(lambda: None))
-            other.start()
-            other.join()
-            assert numbers_of_threads() == {1}
+            pass
+        assert numbers_of_threads() == {1}
+        run_in_a_thread(in_one_thread.__exit__, None, None, None)
         assert numbers_of_threads() == {2}
+    finally:
+        run_in_a_thread(threadpool_limits, 1, "blas")
