@@ -15,10 +15,10 @@ class AxialStiffening:
 
     forces: Array
     """Shape (b, n): tension per amplitude, N."""
-    stiffness: Array
-    """Shape (b, n, n): stiffness per tension in modes of unit elastic energy, 1/N."""
+    roots: Array
+    """Shape (b, n, 6): the stiffness per tension in modes of unit elastic energy is ``root @ root.T``, N^-0.5."""
     bounds: Array
-    """Shape (b,): largest eigenvalue of each stiffness, 1/N."""
+    """Shape (b,): largest eigenvalue of each stiffness per tension, 1/N."""
 
     def share(self, amplitudes: Array, least: float) -> float:
         """Largest part of the elastic stiffness of a deformation that the axial forces add or take.
@@ -31,7 +31,8 @@ class AxialStiffening:
         forces = self.forces @ amplitudes
         if np.abs(forces) @ self.bounds <= least:
             return 0.0
-        return float(np.abs(np.linalg.eigvalsh(np.tensordot(forces, self.stiffness, 1))).max())
+        stiffness = np.tensordot(self.roots * forces[:, None, None], self.roots, ((0, 2), (0, 2)))
+        return float(np.abs(np.linalg.eigvalsh(stiffness)).max())
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager
 
 from mbs.common.checks import flag
 from mbs.common.lazy_value import LazyValue
+from mbs.common.one_thread import in_one_thread
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.generated.library import library_of
 from mbs.compiler.model_to_system import check_model, compiled
@@ -60,11 +61,13 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
     frames, start, make_ported = compiled_loops.frames, compiled_loops.arrays["q0"], model.with_ports
     assert frames is not None
 
+    @in_one_thread
     def draw() -> Drawing:
         with correction():
             names = FrameNames.of(model)
             return drawing_of(model, places_of(model, frames.T.tocsr(), frames.constant, names), names, start)
 
+    @in_one_thread
     def compile_with_ports(system: System) -> System | None:
         if make_ported is None:
             return None
@@ -78,6 +81,7 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
     return system
 
 
+@in_one_thread
 def _compile_closed(model: Model, correct: Callable[[Model], Correction]) -> tuple[Correction, CompiledModel]:
     """The correction that closes the loops of a model, and the compiled model with closed loops."""
     correction = correct(check_model(model))

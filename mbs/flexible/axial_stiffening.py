@@ -16,30 +16,35 @@ def axial_stiffening(body: ModalBody) -> AxialStiffening:
     """Of a reduced body; without beams if its finite-element model was given as matrices."""
     n, frame = body.n_modes, getattr(body, "frame", None)
     n_beams = 0 if frame is None else len(frame.beams)
-    forces, stiffness = np.zeros((n_beams, n)), np.zeros((n_beams, n, n))
+    forces, roots = np.zeros((n_beams, n)), np.zeros((n_beams, n, 6))
     if frame is None:
-        return AxialStiffening(forces, stiffness, np.zeros(0))
+        return AxialStiffening(forces, roots, np.zeros(0))
     energy_root = cholesky(body.K)
     for k, beam in enumerate(frame.beams):
         length, R = frame.element_axes(k)
         ends = np.kron(np.eye(4), R) @ body.modes[frame.element_freedoms(k)]
         forces[k] = beam.material.E * beam.section.area / length * (ends[6] - ends[0])
-        scaled = solve_triangular(energy_root, ends.T, trans="T")
-        stiffness[k] = scaled @ _stiffness_of_tension(length) @ scaled.T
-    return AxialStiffening(forces, stiffness, np.asarray(np.linalg.eigvalsh(stiffness)[:, -1]))
+        roots[k] = solve_triangular(energy_root, ends.T @ _weighted_slopes(length), trans="T")
+    bounds = np.linalg.eigvalsh(roots.transpose(0, 2, 1) @ roots)[:, -1]
+    return AxialStiffening(forces, roots, np.asarray(bounds))
 
 
-def _stiffness_of_tension(length: float) -> Array:
-    """Integral of the squares of both slopes of a beam with cubic deflections (Przemieniecki 1968, equation 15.24).
+def _weighted_slopes(length: float) -> Array:
+    """Slopes of a beam with cubic deflections in its three Gauss points and two planes, times roots of their weights.
 
-    Returns an array of shape (12, 12) in local axes, 1/m and m per m and rad.
+    The sum of their squares is the integral of the squares of both slopes: the energy per half of the tension
+    (Przemieniecki 1968, equation 15.24).
+
+    Returns
+    -------
+    ndarray, shape (12, 6)
+        Per local displacement and rotation of the ends, m^0.5 per m and rad.
     """
-    k = np.zeros((12, 12))
-    for dof, s in (((1, 5, 7, 11), length), ((2, 4, 8, 10), -length)):
-        k[np.ix_(dof, dof)] = [
-            [36, 3 * s, -36, 3 * s],
-            [3 * s, 4 * s * s, -3 * s, -s * s],
-            [-36, -3 * s, 36, -3 * s],
-            [3 * s, -s * s, -3 * s, 4 * s * s],
-        ]
-    return k / (30 * length)
+    points, weights = np.polynomial.legendre.leggauss(3)
+    x = (1 + points) / 2
+    slopes = np.array([6 * x * (x - 1) / length, (1 - x) * (1 - 3 * x), 6 * x * (1 - x) / length, x * (3 * x - 2)])
+    slopes *= np.sqrt(length * weights / 2)
+    result = np.zeros((12, 6))
+    result[[1, 5, 7, 11], :3] = slopes
+    result[[2, 4, 8, 10], 3:] = slopes * np.array([[1], [-1], [1], [-1]])
+    return result

@@ -9,6 +9,7 @@ from scipy.linalg import eigh
 
 from mbs.common.checks import flag, instance_of, is_number, positive, whole
 from mbs.common.errors import ModelError
+from mbs.common.one_thread import in_one_thread
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface, Interface
@@ -22,6 +23,7 @@ MAX_MODES = 10**6
 FIRST_BATCH = 20  # modes that are computed first if they are chosen by frequency
 
 
+@in_one_thread
 def craig_bampton(
     model: FiniteElementModel,
     reference: Reference,

@@ -12,7 +12,12 @@ from mbs.common.errors import ModelError
 
 @dataclass(frozen=True)
 class RayleighDamping:
-    """``C = alpha M + beta K``; modal ratio alpha / (2 w) + beta w / 2. `alpha` in 1/s, `beta` in s."""
+    """``C = alpha M + beta K`` in the floating frame. `alpha` in 1/s, `beta` in s.
+
+    The modal ratio is alpha / (2 w) + beta w / 2 in a body that is held at its reference node alone. Of a body that is
+    free or held elsewhere the part of `alpha` differs, as it damps the motion against the reference node: of the first
+    mode of a free bar it is 2.5 times as large with the reference node in the middle.
+    """
 
     alpha: float
     beta: float

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from mbs.common.errors import ModelError
+from mbs.common.one_thread import in_one_thread
 from mbs.flexible.mass_points import rigid_motions
 from mbs.flexible.reduced_body import ReducedBody
 
@@ -42,6 +43,7 @@ def interface_loads(body: ReducedBody, directions: dict[str, np.ndarray]) -> np.
     return np.array(columns).T
 
 
+@in_one_thread
 def load_path_modes(
     body: ReducedBody, loads: np.ndarray, tolerance: float = 1e-6, frame_loads: np.ndarray | None = None
 ) -> ReducedBody:
@@ -81,6 +83,7 @@ def load_path_modes(
     return body.transformed(basis @ V, names, np.sqrt(squares) / (2 * np.pi))
 
 
+@in_one_thread
 def load_path_deformations(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None = None) -> np.ndarray:
     """Amplitudes under interface forces and the inertia that balances them, shape (n_modes, n_loads)."""
     if loads.ndim != 2 or loads.shape[0] != 3 * len(body.interfaces):

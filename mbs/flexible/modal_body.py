@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.common.one_thread import in_one_thread
 from mbs.flexible.sparse_matrices import Sparse
 
 
@@ -63,6 +64,7 @@ class ModalBody:
         """Number of modes."""
         return int(self.K.shape[0])
 
+    @in_one_thread
     def recovery(self, rows: np.ndarray | Sparse) -> np.ndarray:
         """Outputs per unit amplitude from outputs per nodal displacement and per acceleration of the nodes.
 

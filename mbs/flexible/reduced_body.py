@@ -9,6 +9,7 @@ import numpy as np
 from ali3.plausibility import Summarised
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
+from mbs.common.one_thread import in_one_thread
 from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.mass_points import MassPoints
 from mbs.flexible.modal_body import InterfaceModes, ModalBody
@@ -74,6 +75,7 @@ class ReducedBody(ModalBody, Summarised):
             M=self.M + np.einsum("k,kij,kil->jl", points.masses, shapes, shapes),
         )
 
+    @in_one_thread
     def transformed(self, V: np.ndarray, names: tuple[str, ...], frequencies: np.ndarray) -> ReducedBody:
         """The body in the amplitudes zeta of eta = V zeta, all counted as dynamic modes.
 

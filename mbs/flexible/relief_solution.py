@@ -8,12 +8,14 @@ import numpy as np
 
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
+from mbs.common.one_thread import in_one_thread
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface
 from mbs.flexible.relief_matrices import InertiaRelief
 from mbs.flexible.sparse_matrices import Sparse
 
 
+@in_one_thread
 def inertia_relief(
     model: FiniteElementModel, reference: Reference, interfaces: Sequence[str | int], rows: np.ndarray | Sparse
 ) -> InertiaRelief:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, is_finite, shown, vector
 from mbs.common.errors import ModelError
+from mbs.common.one_thread import in_one_thread
 from mbs.flexible.axial_stiffening import axial_stiffening
 from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
 from mbs.flexible.modal_body import ModalBody
@@ -49,6 +50,7 @@ class FlexibleBody(Body):
 
     model: Register
 
+    @in_one_thread
     def __init__(
         self,
         model: Register,

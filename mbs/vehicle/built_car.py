@@ -14,6 +14,7 @@ from ali3.plausibility import Plausibility, Summarised, plausibility_of
 from ali3.typed_sentences import Sentences
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
+from mbs.common.one_thread import in_one_thread
 from mbs.elements.road import Road, RoadOfFile
 from mbs.model.carried_parts import Spin
 from mbs.model.model import Model
@@ -95,6 +96,7 @@ class BuiltCar(Summarised, CarContent):
         """Whether the car has a flexible frame that fits it."""
         return self.chassis.frame is not None and not self.misfit
 
+    @in_one_thread
     def build(
         self,
         m: Model,

@@ -46,6 +46,7 @@ def test_every_import_has_a_line_that_installs_it() -> None:
         "pydantic",
         "pydantic_core",
         "scipy",
+        "threadpoolctl",
         "tqdm",
     }
 

@@ -4,12 +4,14 @@ import warnings
 
 import numpy as np
 import pytest
+from scipy.linalg import cholesky
 
 from mbs import BendingWarning, Simulation, compile, linearise, simulate
+from mbs.flexible.axial_stiffening import axial_stiffening
 from mbs.flexible.section import round_bar
 from mbs.model import Model
 from mbs.simulation.march import march
-from tests.flexible_engine.bodies import ALUMINIUM, chain, soft_pendulum
+from tests.flexible_engine.bodies import ALUMINIUM, bar, chain, soft_pendulum
 
 
 def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs() -> None:
@@ -58,6 +60,18 @@ def test_axial_forces_are_reported_where_they_change_a_frequency(
     texts = [str(w.message) for w in caught if w.category is BendingWarning]
     assert len(texts) == (of_part > 0)
     assert all(f"axial forces of {of_part:.2g} times its buckling load" in text for text in texts)
+
+
+def test_a_tension_stiffens_a_beam_by_a_factor_of_six_columns() -> None:
+    """Of the deflections y, z and rotations about z, y of its free end: Przemieniecki 1968, equation 15.24."""
+    length = 0.7
+    reduced = bar((0, 0, 0), (length, 0, 0), elements=1, dynamic=0)
+    root = cholesky(reduced.K).T @ axial_stiffening(reduced).roots[0]
+    assert root.shape == (6, 6)
+    expected = np.zeros((6, 6))
+    for k, turn in ((1, -length), (2, length)):
+        expected[np.ix_((k, 6 - k), (k, 6 - k))] = [[36, 3 * turn], [3 * turn, 4 * turn**2]]
+    np.testing.assert_allclose(root @ root.T, expected / (30 * length), atol=1e-9)
 
 
 def test_a_stepped_run_warns_once() -> None:

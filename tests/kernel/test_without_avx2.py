@@ -60,10 +60,7 @@ def kernel(folder: Path) -> Path:
 
 
 def states_of(library: Path, lanes: int) -> subprocess.CompletedProcess[bytes]:
-    """What `states` gives with a library that has so many lanes, by a process of its own.
-
-    The modes of a flexible body depend on the number of threads of BLAS, which another test may have changed here.
-    """
+    """What `states` gives with a library that has so many lanes, by a process of its own."""
     return subprocess.run(
         [sys.executable, "-c", "import sys; from tests.kernel.test_without_avx2 import states, widest_lanes; "
          f"assert widest_lanes() == {lanes}; sys.stdout.buffer.write(states())"],

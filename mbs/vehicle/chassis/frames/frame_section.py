@@ -36,7 +36,7 @@ class Structure:
 
 
 class DampingSection(Section):
-    """Rayleigh damping."""
+    """Rayleigh damping. The ratio holds for the frame held at its reference; modes of the free frame have more."""
 
     ratio: Fraction
     """Modal damping ratio at two frequencies."""
