@@ -84,7 +84,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
 
 
 def _print_list() -> int:
-    from hosts.catalogue.listing import print_tests
+    from hosts.catalogue.output import print_tests
 
     print_tests()
     return 0
@@ -130,10 +130,9 @@ def _run_tests(
 ) -> int:
     """Run the tests without a stored record, and write all results after each. Returns the exit code."""
     from hosts.catalogue.execution import reason_against
-    from hosts.catalogue.finished_tests import find_record
     from hosts.catalogue.output import print_measures, write_measures
     from hosts.catalogue.report import write_report
-    from hosts.catalogue.task import Task
+    from hosts.catalogue.task import Task, find_record
     from hosts.experiment.store import report_resumed
 
     outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
@@ -192,9 +191,8 @@ def _finished_tasks(
     """Run all tasks with a progress bar; after each, its outcome is in `outcomes` and its record in the store."""
     from ali3.isolated_processes import Lost
     from hosts.catalogue.execution import Reason
-    from hosts.catalogue.finished_tests import store_record
     from hosts.catalogue.record import TestRecord
-    from hosts.catalogue.task import perform_task, write_runs
+    from hosts.catalogue.task import perform_task, store_record, write_runs
     from hosts.experiment.experiment import Experiment
     from hosts.fmu.own_process import files_of_drives
 

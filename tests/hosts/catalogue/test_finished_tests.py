@@ -8,11 +8,10 @@ import pytest
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import settings_of_test
-from hosts.catalogue.finished_tests import find_record, store_record
 from hosts.catalogue.output import measures_csv
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
-from hosts.catalogue.task import Task, perform_task, write_runs
+from hosts.catalogue.task import Task, find_record, perform_task, store_record, write_runs
 from hosts.experiment.store import ResultStore
 from hosts.fmu.fmu_source import FmuSource
 
