@@ -1,4 +1,4 @@
-"""What runs of several tests share: communication step, constant inputs, run-up, notes and conditions of an early end."""
+"""What runs of several tests share: communication step, constant inputs, run-up, conditions of an early end."""
 
 import math
 from collections.abc import Mapping

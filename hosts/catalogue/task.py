@@ -18,8 +18,7 @@ from hosts.catalogue.execution import Reason, perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.driving.result import Result
-from hosts.experiment.run_key import run_key
-from hosts.experiment.store import ResultStore
+from hosts.experiment.store import ResultStore, run_key
 from hosts.fmu.own_process import files_of
 from hosts.run.result_files import write_csv
 

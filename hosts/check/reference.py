@@ -26,8 +26,7 @@ from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
 from hosts.driving.runs_with_progress import Drive, runs_with_bar
-from hosts.experiment.run_key import run_key
-from hosts.experiment.store import ResultStore, report_resumed
+from hosts.experiment.store import ResultStore, report_resumed, run_key
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.own_process import files_of
 from hosts.fmu.settings import Settings

@@ -24,7 +24,6 @@ from hosts.common.errors import HostError
 from hosts.experiment.experiment import Runner
 from hosts.experiment.store import ResultStore
 from hosts.measures.limits import limits_record
-from hosts.study.counts import Counts, duration
 from hosts.study.folder import (
     begin_study,
     check_no_link,
@@ -35,12 +34,12 @@ from hosts.study.folder import (
     update_limits,
 )
 from hosts.study.outcome_table import OutcomeTable, Row
-from hosts.study.parts import part_files
+from hosts.study.parts import part_files, sound_runs
 from hosts.study.plan import Plan, make_plan
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.study_runs import experiment_of, outcome_of, report_start
 from hosts.study.trial_runs import Trial, bytes_of, make_trial_runs, with_columns
-from hosts.study.worker_data import FAILED, Outcome, Run
+from hosts.study.worker_data import FAILED, Counts, Outcome, Run, duration
 
 if TYPE_CHECKING:
     from hosts.experiment.cluster_runs import ClusterRuns
@@ -89,8 +88,6 @@ def run_study(
     with nullcontext() if dry else ResultStore[Row](folder, Row, "runs a study") as store:
         done = np.zeros(plan.runs, dtype=np.bool_)
         if earlier is not None and store is not None:
-            from hosts.study.damaged_files import sound_runs
-
             done, notes = sound_runs(folder, earlier)
             for note in notes:
                 print(f"note: {note}", file=sys.stderr)

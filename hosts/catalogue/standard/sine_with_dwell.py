@@ -15,8 +15,7 @@ from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
 from hosts.measures.filters import phaseless_low_pass
-from hosts.measures.sine_with_dwell import SineWithDwell, measure_sine_with_dwell
-from hosts.measures.slowly_increasing_steer import G, angle_by_regression
+from hosts.measures.sine_with_dwell import G, SineWithDwell, angle_by_regression, measure_sine_with_dwell
 
 _RATE = math.radians(13.5)  # rad/s, of the ramp
 _RAMP_END = 0.5 * G  # m/s2
