@@ -15,7 +15,7 @@ from ali3.columns import in_columns, some_of
 from ali3.errors import UserError
 from ali3.tables import TextTable
 from hosts.check.deviations import BOUND, Deviation, deviations, remedies
-from hosts.check.junit import Case
+from hosts.check.verdict_files import Case
 from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
 from hosts.driving.driver import driver_of
