@@ -1,6 +1,7 @@
-"""JUnit files of a check, which CI servers read.
+"""The verdict of a check as a file: JUnit for CI servers, and SARIF for code hosts and editors.
 
-The elements and attributes are those that pytest writes (its schema ``xunit2``) and servers agree on.
+The elements and attributes of JUnit are those that pytest writes (its schema ``xunit2``) and servers agree on; SARIF is
+version 2.1.0 of OASIS.
 """
 
 import re
