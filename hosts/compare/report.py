@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
@@ -18,7 +19,7 @@ from ali3.html_elements import element, picture, table
 from ali3.message_text import sentence_of
 from ali3.units import typeset
 from hosts.common.display_units import number_in, shown_in, titled
-from hosts.compare.comparison import Comparison
+from hosts.compare.comparison import ComparedSignal, Comparison
 from hosts.compare.comparison_text import delay_sentence, signal_rows
 from hosts.compare.fit_result import Fit
 from hosts.compare.fit_text import FIT_COLUMNS, fit_rows, result_text
@@ -113,30 +114,13 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         grid = figure.add_gridspec(rows, 2, width_ratios=(1.7, 1.0))
         shared_axis = None
         for k, name in enumerate(names):
-            s = before.signals[name]
-            indices = thinned_indices(s.measured.time, s.measured.values, _MAX_POINTS)
-            unit, factor = shown_in(s.measured.unit, name)
-            t, y = s.measured.time[indices], factor * s.measured.values[indices]
             signal_axes = figure.add_subplot(grid[k, 0], sharex=shared_axis)
             shared_axis = shared_axis or signal_axes
             residual_axes = figure.add_subplot(grid[k, 1], sharex=shared_axis)
-            signal_axes.plot(
-                t, y, ".", color=_MEASURED, markersize=2.5, label="measured", rasterized=len(t) > MANY_POINTS
+            fitted = None if after is None else after.signals.get(name)
+            _plot_signal(
+                signal_axes, residual_axes, before.signals[name], fitted, "simulated before" if after else "simulated"
             )
-            runs = [(s, BLUE, "simulated" if after is None else "simulated before")]
-            if after is not None and name in after.signals:
-                runs.append((after.signals[name], RED, "fitted"))
-            for run, colour, label in runs:
-                x = factor * run.simulated(t)
-                signal_axes.plot(t, x, color=colour, label=label)
-                residual_axes.plot(t, x - y, color=colour, linewidth=0.9)
-            last = runs[-1][0]
-            signal_axes.set_title(titled(name, unit))
-            rms = f"rms {number_in(factor * last.deviations.rms, unit, '.3g')}"
-            rating = f"; rating {last.rating.overall:.2f}" if math.isfinite(last.rating.overall) else ""
-            residual_axes.set_title(f"simulated − measured: {rms}{rating}")
-            residual_axes.axhline(0.0, color="#444444", linewidth=0.8)
-            signal_axes.margins(x=0)
             if k == 0:
                 signal_axes.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
             if k == rows - 1:
@@ -145,6 +129,28 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         if inputs:
             _plot_inputs(figure, grid, rows - 1, inputs, shared_axis)
     return figure
+
+
+def _plot_signal(
+    signal_axes: Axes, residual_axes: Axes, before: ComparedSignal, fitted: ComparedSignal | None, label: str
+) -> None:
+    """Plot a signal, measured and simulated, and its residuals. `label`: legend of the run before the fit."""
+    measured = before.measured
+    indices = thinned_indices(measured.time, measured.values, _MAX_POINTS)
+    unit, factor = shown_in(measured.unit, measured.name)
+    t, y = measured.time[indices], factor * measured.values[indices]
+    signal_axes.plot(t, y, ".", color=_MEASURED, markersize=2.5, label="measured", rasterized=len(t) > MANY_POINTS)
+    for run, colour, text in ((before, BLUE, label), *([(fitted, RED, "fitted")] if fitted else [])):
+        x = factor * run.simulated(t)
+        signal_axes.plot(t, x, color=colour, label=text)
+        residual_axes.plot(t, x - y, color=colour, linewidth=0.9)
+    last = fitted or before
+    signal_axes.set_title(titled(measured.name, unit))
+    rms = f"rms {number_in(factor * last.deviations.rms, unit, '.3g')}"
+    rating = f"; rating {last.rating.overall:.2f}" if math.isfinite(last.rating.overall) else ""
+    residual_axes.set_title(f"simulated − measured: {rms}{rating}")
+    residual_axes.axhline(0.0, color="#444444", linewidth=0.8)
+    signal_axes.margins(x=0)
 
 
 def _plot_inputs(figure: Figure, grid: Any, row: int, inputs: Mapping[str, Signal], shared_axis: Any) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from hosts.catalogue import command
+from hosts.catalogue import campaign, command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import settings_of_test
 from hosts.catalogue.output import measures_csv
@@ -50,7 +50,7 @@ def test_kept_records_are_those_of_the_runs(
     def undone(tasks: list[Task], *_: object) -> object:
         yield from (pytest.fail("it was done again") for _ in tasks)
 
-    monkeypatch.setattr(command, "_finished_tasks", undone)
+    monkeypatch.setattr(campaign, "_finished_tasks", undone)
     options = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
     assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *options]) == 0
     output = capsys.readouterr().out
