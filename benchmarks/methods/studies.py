@@ -20,8 +20,8 @@ from ali3.errors import UserError
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 from fmu_src.build.build import build_fmu
-from hosts.study.campaign import cluster_runner, missing_runs
 from hosts.study.folder import begin_study
+from hosts.study.missing_runs import cluster_runner, missing_runs
 from hosts.study.plan import make_plan
 from hosts.study.study_file import read_study_file
 from hosts.study.study_runs import Bench, experiment_of, outcome_of
@@ -154,7 +154,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
         ResultStore[StudyRow](folder, StudyRow, "measures a study") as store,
     ):
         store.attach_table(OutcomeTable(folder, plan.record))
-        runner = cluster_runner(client, plan, trial, plan.runs)
+        runner = cluster_runner(client, plan, trial.seconds, plan.runs)
         before, processor, started = process.memory_info().rss, sum(process.cpu_times()[:2]), time.perf_counter()
         results = experiment_of(plan.work, plan.fmu).results(
             missing_runs(plan, np.zeros(plan.runs, np.bool_)), runner, whole=plan.runs

@@ -21,7 +21,7 @@ from benchmarks.validation.fitting import SCALES, Windows, begins, fit
 from benchmarks.validation.multibody import LATERAL, YAW, task_of
 from benchmarks.validation.refit import read_ranges
 from hosts.compare.cross_validation import Parts, left_out_residuals
-from hosts.compare.fitted_parameters import fitted_parameters
+from hosts.compare.fit_unknowns import fitted_parameters
 from hosts.compare.replay import Replay
 from hosts.compare.residuals import Residuals
 from hosts.compare.segments import GAP

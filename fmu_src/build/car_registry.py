@@ -13,7 +13,7 @@ from ali3.reading import files_in, is_file, read_bytes
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.system_with_poses import Maker, posed_systems
 from mbs.vehicle import Car, Fidelity, car_names, load
-from mbs.vehicle.port_option import chosen_ports
+from mbs.vehicle.ports import chosen_ports
 from mbs.vehicle.summary import grip_row
 
 FOLDER = "resources/car"
@@ -51,7 +51,7 @@ def build_car(
     poses : {"wheels", "all"} or None
         As `fmu_src.geometry.system_with_poses.posed_systems` takes it.
     ports : str, optional
-        As `mbs.vehicle.port_option.chosen_ports` takes them, in addition to those of the file; the name of what is
+        As `mbs.vehicle.ports.chosen_ports` takes them, in addition to those of the file; the name of what is
         built says then that it has ports.
     fidelity : float, optional
         Number of a member of `mbs.vehicle.Fidelity` that is alone in what is built, which its name says; by default

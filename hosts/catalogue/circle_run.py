@@ -9,10 +9,9 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.preparation import start_at_speed
+from hosts.catalogue.preparation import ROLLED, start_at_speed
 from hosts.catalogue.steered_run import level_acceleration
 from hosts.catalogue.steering import SteeringInput
-from hosts.catalogue.stop_conditions import ROLLED
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.combined_pilot import CombinedPilot

@@ -11,8 +11,7 @@ from hosts.catalogue.registry import TESTS
 from hosts.catalogue.task import Outcome
 from hosts.common.errors import HostError
 from hosts.common.units import conversion
-from hosts.measures.limit_entry import LimitEntry
-from hosts.measures.limits import limits_of
+from hosts.measures.limits import LimitEntry, limits_of
 from hosts.measures.measure import Limit, Measure
 
 

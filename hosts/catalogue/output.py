@@ -1,4 +1,4 @@
-"""The measures of tests as files, and as a table on the terminal."""
+"""The tests and their measures on the terminal, and the measures as files."""
 
 import csv
 import io
@@ -11,7 +11,8 @@ from ali3.columns import in_columns
 from ali3.files import write_json, write_text
 from ali3.units import typeset
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import StandardTest, TestRecord
+from hosts.catalogue.record import Setting, Standard, StandardTest, TestRecord
+from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.task import Outcome, run_file
 from hosts.common.numbers import or_null
 from hosts.measures.measure import Measure
@@ -143,3 +144,36 @@ def _cell(measure: Measure | None) -> str:
 def _print_rows(rows: Sequence[Sequence[str]]) -> None:
     for line in in_columns(rows, range(2, len(rows[0]) if rows else 0)):
         print(f"  {line}")
+
+
+def print_tests() -> None:
+    """Print all tests with their standards, needs and settings."""
+    for name in TESTS:
+        print("\n".join(_test_lines(standard_test(name))))
+
+
+def _test_lines(test: StandardTest) -> list[str]:
+    lines = [f"{test.name}: {test.title}"]
+    lines += [f"  after {_standard_text(standard)}" for standard in test.standards]
+    lines.append(f"  needs {', '.join(need.replace(' | ', ' or ') for need in test.needs) or 'nothing'}")
+    lines += [f"  --test-setting {test.name}.{_setting_text(setting)}" for setting in test.settings]
+    return lines
+
+
+def _standard_text(standard: Standard) -> str:
+    checked = sum(clause.checked for clause in standard.clauses)
+    if not standard.clauses or not checked:
+        source = "from public summaries"
+    elif checked == len(standard.clauses):
+        source = "checked against its text"
+    else:
+        source = f"{checked} of {len(standard.clauses)} clauses checked against its text, the others from summaries"
+    return f"{standard.name}, {standard.title} ({source})"
+
+
+def _setting_text(setting: Setting) -> str:
+    unit = f" {typeset(setting.unit)}".rstrip()
+    limits = [f"from {setting.lowest:g}"] if math.isfinite(setting.lowest) else []
+    limits += [f"to {setting.highest:g}"] if math.isfinite(setting.highest) else []
+    range_text = f" ({' '.join(limits)})" if limits else ""
+    return f"{setting.name}={setting.value:g}{unit}{range_text}: {setting.text}"

@@ -1,5 +1,6 @@
-"""Preparation of runs of several tests: communication step, constant inputs, run-up, note on an early end."""
+"""What runs of several tests share: communication step, constant inputs, run-up, conditions of an early end."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -13,6 +14,8 @@ from hosts.fmu.fmu import described
 
 _MIN_RUN_UP = 1.0  # s
 _MAX_RUN_UP = 120.0  # s, for a car that cannot be started at speed
+SPUN = math.radians(90.0)
+ROLLED = math.radians(60.0)
 
 
 def with_step_up_to(car: TestedCar, longest: float, quantity: str) -> tuple[TestedCar, tuple[str, ...]]:
@@ -72,3 +75,26 @@ class RunUp:
 def early_end_notes(run: str, result: Result) -> tuple[str, ...]:
     """A sentence if the FMU refused a step; otherwise empty. `run`: name of the run."""
     return (f"{run}: {result.refusal}; what follows is not evaluated.",) if result.refusal else ()
+
+
+class StopConditions:
+    """Conditions of the end of a run, as a function of its outputs.
+
+    `stands`: speed below which the car stands, m/s; 0: standing does not end the run. `reason`: ``stands``, ``spun`` or
+    ``rolled`` by the last call; empty: the run continues.
+    """
+
+    def __init__(self, stands: float) -> None:
+        self.stands = stands
+        self.reason = ""
+
+    def __call__(self, outputs: Mapping[str, float]) -> bool:
+        """Whether the run is over; missing outputs are ignored."""
+        self.reason = ""
+        if abs(outputs.get("chassis.roll", 0.0)) > ROLLED:
+            self.reason = "rolled"
+        elif outputs["speed"] > 1.0 and abs(outputs.get("sideslip", 0.0)) > SPUN:
+            self.reason = "spun"
+        elif outputs["speed"] < self.stands:
+            self.reason = "stands"
+        return bool(self.reason)

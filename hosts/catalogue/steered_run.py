@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.preparation import start_at_speed
+from hosts.catalogue.preparation import ROLLED, start_at_speed
 from hosts.catalogue.steering import SteeringInput
-from hosts.catalogue.stop_conditions import ROLLED
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result

@@ -1,13 +1,15 @@
-"""One test of one car as the task of a worker process."""
+"""One test of one car as the task of a worker process, and its stored record, by which the same command resumes."""
 
 import json
 import re
 import time
 import traceback
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
+
+import numpy as np
 
 from ali3.errors import UserError
 from ali3.files import write_text
@@ -15,6 +17,9 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import Reason, perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.driving.result import Result
+from hosts.experiment.store import ResultStore, run_key
+from hosts.fmu.own_process import files_of
 from hosts.run.result_files import write_csv
 
 Outcome: TypeAlias = "TestRecord | Reason"
@@ -84,3 +89,32 @@ def run_file(test: str, label: str, run: str) -> Path:
 
 def _file_stem(name: str) -> str:
     return re.sub(r"[^\w.+-]+", "_", name).strip("_")
+
+
+def digest(task: Task) -> str:
+    """A hash of everything on which the outcome of a task depends."""
+    car = task.car
+    content = task.test, car.fmu.digest, sorted(car.start.items()), car.step, sorted(task.settings.items())
+    return run_key(car.path, *content, files=files_of(car.start))
+
+
+def find_record(store: ResultStore[TestRecord], task: Task) -> TestRecord | None:
+    """The stored record of a task; None: it was not done, its task has changed, or tables of its runs are missing."""
+    record = store.find(_record_name(task), digest(task))
+    return record if record is not None and _has_tables(task, list(record.runs)) else None
+
+
+def store_record(store: ResultStore[TestRecord], task: Task, record: TestRecord) -> None:
+    """Store the record of a task without the results of its runs, which have their own files."""
+    empty_result = Result([], {}, np.zeros(0), np.zeros((0, 0)), 0.0, 0.0, 0, [])
+    store.add(_record_name(task), digest(task), replace(record, runs=dict.fromkeys(record.runs, empty_result)))
+
+
+def _record_name(task: Task) -> str:
+    return f"{task.test}/{task.car.label}"
+
+
+def _has_tables(task: Task, runs: list[str]) -> bool:
+    if task.folder is None:
+        return True
+    return all((task.folder / run_file(task.test, task.car.label, run)).is_file() for run in runs)

@@ -19,8 +19,7 @@ from ali3.extras import command_needs
 from ali3.files import check_writable
 from ali3.message_text import shortened
 from ali3.options import Parser, add_option, assignment, count, options_given
-from hosts.check.junit import Case, write_junit
-from hosts.check.sarif import write_sarif
+from hosts.check.verdict_files import Case, write_junit, write_sarif
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import FmuOptions, add_fmu, add_setting_options, fmu_options
@@ -214,7 +213,7 @@ def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> in
     """Run the checks in an isolated process; one that has ended is replaced for the next check."""
     from ali3.isolated_processes import Lost
     from hosts.check.all_checks import CHECKS, Checker, checks_left_out, finding_of_loss
-    from hosts.check.archive import check_archive
+    from hosts.check.documents import check_archive
     from hosts.check.instance import Finding
     from hosts.experiment.pool import Pool
     from hosts.fmu.own_process import files_of

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ali3.columns import some_of
 from ali3.units import misread
-from hosts.check.junit import Case
+from hosts.check.verdict_files import Case
 from hosts.common.angles import angle_difference
 from hosts.common.display_units import number_in
 from hosts.driving.result import Result

@@ -1,6 +1,7 @@
-"""Checks of an FMU that need no run: description, binaries, units, features that tools may use."""
+"""Checks of an FMU that need no run: archive, description, binaries, units, features that tools may use."""
 
 import ctypes
+from pathlib import Path
 from xml.etree import ElementTree
 
 from fmpy import platform, platform_tuple, sharedLibraryExtension, supported_platforms
@@ -8,12 +9,16 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 
+from ali3.archives import faults_of
 from ali3.call_mark import marked
 from ali3.columns import some_of
 from ali3.processes import cause_text
+from ali3.reading import is_file, missing_file_text
 from hosts.check.instance import REAL, Check, Finding, Subject
+from hosts.common.errors import HostError
 
 FUNCTIONS = "functions"
+CHECK = "archive"
 
 
 def check_description(subject: Subject) -> Finding:
@@ -131,3 +136,18 @@ DOCUMENT_CHECKS = (
     Check("documentation, sources", check_folders, calls=False),
     Check("source files", check_source_files, calls=False),
 )
+
+
+def check_archive(fmu: Path) -> list[Finding]:
+    """Find what prevents an FMU from being unpacked: bad if a standard forbids it, otherwise a note.
+
+    Raises `HostError` if the file is not a readable archive.
+    """
+    if not is_file(fmu):
+        raise HostError(missing_file_text(fmu))
+    return [
+        Finding(CHECK, "bad", f"{fault.words} ({fault.clause})")
+        if fault.clause
+        else Finding(CHECK, "note", fault.words)
+        for fault in faults_of(fmu, HostError, "an FMU")
+    ]

@@ -15,7 +15,7 @@ from ali3.columns import in_columns, some_of
 from ali3.errors import UserError
 from ali3.tables import TextTable
 from hosts.check.deviations import BOUND, Deviation, deviations, remedies
-from hosts.check.junit import Case
+from hosts.check.verdict_files import Case
 from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
 from hosts.driving.driver import driver_of
@@ -26,8 +26,7 @@ from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
 from hosts.driving.runs_with_progress import Drive, runs_with_bar
-from hosts.experiment.run_key import run_key
-from hosts.experiment.store import ResultStore, report_resumed
+from hosts.experiment.store import ResultStore, report_resumed, run_key
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.own_process import files_of
 from hosts.fmu.settings import Settings

@@ -14,8 +14,7 @@ from hosts.compare.curve import Curve, SensedCurve
 from hosts.compare.deviations import rms
 from hosts.compare.fit import fit, overlapping
 from hosts.compare.fit_result import Fit
-from hosts.compare.fit_unknowns import NUISANCES, Unknown, nuisances
-from hosts.compare.fitted_parameters import fit_step, fitted_parameters
+from hosts.compare.fit_unknowns import NUISANCES, Unknown, fit_step, fitted_parameters, nuisances
 from hosts.compare.replay import Replay
 from hosts.compare.task import Task
 from hosts.driving.result import Result

@@ -19,7 +19,6 @@ from hosts.common.units import unit_definition, unit_of
 from hosts.compare.log_aliases import Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.compare.log_times import MIN_SAMPLES, TIMES, log_times, name_hint, time_column
-from hosts.compare.repeated_samples import rows_of_a_value
 from hosts.compare.spikes import spike_text, spikes
 from hosts.driving.missed_inputs import count_text
 from hosts.driving.recorded_rows import ROUND_OFF
@@ -27,6 +26,12 @@ from hosts.driving.run_record import record_of
 from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.log_plausibility import log_plausibility
 from hosts.measures.signal import Signal
+
+_MIN_CHANGES = 6
+_MIN_ROWS = 3
+_JITTER = 0.2  # of the rows of a value
+_REGULAR_FRACTION = 0.95  # of the changes
+_EQUAL = 0.01  # relative difference of changes of equal size
 
 
 @dataclass(frozen=True)
@@ -205,3 +210,24 @@ def _without_spikes(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
 @plausibility_of.register
 def _plausibility_of_log(log: Log) -> list[Plausibility]:
     return [log_plausibility("", log.outputs)]
+
+
+def rows_of_a_value(values: NDArray[np.float64]) -> int:
+    """Number of rows in which each value is repeated; 1 where each row is measured.
+
+    `values`: shape (n,).
+
+    Notes
+    -----
+    Repeated values change in equal steps of rows, or a multiple where two values are equal. So does a ramp of a
+    coarsely quantized signal, but at least half of its changes are of equal size.
+    """
+    changes = np.flatnonzero(np.diff(values)) + 1
+    if len(changes) < _MIN_CHANGES:
+        return 1
+    spacings, sizes = np.diff(changes), np.abs(np.diff(values))[changes - 1]
+    rows = int(np.median(spacings))
+    off = np.abs(spacings - rows * np.maximum(np.round(spacings / rows), 1.0)) <= _JITTER * rows
+    median = float(np.median(sizes))
+    equal = np.abs(sizes - median) < _EQUAL * median
+    return rows if rows >= _MIN_ROWS and off.mean() >= _REGULAR_FRACTION and equal.mean() < 0.5 else 1

@@ -1,17 +1,18 @@
 """Replays a log as inputs of an FMU, once for each set of parameters."""
 
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 
 from ali3.isolated_processes import Lost
 from hosts.common.closable import Closable
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
-from hosts.compare.follower_demand import follower_demand
 from hosts.compare.segment_fmu import SegmentFmu, Task
 from hosts.compare.segments import Segment, join_results
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
@@ -186,3 +187,17 @@ class Replay(Closable):
         hint = " --jobs 1 takes less memory." if len(self._pool) > 1 else ""
         begin = self.segments[number].begin
         raise FailedFmuError(f"The process that drove the window from {begin:g} s {result.how}.{hint}")
+
+
+def follower_demand(signal: Signal, frequency: float, time: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The demand of a critically damped follower that moves as measured.
+
+    `frequency`: frequency of the follower, Hz; `time`: s, shape (n,). Returns an array of shape (n,): x + 2 x' / w +
+    x'' / w^2 with w = 2 pi frequency, of a cubic through the samples that has no extremes of its own. It begins with x,
+    where the follower begins at rest; beyond the samples their ends are held.
+    """
+    w = 2.0 * math.pi * frequency
+    x = PchipInterpolator(signal.time, signal.values)
+    at = np.clip(time, signal.time[0], signal.time[-1])
+    inside = (time > signal.time[0]) & (time < signal.time[-1])
+    return np.asarray(x(at) + inside * (2.0 / w * x(at, 1) + x(at, 2) / w**2))

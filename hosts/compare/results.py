@@ -1,4 +1,4 @@
-"""The result of a comparison, and its files."""
+"""The result of a comparison, and its files: signals side by side as CSV, measures as JSON, the report, the fit."""
 
 import argparse
 from collections.abc import Mapping, Sequence
@@ -6,20 +6,22 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import pandas as pd
+
 from ali3.charts import drawing
-from ali3.files import check_writable, write_json
+from ali3.files import atomic_file, check_writable, write_json
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.numbers import or_null
 from hosts.compare.comparison import Comparison, measures
 from hosts.compare.fit_result import Fit
-from hosts.compare.page import comparison_figure
-from hosts.compare.report import write_report
-from hosts.compare.result_files import measure_records, write_signals
+from hosts.compare.report import comparison_figure, write_report
 from hosts.compare.task import Task
 from hosts.compare.windows import bins, windows
 from hosts.fmu.fmu import described
 from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variables
+from hosts.measures.measure import Measure
 
 
 @dataclass(frozen=True)
@@ -122,3 +124,27 @@ def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
             "criterion": f.criterion,
         }
     return record
+
+
+def write_signals(before: Comparison, after: Comparison | None, file: Path) -> None:
+    """Write the signals as CSV at all times of samples; a cell is empty if a signal has no sample.
+
+    `after`: comparison with fitted parameters. Columns: ``time [s]``, then of each signal ``NAME.measured``,
+    ``NAME.simulated`` and, with fitted parameters, ``NAME.fitted``, with the unit.
+    """
+    times = np.unique(np.concatenate([s.measured.time for s in before.signals.values()]))
+    columns: dict[str, Any] = {}
+    for name, s in before.signals.items():
+        columns[f"{name}.measured [{s.measured.unit}]"] = pd.Series(s.measured.values, s.measured.time)
+        columns[f"{name}.simulated [{s.measured.unit}]"] = pd.Series(s.simulated(times), times)
+        if after is not None:
+            columns[f"{name}.fitted [{s.measured.unit}]"] = pd.Series(after.signals[name].simulated(times), times)
+    with atomic_file(file) as path:
+        pd.DataFrame(columns, times).to_csv(path, index_label="time [s]", lineterminator="\r\n")
+
+
+def measure_records(measures: Sequence[Measure]) -> list[dict[str, Any]]:
+    """Measures for JSON, which has no NaN."""
+    return [
+        {"name": m.name, "value": or_null(m.value), "unit": m.unit, "text": m.text, "note": m.note} for m in measures
+    ]

@@ -30,8 +30,7 @@ from hosts.compare.segments import (
     window_begins,
     within_spans,
 )
-from hosts.compare.start_values import reference_point, start_values_of_log, start_values_of_origin
-from hosts.compare.starting_pedal import starting_pedals
+from hosts.compare.start_values import reference_point, start_values_of_log, start_values_of_origin, starting_pedals
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.missed_inputs import missed_inputs

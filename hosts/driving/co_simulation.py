@@ -10,7 +10,6 @@ import numpy as np
 from ali3.processes import alive
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
-from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.missed_inputs import missed_end, missed_inputs
 from hosts.driving.observation import Observation
@@ -209,3 +208,21 @@ def _start_inputs(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, 
         if value is not None and not isinstance(value, str):
             values[k] = value
     return values
+
+
+def derive_columns(result: Result, fmu: SimulatedFmu, thinned: bool = False) -> None:
+    """Recompute the derived columns of a run in place, from the inputs at the end of each step.
+
+    `thinned`: whether rows of steps are left out; then rates of the run are more accurate, and only NaN are replaced.
+    """
+    if not any(name in result.names for name in fmu.derived):
+        return
+    end_values, held_columns = result.values.copy(), [result.names.index(name) for name in result.held]
+    if not thinned:
+        end_values[1:, held_columns] = result.values[:-1, held_columns]
+    for k, before in result.jumps.items():
+        end_values[k, : len(before)] = before
+    for name, column in fmu.derive(result.names, result.time, end_values).items():
+        if name in result.names:
+            values = result.values[:, result.names.index(name)]
+            values[:] = np.where(np.isnan(values), column, values) if thinned else column

@@ -23,7 +23,7 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_table import check_times, read_table
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 from hosts.driving.pilots.pilot import ACTS
-from hosts.driving.state_file import read_state
+from hosts.driving.run_record import read_state
 
 SUFFIXES = (".toml", ".csv")
 """Suffixes of files of manoeuvres."""

@@ -15,8 +15,7 @@ from ali3.tables import HEADING, TextTable
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, parse_value
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
-from hosts.driving.run_record import RunRecord, record_of, rows_before_jumps
-from hosts.driving.state_file import read_state
+from hosts.driving.run_record import RunRecord, read_state, record_of, rows_before_jumps
 
 _LATEST = ON_TIME * 2.0**52  # s; later times are farther apart than `ON_TIME` as double numbers
 # The remark of a page on a table without its oldest rows.

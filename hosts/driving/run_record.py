@@ -1,15 +1,16 @@
-"""The record beside a table that is the result of a run."""
+"""The record beside a table that is the result of a run, and the saved state of the FMU beside a manoeuvre."""
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ali3.files import write_bytes
 from ali3.json_reading import read_json
-from ali3.reading import is_file
+from ali3.named_files import NamedFiles
+from ali3.reading import LARGEST_STATE, is_file, read_bytes
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.state_file import read_state
 
 
 @dataclass(frozen=True)
@@ -71,3 +72,19 @@ def record_of(path: Path) -> RunRecord:
         return RunRecord(first, start, set(held), jumps, state_and_time, float(step), interval, tuple(lost))
     except (AttributeError, KeyError, TypeError, ValueError):
         raise HostError(f"{file} is not a whole record of the run whose result is {path.name}; run it again.") from None
+
+
+def read_state(folder: Path, name: str, where: str) -> bytes:
+    """Read the saved state of an FMU. `name`: below the folder; `where`: of the name, for messages.
+
+    Raises `HostError`: the file is outside of the folder, or cannot be read.
+    """
+    file = NamedFiles(folder, LARGEST_STATE, HostError).file(name, folder, f"{where}: the state")
+    return read_bytes(file, LARGEST_STATE, HostError, f"{where}: the state {file}")
+
+
+def write_state(state: bytes, file: Path) -> Path:
+    """Write a saved state beside a file; the path of the state."""
+    beside = file.with_suffix(".state")
+    write_bytes(beside, state)
+    return beside

@@ -15,8 +15,7 @@ from ali3.errors import UserError
 from ali3.isolated_processes import Lost
 from ali3.processes import store
 from hosts.common.errors import FailedFmuError, HostError
-from hosts.driving.co_simulation import columns_of, run
-from hosts.driving.derived_columns import derive_columns
+from hosts.driving.co_simulation import columns_of, derive_columns, run
 from hosts.driving.ground_marks import with_ground_marks
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot

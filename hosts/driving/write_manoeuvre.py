@@ -14,7 +14,7 @@ from ali3.decimal_number import parse_number
 from ali3.files import write_text
 from hosts.common.numbers import Value, text_of
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.state_file import write_state
+from hosts.driving.run_record import write_state
 
 _WIDTH = 116
 

@@ -1,4 +1,4 @@
-"""The page of an experiment: a head, sections with links to them, and plots as SVG."""
+"""The page of an experiment: a head, sections with links to them, and plots as SVG with thinned lines."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ali3.charts import Drawing
 from ali3.files import make_folder
 from ali3.html_elements import Content, document, element, picture
@@ -20,6 +23,8 @@ if TYPE_CHECKING:
 
 NOTE, FAINT, PROBLEM = "note", "faint", "problem"
 """Kinds of paragraphs."""
+MOST_POINTS = 1500
+"""Default number of points of a line: about two for each pixel of the width of a plot on a large screen."""
 
 
 @dataclass(frozen=True)
@@ -73,3 +78,27 @@ def commands_cell(lines: Sequence[str]) -> HtmlElement:
 def _provenance() -> str:
     now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
     return f"{now}, by ALi3 ({version_of('ali3')}) on Python {platform.python_version()}, {platform.platform()}."
+
+
+def thinned_indices(x: NDArray[np.float64], y: NDArray[np.float64], most_points: int = MOST_POINTS) -> NDArray[np.intp]:
+    """Indices of points that are kept: both ends, and the extremes of x and y of each of equal stretches.
+
+    `x`, `y`: shape (n,), NaN in gaps, whose edges are kept; `most_points`: approximate number of points.
+    """
+    n = len(x)
+    stretches = max(1, most_points // 4)
+    if n <= most_points:
+        return np.arange(n)
+    length = -(-n // stretches)
+    starts = np.arange(0, n, length)
+    indices = [np.array([0, n - 1])]
+    for values in (x, y):
+        for fill, extreme in ((np.inf, np.argmin), (-np.inf, np.argmax)):
+            padded = np.full(len(starts) * length, fill)
+            padded[:n] = np.where(np.isnan(values), fill, values)
+            indices.append(starts + extreme(padded.reshape(len(starts), length), axis=1))
+    is_gap = np.isnan(x) | np.isnan(y)
+    edges = np.flatnonzero(is_gap[1:] != is_gap[:-1])
+    if len(edges) <= most_points:
+        indices += [edges, edges + 1]
+    return np.asarray(np.unique(np.minimum(np.concatenate(indices), n - 1)), np.intp)

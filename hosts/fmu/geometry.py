@@ -15,7 +15,7 @@ from ali3.temporary_folder import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.world_record import world_beside
+from hosts.common.world_files import world_beside
 from hosts.fmu.description_file import opened
 
 RESOURCE = "resources/geometry.json"

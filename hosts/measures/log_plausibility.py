@@ -16,7 +16,7 @@ from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, 
 from hosts.measures.samples import joint_sample_values, sample_values
 from hosts.measures.signal import Signal
 
-MIN_DELAY = 0.1  # s
+MIN_DELAY = 0.1  # s, of a signal against others, below which it is no mistake
 RATES = ("chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", STEERING)
 TIMES = (
     (2.0, "time twice as fast"),
@@ -24,7 +24,8 @@ TIMES = (
     (1e-3, "ms instead of s"),
     (60.0, "minutes instead of s"),
 )
-RIM = ((1.0 / 0.31, "m/s of the rim instead of rad/s"),)
+RIM = ((1.0 / 0.31, "m/s of the rim instead of rad/s"),)  # of a wheel of usual radius, m
+_RATIOS, _ALIKE = ([QUANTITIES[key + part] for key in RELATIONS if key + part in QUANTITIES] for part in ("", "_alike"))
 PAIRS = (("chassis.ax", "chassis.ay"), PATH, *pairwise(WHEELS))
 
 
@@ -66,9 +67,6 @@ def consistent(plausibility: Plausibility) -> set[str]:
     ratios = [v for v in plausibility.values if v.quantity in (*_RATIOS, *_ALIKE)]
     contradicted = {name for v in ratios if not v.inside(plausibility.kind) for name in v.keys}
     return {name for v in ratios if v.quantity in _RATIOS for name in v.keys} - contradicted
-
-
-_RATIOS, _ALIKE = ([QUANTITIES[key + part] for key in RELATIONS if key + part in QUANTITIES] for part in ("", "_alike"))
 
 
 def _corrected_logs(signals: Signals, plausibility: Plausibility) -> Iterator[tuple[str, set[str], Signals, bool]]:

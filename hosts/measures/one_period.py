@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import correlate, correlation_lags
 
-from hosts.measures.peak import first_direction, interpolated_peak
+from hosts.measures.filters import first_direction, interpolated_peak
 
 _ROUND_OFF = 1e-9  # s
 

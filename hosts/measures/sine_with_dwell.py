@@ -1,4 +1,4 @@
-"""Measures of a run with sine-with-dwell steering: beginning and completion of steer, yaw rate ratios, displacement."""
+"""Measures of runs with slowly increasing steer and with sine-with-dwell steering."""
 
 import math
 from dataclasses import dataclass
@@ -7,12 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid, trapezoid
 
-from hosts.measures.filters import crossing
-from hosts.measures.peak import first_direction
+from hosts.measures.filters import crossing, first_direction
 
 _BEGINNING_ANGLE = math.radians(5.0)  # rad, S7.11.5 of 49 CFR 571.126
 _DISPLACEMENT_DELAY = 1.07  # s, S5.2.3
 _ROUND_OFF = 1e-9  # s
+G = 9.80665  # m/s2
+_TARGET = 0.3 * G
+_MIN_ACCELERATION = 0.1 * G
+_MAX_ACCELERATION = 0.375 * G
 
 
 @dataclass(frozen=True)
@@ -107,3 +110,19 @@ def _displacement(beginning: float, time: NDArray[np.float64], acceleration: NDA
     t = np.concatenate([[beginning], inner, [end]])
     velocity = np.asarray(cumulative_trapezoid(np.interp(t, time, acceleration), t, initial=0))
     return abs(float(trapezoid(velocity, t)))
+
+
+def angle_by_regression(steering: NDArray[np.float64], acceleration: NDArray[np.float64]) -> float:
+    """Absolute angle at a lateral acceleration of 0.3 g, rad, by a regression line from 0.1 g to 0.375 g.
+
+    `steering`, `acceleration`: rad and m/s², of a turn to one side, shape (n,). NaN if 0.375 g is not reached.
+    """
+    lateral = np.abs(acceleration)
+    if not (lateral >= _MAX_ACCELERATION).any():
+        return math.nan
+    last = int(np.argmax(lateral >= _MAX_ACCELERATION))
+    first = int(np.argmax(lateral >= _MIN_ACCELERATION))
+    if last - first < 3:
+        return math.nan
+    line = np.polyfit(lateral[first:last], np.abs(steering[first:last]), 1)
+    return float(np.polyval(line, _TARGET))

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.measures.filters import crossing
-from hosts.measures.peak import interpolated_peak
+from hosts.measures.filters import crossing, interpolated_peak
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from hosts.common.options import ROAD
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.course_follower import CourseFollower
 from hosts.driving.result import Result
+from hosts.driving.run_record import write_state
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.driving.state_file import write_state
 from hosts.fmu.settings import Settings
 
 

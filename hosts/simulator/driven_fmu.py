@@ -1,4 +1,4 @@
-"""An FMU that is driven step by step, started again, set upright and rewound, without a clock."""
+"""An FMU driven step by step by rate-limited inputs, started again, set upright and rewound, without a clock."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu, StepRefusedError
-from hosts.simulator.inputs import Inputs
 from hosts.simulator.saved_states import Mark, SavedStates
 
 _POSE = ("chassis.x", "chassis.y", "chassis.yaw")
@@ -19,6 +19,52 @@ _INITIAL = ("initial.x", "initial.y", "initial.yaw")
 _SPEED = "initial.speed"
 _INITIAL_MOTION = ("initial.lateral_speed", "initial.yaw_rate", "initial.settling")
 _AT_REST = (*_INITIAL, _SPEED)
+
+
+class Inputs:
+    """Values of the inputs and their targets.
+
+    `start`: values at every new start, n; `whole`: whether each is an integer, which changes at once. `values`: values
+    of the last or next step, shape (n,).
+    """
+
+    def __init__(self, start: Sequence[float], whole: Sequence[bool]) -> None:
+        self._start, self._whole = np.array(start, float), list(whole)
+        self.values = self._start.copy()
+        self._targets: list[float] = list(start)
+        self._rates: list[float] = [0.0] * len(start)
+        self._oldest_request = 0.0
+
+    def want(self, wants: NDArray[np.float64]) -> None:
+        """Set the requested values of inputs.
+
+        `wants`: of each input its value, largest change per second (infinite: at once) and the number of the request,
+        shape (3 n,); requests before the last `restart` are ignored.
+        """
+        for k in range(len(self._rates)):
+            value, rate, request = wants[3 * k : 3 * k + 3].tolist()
+            if request > self._oldest_request:
+                self._targets[k] = float(round(value)) if self._whole[k] else value
+                self._rates[k] = float("inf") if self._whole[k] else rate
+
+    def restart(self, request: float) -> None:
+        """Return to the start values; requests up to this number are ignored."""
+        self.values[:] = self._start
+        self._targets, self._rates = self._start.tolist(), [0.0] * len(self._rates)
+        self._oldest_request = request
+
+    def set_start(self, start: Sequence[float]) -> None:
+        """Replace the start values."""
+        self._start[:] = start
+
+    def advance(self, step: float) -> None:
+        """Move the values towards their targets by one step, s."""
+        values = self.values
+        for k, (target, rate) in enumerate(zip(self._targets, self._rates, strict=True)):
+            value = float(values[k])
+            if value != target:
+                limit = rate * step
+                values[k] = target if abs(target - value) <= limit else value + (limit if target > value else -limit)
 
 
 @dataclass(frozen=True)

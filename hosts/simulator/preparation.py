@@ -1,6 +1,6 @@
-"""Prepares a drive: the FMU, its settings, its world and its drawing."""
+"""Prepares a drive: the FMU, which must be a car that can be driven, its settings, its world and its drawing."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,6 +8,7 @@ from typing import Any
 
 from fmpy.model_description import ModelDescription
 
+from ali3.columns import some_of
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -22,12 +23,15 @@ from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables, check_co_simulation
 from hosts.recordings.recording import check_folder
-from hosts.simulator.drivability import not_drivable
 
 ITERATIONS = "solver.step_iterations"
 _MAX_ITERATIONS = 6
 """Limit for an inner step of about 2 ms; its residual is measured in docs/fmu.md."""
 _EMPTY_SCENE = {"format": "ALi3 scene", "version": 1, "extent": 5.0, "frames": {}, "shapes": []}
+STEERING = ("steering", "steering_wheel_angle_demand", "steering_torque")
+"""Inputs of which one is needed for steering."""
+PEDALS = ("throttle", "brake")
+POSE = ("chassis.x", "chassis.y", "chassis.z", "chassis.yaw")
 
 
 @dataclass(frozen=True)
@@ -175,3 +179,29 @@ def _settings(request: DriveRequest, source: FmuSource, variables: Variables, wo
     settings.add_numbers(request.start(variables.names), f"{START_OF}{request.manoeuvre}")
     settings.add_options(request.fmu_options, request.fidelity)
     return settings
+
+
+def missing_variables(inputs: Collection[str], outputs: Collection[str]) -> tuple[list[str], list[str]]:
+    """Missing inputs and outputs that driving needs."""
+    steering = [] if any(name in inputs for name in STEERING) else [STEERING[0]]
+    pedals = [name for name in PEDALS if name not in inputs]
+    return steering + pedals, [name for name in POSE if name not in outputs]
+
+
+def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], has_drawing: bool) -> str:
+    """Sentences on what an FMU lacks to be driven, a remedy, and what works without; empty if nothing is missing.
+
+    `inputs`, `outputs`: ALi3 names, after aliases.
+    """
+    missing_inputs, missing_outputs = missing_variables(inputs, outputs)
+    lacks = [f"no input {', '.join(missing_inputs)}"] if missing_inputs else []
+    lacks += [f"no output {', '.join(missing_outputs)}"] if missing_outputs else []
+    if not lacks:
+        return ""
+    subject = "its inputs that have ALi3 names can be moved; it" if len(missing_inputs) < len(PEDALS) + 1 else "it"
+    picture = "" if has_drawing else ", but is not drawn, since it has no drawing"
+    return (
+        f"{path.name} has {' and '.join(lacks)}, which driving needs. If it has them under other names, an alias file "
+        f"says so (--aliases FILE). Its inputs are {some_of(inputs)}; its outputs {some_of(outputs)}. As it is, "
+        f"{subject} runs, can be paused, slowed down, reset and recorded{picture}."
+    )

@@ -3,8 +3,7 @@
 from collections import deque
 
 from hosts.simulator.clock import Clock
-from hosts.simulator.late_causes import LateCauses
-from hosts.simulator.step_times import TimesRecord
+from hosts.simulator.step_times import LateCauses, TimesRecord
 
 MAX_LATENESS = 0.25
 """Lateness, s, above which the schedule is moved to now and the lost time is reported."""

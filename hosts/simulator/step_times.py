@@ -1,4 +1,4 @@
-"""Costs and lateness of the steps: histograms of fixed size, their text and their JSON."""
+"""Costs, lateness and causes of lateness of the steps: histograms of fixed size, their text and their JSON."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.simulator.late_causes import CAUSES
+from hosts.simulator.clock import Clock
 
 _FIRST = 1e-6
 _DECADES = 7
 _PER_DECADE = 40
+CAUSES = ("ran", "others", "stolen")
+"""``ran``: the step itself; ``others``: other programs while it was ready; ``stolen``: a stalled processor."""
 BINS = _DECADES * _PER_DECADE + 2
 """Bins of a histogram: below 1 us, 40 in each decade up to 10 s, above."""
 _SCALARS = (
@@ -27,6 +29,38 @@ TIMES_SIZE = len(_SCALARS) + 2 * BINS
 _COST = len(_SCALARS)
 _LATENESS = len(_SCALARS) + BINS
 _QUANTILES = (("median", 0.5), ("p99", 0.99), ("p999", 0.999))
+
+
+class LateCauses:
+    """Determines the cause with the longest time. `clock`: clock of the calling thread."""
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self.restart()
+
+    def restart(self) -> None:
+        """Start counting again, so that earlier work of the thread belongs to no step."""
+        self._before, self._cause = self._clock.spent(), ""
+
+    def of_step(self, elapsed: float, period: float, late: bool) -> str:
+        """Take a step into account.
+
+        `elapsed`: time from its scheduled start, or a later end of the step before, to its end, s; `period`: its
+        scheduled length, s; `late`: whether it missed its deadline. Returns one of `CAUSES`, or an empty text if the
+        step was not late or the cause is not known. A step that is late only because of the one before has the same
+        cause.
+        """
+        spent = self._clock.spent()
+        if spent is None or self._before is None:
+            return ""
+        ran, waited = (now - before for now, before in zip(spent, self._before, strict=True))
+        self._before = spent
+        if not late:
+            self._cause = ""
+        elif elapsed > period or not self._cause:
+            durations = dict(zip(CAUSES, (ran, waited, elapsed - ran - waited), strict=True))
+            self._cause = max(durations, key=lambda name: durations[name])
+        return self._cause
 
 
 def bin_of(seconds: float) -> int:

@@ -17,8 +17,7 @@ from ali3.isolated_processes import Lost
 from hosts.common.errors import HostError
 from hosts.common.options import fmu_options
 from hosts.experiment.experiment import Experiment
-from hosts.experiment.run_key import run_key
-from hosts.experiment.store import ResultStore, report_resumed
+from hosts.experiment.store import ResultStore, report_resumed, run_key
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_file import fmu_file
 from hosts.fmu.own_process import files_of

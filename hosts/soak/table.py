@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 from ali3.columns import in_columns
 from ali3.processes import command_name
 from hosts.common.options import set_arguments
-from hosts.soak.drive import Outcome, Task
-from hosts.soak.memory import LARGEST_GROWTH
+from hosts.soak.drive import LARGEST_GROWTH, Outcome, Task
 
 _COLUMNS: dict[str, Callable[[Outcome], str]] = {
     "seed": lambda o: f"{o.seed}",

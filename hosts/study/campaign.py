@@ -6,11 +6,10 @@ import json
 import sys
 import time as clock
 from collections.abc import Generator
-from contextlib import ExitStack, closing, nullcontext
+from contextlib import closing, nullcontext
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +17,11 @@ from numpy.typing import NDArray
 from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
-from ali3.isolated_processes import Lost
 from ali3.reading import is_file_or_folder, is_folder
 from hosts.common.errors import HostError
-from hosts.experiment.experiment import Runner
 from hosts.experiment.store import ResultStore
+from hosts.fmu.built_fmu import car_digest, fmu_of_car
 from hosts.measures.limits import limits_record
-from hosts.study.counts import Counts, duration
 from hosts.study.folder import (
     begin_study,
     check_no_link,
@@ -34,20 +31,15 @@ from hosts.study.folder import (
     read_record,
     update_limits,
 )
+from hosts.study.missing_runs import make_runs
 from hosts.study.outcome_table import OutcomeTable, Row
-from hosts.study.parts import part_files
+from hosts.study.parts import part_files, sound_runs
 from hosts.study.plan import Plan, make_plan
 from hosts.study.study_file import StudyFile, read_study_file
-from hosts.study.study_runs import experiment_of, outcome_of, report_start
 from hosts.study.trial_runs import Trial, bytes_of, make_trial_runs, with_columns
-from hosts.study.worker_data import FAILED, Outcome, Run
-
-if TYPE_CHECKING:
-    from hosts.experiment.cluster_runs import ClusterRuns
+from hosts.study.worker_data import FAILED, Counts, duration
 
 _FREE_SPACE = 50e6  # bytes of the disk that the results must leave free
-_CHUNK_BYTES = 20e6  # of signals in the results of a chunk of runs
-_BLOCK = 1000  # runs that are prepared at a time
 
 
 @dataclass(frozen=True)
@@ -89,8 +81,6 @@ def run_study(
     with nullcontext() if dry else ResultStore[Row](folder, Row, "runs a study") as store:
         done = np.zeros(plan.runs, dtype=np.bool_)
         if earlier is not None and store is not None:
-            from hosts.study.damaged_files import sound_runs
-
             done, notes = sound_runs(folder, earlier)
             for note in notes:
                 print(f"note: {note}", file=sys.stderr)
@@ -122,8 +112,6 @@ def _plan(study: StudyFile, file: Path, folder: Path, earlier: dict[str, Any] | 
     """The checked plan, with the named FMU or that of the car; an unchanged car keeps the FMU of earlier runs."""
     if study.car is None:
         return make_plan(study, file, fmu_of_study(study, file))
-    from hosts.fmu.built_fmu import car_digest
-
     digest = car_digest(_car(study.car, file))
     is_unchanged = earlier is not None and earlier.get("car") == digest and (folder / earlier["fmu"]).exists()
     fmu = fmu_of_folder(folder, earlier) if earlier is not None and is_unchanged else fmu_of_study(study, file)
@@ -135,8 +123,6 @@ def fmu_of_study(study: StudyFile, file: Path) -> Path:
     """The FMU that a study file names, or that of its car, which is built if necessary."""
     if study.fmu is not None:
         return file.parent / study.fmu
-    from hosts.fmu.built_fmu import fmu_of_car
-
     assert study.car is not None
     return fmu_of_car(_car(study.car, file), lambda line: print(line, file=sys.stderr))
 
@@ -215,7 +201,7 @@ def _make_missing_runs(
     if count == plan.runs:
         return StudyOutcome(folder, True, 0)
     return _write_outcomes(
-        folder, table, store, _outcomes(plan, trial, table.done.copy(), scheduler, workers), scheduler
+        folder, table, store, make_runs(plan, trial.seconds, table.done.copy(), scheduler, workers), scheduler
     )
 
 
@@ -278,52 +264,6 @@ def _write_outcomes(
             file=sys.stderr,
         )
     return StudyOutcome(folder, not is_incomplete, counts.failed)
-
-
-def _outcomes(
-    plan: Plan, trial: Trial, done: NDArray[np.bool_], scheduler: str | None, workers: int | None
-) -> Generator[Row]:
-    """Make the runs that are not done, on a cluster or in processes of this machine."""
-    work, count = plan.work, int(np.count_nonzero(done))
-    experiment, runs = experiment_of(work, plan.fmu), missing_runs(plan, done)
-    with ExitStack() as stack:
-        runner: Runner[Run, Outcome]
-        if scheduler is None:
-            runner = experiment.pool(workers or available_cores())
-        else:
-            from hosts.experiment.cluster import connected
-
-            client = stack.enter_context(connected(scheduler))
-            runner = stack.enter_context(cluster_runner(client, plan, trial, plan.runs - count))
-        results = stack.enter_context(closing(experiment.results(runs, runner, whole=plan.runs, before=count)))
-        for _, run, result in results:
-            outcome = outcome_of(work, result)
-            if scheduler is not None and isinstance(result, Lost):
-                print(f"note: Run {run.index} failed. {outcome.reason}", file=sys.stderr)
-            yield run, outcome
-
-
-def missing_runs(plan: Plan, done: NDArray[np.bool_]) -> Generator[Run]:
-    """Runs that are not done, in the order of their numbers. `done`: shape (runs,)."""
-    for first in range(0, len(done), _BLOCK):
-        indices = (first + np.flatnonzero(~done[first : first + _BLOCK])).tolist()
-        for run in plan.runs_at(indices) if indices else []:
-            report_start(plan.work, run)
-            yield run
-
-
-def cluster_runner(client: Any, plan: Plan, trial: Trial, runs: int) -> ClusterRuns[Run, Outcome]:
-    """The runner of a cluster, after sending the study to its workers. `runs`: number of runs."""
-    from hosts.experiment.cluster import send_experiment
-    from hosts.experiment.cluster_runs import ChunkSize, ClusterRuns
-    from hosts.experiment.cluster_worker import UnpackedFmu
-
-    work = plan.work
-    unpacked_fmu = UnpackedFmu(plan.key, work.fmu.path.name, work.sha256, work.program, partial(experiment_of, work))
-    send_experiment(client, unpacked_fmu, plan.fmu)
-    bytes_a_run = max(8 * job.samples * len(work.signals) for job in work.jobs) + 1
-    size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
-    return ClusterRuns(client, unpacked_fmu, runs, size)
 
 
 def _resume_text(done: NDArray[np.bool_]) -> str:

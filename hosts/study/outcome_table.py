@@ -36,7 +36,7 @@ class _PendingPart:
 class OutcomeTable:
     """The table of a `ResultStore`; the name of a row is the number of its run.
 
-    `done`: whether a run has a row, shape (runs,), see `hosts.study.damaged_files.sound_runs`; None: no run has.
+    `done`: whether a run has a row, shape (runs,), see `hosts.study.parts.sound_runs`; None: no run has.
     """
 
     def __init__(self, folder: Path, record: Mapping[str, Any], done: NDArray[np.bool_] | None = None) -> None:

@@ -1,4 +1,4 @@
-"""The table of a study in parts, each written whole or not at all, and files of the signals of their runs."""
+"""The table of a study in parts, each written whole or not at all, files of signals, and which of both are damaged."""
 
 import json
 from collections.abc import Mapping
@@ -136,3 +136,40 @@ def write_part(table: Any, file: Path) -> None:
     with atomic_file(file) as temporary:
         temporary.write_bytes(buffer.getvalue())
         sync(temporary)
+
+
+def check_signals(folder: Path, record: Mapping[str, Any]) -> None:
+    """Read all signals of a study. Raises `HostError` with the first file that is damaged."""
+    for file in part_files(folder) if record["signals"] else ():
+        read_signals(file, record)
+
+
+def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool_], list[str]]:
+    """Runs with an intact row, and with signals if the study keeps some.
+
+    Damaged files are taken out of the study, so that their runs are repeated: a damaged part of the table is renamed.
+    Raises `HostError` if a part has a run that is not of the study.
+
+    Returns
+    -------
+    sound : ndarray of bool, shape (runs,)
+    notes : list of str
+        A sentence on each file that was taken out.
+    """
+    sound, notes = np.zeros(record["runs"], dtype=np.bool_), []
+    for file in part_files(folder):
+        try:
+            table = read_part(file, record)
+        except DamagedPartError as error:
+            renamed = file.replace(file.with_name(f".damaged-{file.name}"))
+            notes.append(f"{error.file} is damaged ({error.reason}); its runs are repeated, it is kept as {renamed}.")
+            continue
+        try:
+            if record["signals"]:
+                read_signals(file, record)
+        except DamagedPartError as error:
+            file.unlink()
+            notes.append(f"{error.file} is damaged ({error.reason}); its runs are repeated.")
+        else:
+            mark_runs(sound, file, table)
+    return sound, notes

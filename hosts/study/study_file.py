@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError,
 from ali3.reading import LARGEST_TOML, read_bytes, toml_of
 from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
-from hosts.measures.limit_entry import LimitEntry
+from hosts.measures.limits import LimitEntry
 
 METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
 

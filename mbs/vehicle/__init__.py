@@ -7,10 +7,9 @@ from mbs.common.lazy_modules import lazy_modules
 if TYPE_CHECKING:
     from mbs.vehicle import kinematics as kinematics
     from mbs.vehicle.car import Car
-    from mbs.vehicle.car_file import load
     from mbs.vehicle.errors import CarFileError, CarWarning
     from mbs.vehicle.fidelity import Fidelity
-    from mbs.vehicle.read_car import car_names
+    from mbs.vehicle.read_car import car_names, load
     from mbs.vehicle.schema import json_schema
 
 # imported when they are first asked for: the help of the command needs no engine
@@ -21,7 +20,7 @@ _LAZY = {
     "Fidelity": "mbs.vehicle.fidelity",
     "car_names": "mbs.vehicle.read_car",
     "json_schema": "mbs.vehicle.schema",
-    "load": "mbs.vehicle.car_file",
+    "load": "mbs.vehicle.read_car",
 }
 __getattr__ = lazy_modules(__name__, ("kinematics",), _LAZY)
 

@@ -241,7 +241,7 @@ def checked_car(
     *,
     at_rest: bool = True,
     warn: bool = False,
-    stacklevel: int = 4,
+    stacklevel: int = 3,
 ) -> C:
     """Make a car from the content of a file and check it.
 

@@ -11,17 +11,33 @@ from mbs.common.errors import ModelError
 from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
+from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.frames import Frame
 from mbs.vehicle.chassis.section import Chassis
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.names import CarName, Name, Text
-from mbs.vehicle.payload import Payload
 from mbs.vehicle.ports import Ports
 from mbs.vehicle.quantities import Length, Mass, Point, Quantity
+from mbs.vehicle.quantities import Payload as PayloadMass
 from mbs.vehicle.road import RoadSection
 from mbs.vehicle.section import Section, sections_of
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.steering import Steering
+
+
+class Payload(Section):
+    """A person or a piece of luggage."""
+
+    mass: PayloadMass
+    """Mass of the payload."""
+    point: Point
+    """Centre of mass as drawn; left and right are as given, nothing is mirrored."""
+
+    def build(self, b: CarBuilder, name: str) -> None:
+        """Add the payload, whose force a frame that may bend takes at several joints."""
+        point = None if b.chassis.rigid else b.chassis.place(self.point)
+        payload = b.m.payload(name, b.chassis.body, self.point, mass=self.mass, point=point)
+        b.tie(self, "mass", payload, "mass")
 
 
 class Vehicle(Section):

@@ -91,14 +91,14 @@ def _kinematics(options: argparse.Namespace, parser: argparse.ArgumentParser) ->
 def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     """List, copy or check cars; returns the exit code."""
     from mbs.vehicle.copy_car import copy_car
-    from mbs.vehicle.read_car import car_names, read_car
+    from mbs.vehicle.read_car import car_names, load
 
     _check_unused(options_given(parser, options, _KINEMATICS_OPTIONS), "--kinematics")
     if not options.list and options.folder is None:
         return _check(options)
     _check_unused(options_given(parser, options, ("json", "picture")), "a CAR alone, --kinematics or --cheapest")
     if options.list:
-        print("\n".join(in_columns([(name, read_car(name).description) for name in car_names()])))
+        print("\n".join(in_columns([(name, load(name).description) for name in car_names()])))
         return 0
     for file in copy_car(options.car, options.folder):
         print(file)
@@ -110,12 +110,12 @@ def _check(options: argparse.Namespace) -> int:
     from ali3.plausibility import summary_of, tables_of
     from mbs.vehicle.errors import CarWarning
     from mbs.vehicle.picture import draw_car
-    from mbs.vehicle.read_car import read_car
+    from mbs.vehicle.read_car import load
     from mbs.vehicle.summary import parameter_table, summary
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
-        car = read_car(options.car)
+        car = load(options.car)
     plausibilities = car.plausibility()
     print(f"{summary(car)}\n\n{summary_of(plausibilities)}")
     if options.json is not None:

@@ -21,8 +21,29 @@ def car_names() -> list[str]:
     return sorted(file.parent.name for file in CARS.glob(f"*/{FILE}"))
 
 
-def read_car(car: str | Path) -> Car:
-    """Read a car; see `mbs.vehicle.load`."""
+def load(car: str | Path) -> Car:
+    """Read a car.
+
+    Parameters
+    ----------
+    car : str or Path
+        Name of a car of the package, a folder with a file car.toml, or such a file.
+
+    Returns
+    -------
+    Car
+        Checked; its `model` gives the model.
+
+    Raises
+    ------
+    CarFileError
+        There is no such car, or its file is not right; the message has a sentence for each fault.
+
+    Warns
+    -----
+    CarWarning
+        The car has unusual properties, such as an equilibrium that differs from the drawing.
+    """
     if isinstance(car, str) and car in car_names():
         return _package_car(car)
     if not isinstance(car, (str, Path)):
@@ -33,7 +54,7 @@ def read_car(car: str | Path) -> Car:
     loaded_car = checked_car(Car, read_toml(path, CarFileError), path.parent, str(path), warn=True)
     if loaded_car.front.suspension.stop_left_out or None in (loaded_car.front.stops, loaded_car.rear.stops):
         for sentence in notes_without_stops(loaded_car):
-            warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=3)
+            warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=2)
     return loaded_car
 
 

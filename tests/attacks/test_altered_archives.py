@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from ali3.archives import Archive, faults_of
-from hosts.check.archive import check_archive
+from hosts.check.documents import check_archive
 from tests.altered_files import altered
 from tests.attacks.bounds import seeds
 from tests.commands.test_archives import DESCRIPTION

@@ -12,7 +12,7 @@ import pytest
 from ali3.archives import Archive, faults_of
 from ali3.errors import FileError, UserError
 from fmu_src.native.added_platforms import add_platforms
-from hosts.check.archive import check_archive
+from hosts.check.documents import check_archive
 from hosts.common.errors import HostError
 from hosts.fmu import description_file
 from hosts.fmu.description_file import read_description

@@ -54,9 +54,9 @@ from mbs.roads.grid_files import read_grid
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
 from mbs.system.system import System
-from mbs.vehicle.car_file import load
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics.curve_files import read_curve
+from mbs.vehicle.read_car import load
 from mbs.vehicle.table import read_table as read_car_table
 from mbs.worlds.course_file import read_course
 from mbs.worlds.make_world import read_world

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from hosts.check.command import main
-from hosts.check.junit import Case, write_junit
+from hosts.check.verdict_files import Case, write_junit
 from hosts.run.command import main as run_main
 from tests.in_process import run
 

@@ -10,7 +10,7 @@ from ali3.cones import cone_places
 from ali3.iso_3888 import lanes
 from ali3.scene.base64_numbers import encoded
 from hosts.common.errors import HostError
-from hosts.common.world_record import world_beside
+from hosts.common.world_files import world_beside
 from hosts.driving.course import course_of
 from hosts.driving.course_scenery import with_course
 from hosts.view.view_sources import _with_course

@@ -27,8 +27,7 @@ from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.replay import replay
 from hosts.soak import drive as drive_module
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Watch
-from hosts.soak.drive import Failure, Outcome, Task, drive
-from hosts.soak.memory import Memory
+from hosts.soak.drive import Failure, Memory, Outcome, Task, drive
 from hosts.soak.soak_roads import Ground, jump_ground, jump_heights
 from hosts.soak.table import is_good, print_outcomes
 

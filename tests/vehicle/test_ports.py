@@ -6,7 +6,7 @@ import pytest
 import mbs
 from mbs.vehicle import CarFileError
 from mbs.vehicle.car import Car
-from mbs.vehicle.port_option import chosen_ports
+from mbs.vehicle.ports import chosen_ports
 from tests.vehicle.cars_with_ports import (
     STEP,
     WHEELS,

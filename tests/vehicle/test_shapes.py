@@ -11,7 +11,7 @@ import mbs
 from ali3.scene.scene import scene_errors
 from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.shapes.body_shell import ARCH_CLEARANCE, DASHBOARD, BodyShell
-from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
+from mbs.vehicle.shapes.car_shapes import FRAME_TUBE, SUSPENSIONS
 from mbs.vehicle.shapes.occupants import (
     COLUMN_TILT,
     SHIRT_PAINT,
@@ -20,7 +20,6 @@ from mbs.vehicle.shapes.occupants import (
     TROUSER_PAINT,
     steering_wheel_place,
 )
-from mbs.vehicle.shapes.tube_frame import FRAME_TUBE
 from mbs.vehicle.suspensions import Suspension
 from tests.viewer.poses import FramePoses
 

@@ -15,7 +15,7 @@ from ali3.charts import Drawing, drawing
 from hosts.catalogue.record import Line, Plot
 from hosts.catalogue.report.numbers import number_text
 from hosts.common.display_units import axis_shown
-from hosts.experiment.line_simplification import thinned_indices
+from hosts.experiment.report import thinned_indices
 
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (6, 2, 1, 2)), (0, (9, 3)), (0, (3, 1, 1, 1, 1, 1)))
 _WIDTHS = (1.5, 1.9, 2.2, 1.7, 1.3, 1.7)

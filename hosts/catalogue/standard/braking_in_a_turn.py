@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.preparation import constant_inputs, start_at_speed
-from hosts.catalogue.stop_conditions import StopConditions
+from hosts.catalogue.preparation import StopConditions, constant_inputs, start_at_speed
 from hosts.common.errors import HostError
 from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower

@@ -11,8 +11,7 @@ from scipy.signal.windows import tukey
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steady_map import drive_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
-from hosts.measures.bandwidth import bandwidth
-from hosts.measures.frequency_response import FrequencyResponse, frequency_response
+from hosts.measures.frequency_response import FrequencyResponse, bandwidth, frequency_response
 from hosts.measures.second_order import SecondOrder, fit_second_order
 
 _AFTER = 2.0  # s, straight ahead

@@ -2,7 +2,7 @@
 
 from hosts.catalogue.circle_run import CircleRun, drive_circle
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.steering_ratio import steering_ratio
+from hosts.catalogue.steering import steering_ratio
 
 
 def drive(sheet: Sheet) -> None:

@@ -6,8 +6,7 @@ from typing import Any
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.preparation import RunUp, constant_inputs, early_end_notes
-from hosts.catalogue.stop_conditions import StopConditions
+from hosts.catalogue.preparation import RunUp, StopConditions, constant_inputs, early_end_notes
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.pilots.braking_pilot import Braking

@@ -2,21 +2,55 @@
 
 import math
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from hosts.simulator.devices.calibration import Assignment, Calibration
 from hosts.simulator.devices.force_feedback import ForceFeedback
 from hosts.simulator.devices.joysticks import Joystick
-from hosts.simulator.devices.mapping import SELECTOR, DeviceMapping, InputMapping
+from hosts.simulator.devices.mapping import ANGLE, SELECTOR, DeviceMapping, InputMapping
 from hosts.simulator.devices.reading import Reading, Source
-from hosts.simulator.devices.steering import Steering
 from hosts.simulator.input_arbiter import LET_GO
 
 TOUCHED = 0.02
 """Change of an input from its rest with which a device begins to request it."""
 BUTTON_RATES = {"throttle": 2.5, "brake": 4.0, "hand_brake": 8.0}
 """Largest change per second of a pedal while its button is pressed, as with keys; `LET_GO` after its release."""
+ANGLE_MAX = "vehicle.steering_wheel_angle_max"
+_DEFAULT_ROTATION = 900.0
+"""Rotation of a device from end to end, degrees, if neither it nor the largest angle of the car is known."""
+
+
+@dataclass(frozen=True)
+class Steering:
+    """The steering of a car by a device: to an angle, or to a fraction of full steering."""
+
+    angle_max: float | None
+    """Steering wheel angle of the car at full steering, rad, if known."""
+    by_angle: bool = False
+    """Whether the car has the input `steering_wheel_angle_demand` and no `steering`."""
+
+    @property
+    def lacks_angle(self) -> bool:
+        """Whether the ends of the device are full steering because the angle of the car is not known."""
+        return self.angle_max is None and not self.by_angle
+
+    def fraction(self, turn: float, rotation: float) -> float:
+        """Steering from -1 to 1.
+
+        `turn`: position of the device, from -1 to 1, positive to the left; `rotation`: rotation of the device from end
+        to end, degrees; 0: its ends are full steering.
+        """
+        if not rotation or not self.angle_max:
+            return turn
+        return max(-1.0, min(1.0, turn * 0.5 * math.radians(rotation) / self.angle_max))
+
+    def want(self, turn: float, rotation: float) -> tuple[str, float]:
+        """Name and value of the input of the car; see `fraction`."""
+        fraction = self.fraction(turn, rotation)
+        if not self.by_angle:
+            return "steering", fraction
+        return ANGLE, fraction * (self.angle_max or 0.5 * math.radians(rotation or _DEFAULT_ROTATION))
 
 
 class Device:

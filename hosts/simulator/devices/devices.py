@@ -9,12 +9,11 @@ from typing import Any
 
 from hosts.common.errors import HostError
 from hosts.simulator.devices.calibration import Assignment, Calibration
-from hosts.simulator.devices.device import Device
+from hosts.simulator.devices.device import ANGLE_MAX, Device, Steering
 from hosts.simulator.devices.device_text import and_list, drivable_text
 from hosts.simulator.devices.mapping import DeviceMapping, drivable, read_input, read_settings
 from hosts.simulator.devices.reader import ArbiterLike, Reader
 from hosts.simulator.devices.reading import Source
-from hosts.simulator.devices.steering import ANGLE_MAX, Steering
 
 ASSIGN_TIME = 15.0
 """s for which an input waits to be assigned by moving something."""

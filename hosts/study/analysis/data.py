@@ -14,11 +14,11 @@ from pandas.api.types import is_bool_dtype, is_numeric_dtype
 from ali3.units import known_unit
 from hosts.common.display_units import shown_in, titled
 from hosts.study.limits import limit_ends
+from hosts.study.worker_data import FAILED
 
 if TYPE_CHECKING:
     import pandas as pd
 
-FAILED = "failed"
 _RELATIVE_ROUND_OFF = 1e-8  # of the largest value, by step control
 
 

@@ -24,8 +24,8 @@ from hosts.study.analysis.study_section import (
     measures_section,
 )
 from hosts.study.analysis.summary_plots import plot_correlations
-from hosts.study.damaged_files import check_signals
 from hosts.study.folder import ANALYSIS, check_no_link
+from hosts.study.parts import check_signals
 from hosts.study.store import read_study, study_record
 
 

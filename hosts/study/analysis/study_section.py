@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, TypeAlias
 from ali3.charts import drawing
 from ali3.html_elements import Content, table
 from hosts.experiment.report import FAINT, NOTE, Plots, Section, commands_cell, paragraph
-from hosts.study.analysis.data import FAILED, StudyData
+from hosts.study.analysis.data import StudyData
 from hosts.study.analysis.effect_plots import plot_failed
 from hosts.study.analysis.tables import messages_with_runs, reasons, reported_statistics, statistics
 from hosts.study.limits import share_notes, share_rows, shares
+from hosts.study.worker_data import DONE, FAILED, INCOMPLETE
 
 MAX_RESPONSES = 40
 _MAX_RUNS_OF_REASON = 3
@@ -27,7 +28,7 @@ Commands: TypeAlias = "Callable[[int], Sequence[str]]"
 def facts(data: StudyData) -> list[HtmlElement]:
     """The table of the study, and notes on missing runs and measures without plots."""
     about, counts = data.about, data.frame["status"].astype(str).value_counts()
-    message = ", ".join(f"{counts[s]} {s}" for s in ("done", "incomplete", FAILED) if s in counts)
+    message = ", ".join(f"{counts[s]} {s}" for s in (DONE, INCOMPLETE, FAILED) if s in counts)
     versions = ", ".join(f"{k} {v}" for k, v in about["versions"].items())
     sampling = about["sampling"]
     rows = [
@@ -85,7 +86,7 @@ def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[S
     sections = []
     for groups, title in (
         (reasons(data, FAILED), "Failed runs"),
-        (reasons(data, "incomplete"), "Runs without some measure"),
+        (reasons(data, INCOMPLETE), "Runs without some measure"),
         (messages_with_runs(data), "Messages of the FMU"),
     ):
         if not groups:

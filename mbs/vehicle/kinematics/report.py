@@ -1,4 +1,4 @@
-"""Draws the wheel travel and steer curves of a car: the work of ``ali3 car CAR --kinematics``."""
+"""Draws the wheel travel and steer curves of a car, and their HTML page: the work of ``ali3 car CAR --kinematics``."""
 
 import argparse
 import math
@@ -6,17 +6,20 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from ali3.charts import drawing
 from ali3.errors import UserError
 from ali3.files import check_writable, write_json, write_text
+from ali3.html_elements import document, element, picture, table
 from ali3.warning_lines import warning_lines
 from mbs.common.progress import progress_for
-from mbs.vehicle.car_file import load
-from mbs.vehicle.kinematics.axle_compliance import compliance, compliance_fidelity
-from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, checked_travel, kinematics
+from mbs.vehicle.kinematics.axle_compliance import Compliance, compliance, compliance_fidelity
+from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, Kinematics, checked_travel, kinematics
 from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
 from mbs.vehicle.kinematics.curve_grid import write_curve_table
+from mbs.vehicle.kinematics.plots import steer_figure, travel_figure
 from mbs.vehicle.kinematics.table import compliance_rows, rows, text
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
+from mbs.vehicle.read_car import load
 from mbs.vehicle.suspensions.curve_table import RACK
 
 MIN_RANGE = 1e-3  # m: a smaller range was given in m instead of mm
@@ -26,8 +29,6 @@ TRAVEL = (-80.0, 80.0)  # mm
 def report(options: argparse.Namespace) -> int:
     """Print the measures at the drawing, write page and tables, and return the exit code, 1 if a curve has notes."""
     import matplotlib  # noqa: F401  # raises its error before the computation
-
-    from mbs.vehicle.kinematics.page import page
 
     travel = TRAVEL if options.travel is None else options.travel
     low, high = checked_travel(tuple(1e-3 * v for v in travel))
@@ -102,3 +103,23 @@ def _content(car_kinematics: Any, car_compliance: Any) -> dict[str, Any]:
 def _finite(value: float) -> float | None:
     """The value, or None if it is not finite."""
     return value if math.isfinite(value) else None
+
+
+def page(kinematics: Kinematics, compliance: Compliance) -> str:
+    """HTML text of the page, which needs no other file."""
+    title = f"Kinematics of the car '{kinematics.car}'"
+    parts = [
+        element("h1", title),
+        element("p", "The chassis is held, rigid; the wheel centres move. Terms of ISO 8855: x forward, y left, z up."),
+        *(element("p", text) for text in (*kinematics.notes, compliance.sentence) if text),
+        table(
+            "",
+            ("", "front", "rear", "unit", ""),
+            (line if any(line[1:]) else line[:1] for line in (*rows(kinematics), *compliance_rows(compliance))),
+        ),
+    ]
+    figures = [travel_figure(kinematics, axle) for axle, motion in kinematics.curves if motion == "parallel"]
+    figures += [steer_figure(kinematics) for _, motion in kinematics.curves if motion == "steer"]
+    for figure in figures:
+        parts.append(picture(drawing(figure, figure.get_suptitle())))
+    return document(title, parts)

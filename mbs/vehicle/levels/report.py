@@ -16,11 +16,11 @@ from ali3.near_names import did_you_mean
 from ali3.units import number_with_unit
 from ali3.warning_lines import warning_lines
 from mbs.common.progress import progress_for
-from mbs.vehicle.car_file import load
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.levels.drives import default_drives, read_drive
 from mbs.vehicle.levels.level_choice import OMISSIONS, LevelChoice, cheapest, levels, nearest
 from mbs.vehicle.levels.measure import REFERENCE_STEP, compile_fidelities, measure
+from mbs.vehicle.read_car import load
 
 DEFAULT_TOLERANCES = {"path": 1.0, "loads": 3.0}
 """Percent."""

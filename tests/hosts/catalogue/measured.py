@@ -2,9 +2,9 @@
 
 from typing import Any, cast
 
-from hosts.catalogue.definition import read_test_file
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.record import TestRecord
+from hosts.catalogue.registry import read_test_file
 
 
 def values(record: TestRecord) -> dict[str, float]:

@@ -5,14 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from hosts.catalogue import command
+from hosts.catalogue import campaign, command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import settings_of_test
-from hosts.catalogue.finished_tests import find_record, store_record
 from hosts.catalogue.output import measures_csv
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
-from hosts.catalogue.task import Task, perform_task, write_runs
+from hosts.catalogue.task import Task, find_record, perform_task, store_record, write_runs
 from hosts.experiment.store import ResultStore
 from hosts.fmu.fmu_source import FmuSource
 
@@ -51,7 +50,7 @@ def test_kept_records_are_those_of_the_runs(
     def undone(tasks: list[Task], *_: object) -> object:
         yield from (pytest.fail("it was done again") for _ in tasks)
 
-    monkeypatch.setattr(command, "_finished_tasks", undone)
+    monkeypatch.setattr(campaign, "_finished_tasks", undone)
     options = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
     assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *options]) == 0
     output = capsys.readouterr().out

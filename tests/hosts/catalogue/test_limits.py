@@ -9,13 +9,11 @@ import pytest
 from ali3.units import known_unit
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.definition import read_test_file
 from hosts.catalogue.execution import settings_of_test
-from hosts.catalogue.finished_tests import store_record
 from hosts.catalogue.limits import GivenLimits
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.registry import TESTS, standard_test
-from hosts.catalogue.task import Outcome, Task
+from hosts.catalogue.registry import TESTS, read_test_file, standard_test
+from hosts.catalogue.task import Outcome, Task, store_record
 from hosts.common.errors import HostError
 from hosts.experiment.store import ResultStore
 from hosts.fmu.fmu_source import FmuSource

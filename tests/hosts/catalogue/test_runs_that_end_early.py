@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.dwell_series import DwellRun, filtered_run, sine_with_dwell_table
 from hosts.catalogue.execution import perform
 from hosts.catalogue.registry import TESTS, standard_test
+from hosts.catalogue.standard.sine_with_dwell import DwellRun, filtered_run, sine_with_dwell_table
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from hosts.catalogue.dwell_series import filtered_run, series_amplitudes, sine_with_dwell_table
 from hosts.catalogue.execution import perform
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.standard.sine_with_dwell import filtered_run, series_amplitudes, sine_with_dwell_table
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.common.errors import HostError
-from hosts.measures.slowly_increasing_steer import G
+from hosts.measures.sine_with_dwell import G
 from tests.hosts.catalogue.bicycle import BicycleCar, bicycle, gains
 
 SPEED = 80.0 / 3.6

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from hosts.compare.follower_demand import follower_demand
+from hosts.compare.replay import follower_demand
 from hosts.measures.signal import Signal
 
 

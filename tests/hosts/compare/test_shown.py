@@ -10,8 +10,7 @@ from hosts.common.display_units import axis_shown, number_in, shown_number, titl
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.comparison_text import common_notes, delay_sentence, table
 from hosts.compare.curve import Curve
-from hosts.compare.page import comparison_figure
-from hosts.compare.report import bin_rows
+from hosts.compare.report import bin_rows, comparison_figure
 from hosts.compare.windows import bins
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal

@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ali3.errors import FileError
-from hosts.experiment.journal import Journal
+from hosts.experiment.store import Journal
 
 
 @dataclass

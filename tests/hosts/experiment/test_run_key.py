@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from hosts.experiment.run_key import run_key
+from hosts.experiment.store import run_key
 
 
 def test_the_key_depends_on_the_fmu_its_files_and_the_settings(tmp_path: Path) -> None:

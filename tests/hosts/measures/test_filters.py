@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hosts.measures.filters import crossing, phaseless_low_pass, resample
-from hosts.measures.peak import interpolated_peak
+from hosts.measures.filters import crossing, interpolated_peak, phaseless_low_pass, resample
 
 
 @pytest.mark.parametrize(("frequency", "part"), [(1.0, 1.0), (6.0, 0.5), (9.0, 1.0 / (1.0 + 1.5**12))])

@@ -7,8 +7,7 @@ import pytest
 from scipy.signal import TransferFunction, chirp, lsim
 from scipy.signal.windows import tukey
 
-from hosts.measures.bandwidth import bandwidth
-from hosts.measures.frequency_response import FrequencyResponse, frequency_response
+from hosts.measures.frequency_response import FrequencyResponse, bandwidth, frequency_response
 from hosts.measures.second_order import fit_second_order
 
 W = 8.0  # rad/s

@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hosts.measures.sine_with_dwell import measure_sine_with_dwell
-from hosts.measures.slowly_increasing_steer import G, angle_by_regression
+from hosts.measures.sine_with_dwell import G, angle_by_regression, measure_sine_with_dwell
 
 T = np.arange(-1.0, 4.5, 0.005)
 END = 1.0 / 0.7 + 0.5

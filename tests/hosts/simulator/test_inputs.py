@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hosts.simulator.inputs import Inputs
+from hosts.simulator.driven_fmu import Inputs
 
 H = 0.01
 AT_ONCE = float("inf")

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hosts.simulator.late_causes import CAUSES
 from hosts.simulator.real_time_clock import MAX_LATENESS, RealTimeClock
-from hosts.simulator.step_times import TIMES_SIZE, TimesRecord
+from hosts.simulator.step_times import CAUSES, TIMES_SIZE, TimesRecord
 
 H = 0.002
 SHORT = 0.0005

@@ -23,7 +23,7 @@ from hosts.common.errors import HostError
 from hosts.experiment.cluster import send_experiment
 from hosts.experiment.cluster_runs import ClusterRuns
 from hosts.experiment.cluster_worker import UnpackedFmu
-from hosts.experiment.journal import Journal
+from hosts.experiment.store import Journal
 from hosts.study.command import main
 from hosts.study.outcome_table import Row
 from hosts.study.parts import part_files

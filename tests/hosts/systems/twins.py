@@ -9,7 +9,7 @@ from pythonfmu import Fmi2Slave
 
 import mbs
 from hosts.systems.coupled_fmus import INPUTS
-from mbs.vehicle.port_option import chosen_ports
+from mbs.vehicle.ports import chosen_ports
 from tests.hosts.systems.controlled import CONTROLLERS, INNER, SYSTEMS, run, start_of
 from tests.hosts.systems.weak_coupling import percent
 from tests.modules import module_of

@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hosts.common.errors import HostError
-from hosts.simulator.devices.force import FULL, RISE, ForceLaw
-from hosts.simulator.devices.force_feedback import PULSE
+from hosts.simulator.devices.force_feedback import FULL, PULSE, RISE, ForceLaw
 from hosts.simulator.devices.mapping import DeviceSettings
 from tests.hosts.simulator.devices.haptics import CONSTANT, DAMPER, SPRING, Haptics
 from tests.hosts.simulator.devices.virtual import GAMEPAD, sdl2, until

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from hosts.common.errors import HostError
 from hosts.simulator.devices.defaults import default_mapping
+from hosts.simulator.devices.device import Steering
 from hosts.simulator.devices.mapping import (
     CENTRED,
     MIN_AXIS_RANGE,
@@ -21,7 +22,6 @@ from hosts.simulator.devices.mapping import (
     read_settings,
 )
 from hosts.simulator.devices.reading import Reading, Source
-from hosts.simulator.devices.steering import Steering
 
 UNHURRIED = settings(deadline=None)
 """A busy machine fails no test."""

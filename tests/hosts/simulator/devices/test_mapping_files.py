@@ -6,9 +6,9 @@ import pytest
 
 from ali3.files import FileError
 from hosts.common.errors import HostError
-from hosts.simulator.devices.identity import Identities
 from hosts.simulator.devices.mapping import DeviceMapping, DeviceSettings, InputMapping
 from hosts.simulator.devices.mapping_files import MappingFiles
+from hosts.simulator.devices.reader import Identities
 
 
 def test_a_mapping_is_read_as_it_was_written(tmp_path):

@@ -13,7 +13,7 @@ import { roadUnder, tyresOf } from "./tyres.js";
 
 /** Least radius of drawn tubes of flexible bodies, as a share of the size of the drawing. */
 const MIN_RADIUS = 0.003;
-/** Name of shapes hidden by covers, as in mbs/vehicle/shapes/tube_frame.py. */
+/** Name of shapes hidden by covers, as in mbs/vehicle/shapes/car_shapes.py. */
 const HIDDEN_NAME = "frame tube";
 /** Distance of parts of a ghost from those of the run below which they are hidden, as a share of the size of the drawing. */
 const COINCIDENCE_DISTANCE = 0.01;

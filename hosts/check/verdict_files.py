@@ -1,19 +1,30 @@
-"""JUnit files of a check, which CI servers read.
+"""The verdict of a check as a file: JUnit for CI servers, and SARIF for code hosts and editors.
 
-The elements and attributes are those that pytest writes (its schema ``xunit2``) and servers agree on.
+The elements and attributes of JUnit are those that pytest writes (its schema ``xunit2``) and servers agree on; SARIF is
+version 2.1.0 of OASIS.
 """
 
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 from xml.etree import ElementTree
 
-from ali3.files import atomic_file
+from ali3.files import atomic_file, write_json
 
 _MAX_TEXT_LENGTH = 10_000  # characters
 _FORBIDDEN = re.compile(r"[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+# By verdict: kind and level of a result.
+_KINDS = {
+    "good": ("pass", "none"),
+    "note": ("open", "none"),
+    "bad": ("fail", "error"),
+    "error": ("fail", "error"),
+    "skipped": ("notApplicable", "none"),
+}
 
 
 @dataclass(frozen=True)
@@ -61,3 +72,24 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
 def _text(message: str) -> str:
     """A message cut to the longest text, with ? instead of characters that XML does not allow."""
     return _FORBIDDEN.sub("?", message[:_MAX_TEXT_LENGTH])
+
+
+def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
+    """Write the cases as one run with a rule for each check and a result for each case.
+
+    `file`: whole or not at all; its folder is made. Raises `FileError` if the file cannot be written.
+    """
+    names = list(dict.fromkeys(case.name for case in cases))
+    driver = {
+        "name": "ali3 check",
+        "version": version("ali3"),
+        "rules": [{"id": name, "shortDescription": {"text": name}} for name in names],
+    }
+    location = {"physicalLocation": {"artifactLocation": {"uri": fmu.name}}}
+    results: list[dict[str, Any]] = []
+    for case in cases:
+        kind, level = _KINDS[case.verdict]
+        result = {"ruleId": case.name, "ruleIndex": names.index(case.name), "kind": kind, "level": level}
+        results.append(result | {"message": {"text": case.words}, "locations": [location]})
+    run = {"tool": {"driver": driver}, "results": results}
+    write_json(file, {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]})
