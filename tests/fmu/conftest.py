@@ -20,8 +20,7 @@ from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.native.platforms import PYTHON_PLATFORMS, this_platform
 from hosts.fmu.fmu import unpack
 from tests import kinds
-from tests.fmu.calls import OK
-from tests.fmu.host3 import Slave3
+from tests.fmu.calls import OK, Slave3
 from tests.forked import forked
 
 SCENES = Path(__file__).parent / "scenes.py"

@@ -159,8 +159,7 @@ def test_variables_without_another_name_are_reported_with_the_reason(tmp_path: P
 def test_a_body_on_the_ground_and_a_road_without_friction_are_reported_under_other_names(host, tmp_path) -> None:
     """The force of the ground counts downwards; the friction is set while driving."""
     (tmp_path / "names.toml").write_text(
-        '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n"road.friction" = "Mu"\n',
-        encoding="utf-8",
+        '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n"road.friction" = "Mu"\n', encoding="utf-8"
     )
     name, system = load_scene("prototype_car")
     path = build_fmu(system, name, tmp_path, [fmpy.platform], names=read_content(tmp_path / "names.toml"))
