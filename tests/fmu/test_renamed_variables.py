@@ -64,7 +64,7 @@ def test_values_rates_and_derivatives_are_ours_converted(host, build, renamed_cr
     # the end of the range is the other one
     assert theirs.set("Motor.Trq", -0.5) == 0
     assert "'Motor.Trq' was set to -0.5 N.m and is held at -0.03" in theirs.messages[-1]
-    state = theirs.slave.serializeFMUstate(theirs.slave.getFMUstate())
+    state = theirs.saved()
     theirs.step(0.2, 0.01)
     after = theirs.get("X")
     assert theirs.restore(bytes(state)) == 0

@@ -212,7 +212,7 @@ def test_reset_takes_it_away(car: Path, host: Any, roads: Path) -> None:
 def test_a_state_brings_its_road_with_it(car: Path, host: Any, roads: Path) -> None:
     driven = on_road(host(car), roads / "rough.road", {"initial.speed": 12.0})
     heights(driven, 50)
-    state = driven.slave.serializeFMUstate(driven.slave.getFMUState())
+    state = driven.saved()
     later = heights(driven, 100, 50 * H)
     for other in (host(car), host(car).start()):
         assert other.restore(state) == OK, other.messages
