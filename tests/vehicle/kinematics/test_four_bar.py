@@ -94,6 +94,7 @@ def test_ackermann_and_turning_circle_of_upright_steering_axes():
     car = LEVEL.car(tie_rod_inner=(-0.14, 0.30, 0.15), tie_rod_outer=(-0.12, 0.57, 0.15))
     assert car.rack_direction == -1.0  # rods behind the axle
     c = steer_curve(Linkage(car, "front"), np.linspace(-0.05, 0.05, 11), wheel_by_rack(car))
+    assert (np.diff(c["steering_wheel_angle"]) > 0.0).all()
     kingpin_y = 0.60
     offset, base = TRACK_HALF - kingpin_y, car.wheelbase
     for k in (0, 2, 8, 10):
