@@ -12,6 +12,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from filelock import FileLock
@@ -129,6 +130,16 @@ def renamed_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Cal
         return next(made_once(f"rigid_{names}", lambda folder: build_fmu(folder, *options)).glob("*.fmu"))
 
     return make
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    """A Chromium without a window; tests are skipped where there is none."""
+    from tests.in_browser import bundle_or_skip, headless_chromium
+
+    bundle_or_skip()
+    with headless_chromium() as browser:
+        yield browser
 
 
 @pytest.fixture(autouse=True)

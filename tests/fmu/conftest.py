@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
@@ -20,8 +20,7 @@ from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.native.platforms import PYTHON_PLATFORMS, this_platform
 from hosts.fmu.fmu import unpack
 from tests import kinds
-from tests.fmu.calls import OK
-from tests.fmu.host3 import Slave3
+from tests.fmu.calls import OK, Slave3
 from tests.forked import forked
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -183,6 +182,10 @@ class Host:
     def set(self, name: str, value: float) -> int:
         return self.call("setReal", [self.references[name]], [value])
 
+    def saved(self) -> bytes:
+        """The state as bytes."""
+        return bytes(self.slave.serializeFMUstate(self.slave.getFMUstate()))
+
     def restore(self, data: bytes) -> int:
         """Status of setting a serialised state, whichever of the two calls refuses it."""
         try:
@@ -200,6 +203,10 @@ class Host:
         while names[-1] in SOLVER:
             names.pop()
         return list(self.slave.getReal([self.references[n] for n in names]))
+
+    def everything(self, but: Collection[str] = ()) -> list[float]:
+        """All variables but those named, the solver's figures too."""
+        return list(self.slave.getReal([r for name, r in self.references.items() if name not in but]))
 
     def step(self, time: float, step: float) -> int:
         return self.call("doStep", time, step)

@@ -140,9 +140,7 @@ def test_a_stress_causes_no_warning(kerb: Path) -> None:
 
 
 @pytest.mark.slow
-def test_an_output_that_no_system_computes_is_reported_once_a_run(
-    tmp_path: Path,
-) -> None:
+def test_an_output_that_no_system_computes_is_reported_once_a_run(tmp_path: Path) -> None:
     """The rigid car alone: there is no System with ports beside it."""
     alone = build_fmu(compile(kerb_test.build(0)), "alone", tmp_path, [fmpy.platform])
     ((status, category, text),) = logged(alone, None, ["chassis.x", "stress.SG3", "bending_moment.SG1"])

@@ -25,7 +25,7 @@ from mbs.scenes import double_four_bar
 from mbs.shapes.pose_outputs import pose_outputs
 from mbs.system.drawing import POSE
 from mbs.vehicle import load
-from tests.vehicle.column_car import column_car
+from tests.vehicle.rigid_car import column_car
 from tests.viewer.poses import FramePoses
 
 CARS = ("prototype", "hatchback")

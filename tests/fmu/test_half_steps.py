@@ -18,6 +18,28 @@ FALL = {"initial.z": 0.18, "initial.speed": 8.4}  # onto the metal of the reboun
 WORDS = "computed again with 1/"
 EVERY = 0.008  # s, in which springs are off by 16 %
 SPAN = 0.8  # s
+TIP = ("tip.x", "tip.y")
+
+
+def run(driven: Any, h: float, steps: int, names: Sequence[str] = (), first: int = 0) -> np.ndarray:
+    """Outputs after each of so many communication steps of h, shape (steps, names)."""
+    rows = []
+    for k in range(first, first + steps):
+        driven.step(k * h, h)
+        rows.append([driven.get(name) for name in names])
+    return np.array(rows)
+
+
+def warnings_of(driven: Any) -> list[str]:
+    """What was said of the second motion."""
+    return [m for m in driven.messages if WORDS in m]
+
+
+def to_the_end(driven: Any, step: float, h: float, steps: int, names: Sequence[str]) -> tuple[np.ndarray, list[str]]:
+    """Outputs of a run, and what is said of the second motion until its end."""
+    rows = run(driven.start({"step_size": step}), h, steps, names)
+    driven.slave.terminate()
+    return rows, warnings_of(driven)
 
 
 def drive(
@@ -30,11 +52,8 @@ def drive(
 ) -> tuple[np.ndarray, list[str]]:
     """Forces at communication points, and what was said of the second motion."""
     driven.start(values | {"step_size": step})
-    rows = []
-    for k in range(round(span / every)):
-        driven.step(k * every, every)
-        rows.append([driven.get(name) for name in (*FORCES, *more)])
-    return np.array(rows), [m for m in driven.messages if WORDS in m]
+    rows = run(driven, every, round(span / every), (*FORCES, *more))
+    return rows, warnings_of(driven)
 
 
 @pytest.mark.slow
@@ -104,28 +123,29 @@ def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu: Path, h
     assert warnings
     pose = mbs.Pose(z=FALL["initial.z"], speed=FALL["initial.speed"])
     system = mbs.compile(prototype_car.build())
-    run = mbs.simulate(system, SPAN, EVERY, pose=pose, progress=False, estimate_error=False)
-    assert (found == np.array([run[name] for name in FORCES]).T[1:]).all()
+    motion = mbs.simulate(system, SPAN, EVERY, pose=pose, progress=False, estimate_error=False)
+    assert (found == np.array([motion[name] for name in FORCES]).T[1:]).all()
 
 
 def test_a_step_that_is_divided_at_an_abrupt_force_has_the_derivative_of_its_parts(
     prototype_fmu: Path, host: HostMaker
 ) -> None:
     """That of both sides to 1e-3, or a reason; one that is not divided has none that says so."""
-    h, part, run = 0.01, 6e-4, mbs.Simulation(mbs.compile(prototype_car.build()), pose=mbs.Pose(z=0.18, speed=8.4))
+    h, part = 0.01, 6e-4
+    engine = mbs.Simulation(mbs.compile(prototype_car.build()), pose=mbs.Pose(z=0.18, speed=8.4))
     driven = host(prototype_fmu).start(FALL | {"step_size": h})
     unknown, known = [driven.references["chassis.yaw"]], [driven.references["steering"]]
     results = {True: 0, False: 0}
     for k in range(40):
-        before, state = run.report.divisions, driven.slave.getFMUstate()
-        run.step(h)
+        before, state = engine.report.divisions, driven.slave.getFMUstate()
+        engine.step(h)
         ends = []
         for steering in (part, -part, 0.0):
             driven.slave.setFMUstate(state)
             driven.set("steering", steering)
             driven.step(k * h, h)
             ends.append(driven.get("chassis.yaw"))
-        divided, count = run.report.divisions > before, len(driven.messages)
+        divided, count = engine.report.divisions > before, len(driven.messages)
         if driven.call("getDirectionalDerivative", unknown, known, [1.0]) == OK:
             (slope,) = driven.slave.getDirectionalDerivative(unknown, known, [1.0])
             assert slope == pytest.approx((ends[0] - ends[1]) / (2.0 * part), rel=1e-3, abs=1e-7)
@@ -137,11 +157,10 @@ def test_a_step_that_is_divided_at_an_abrupt_force_has_the_derivative_of_its_par
 def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: HostMaker) -> None:
     for end in ("terminate", "reset", "freeInstance"):
         driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
-        for k in range(round(0.3 / EVERY)):
-            driven.step(k * EVERY, EVERY)
+        run(driven, EVERY, round(0.3 / EVERY))
         assert driven.messages == []
         getattr(driven.slave, end)()
-        assert [m for m in driven.messages if WORDS in m]
+        assert warnings_of(driven)
 
 
 def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host: HostMaker) -> None:
@@ -156,7 +175,7 @@ def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host
             assert driven.set("brakes.hand_torque", torques[k % 2]) == 0
             driven.step(k * 2.5e-3, 2.5e-3)
             rows.append([driven.get(name) for name in FORCES])
-        runs.append((rows, [m for m in driven.messages if WORDS in m]))
+        runs.append((rows, warnings_of(driven)))
     assert runs[0] == runs[1]
     assert "at least" in runs[0][1][0]
 
@@ -167,7 +186,7 @@ def test_a_run_that_starts_before_0_is_reported_the_same(prototype_fmu: Path, ho
         driven = host(prototype_fmu).start(FALL | {"step_size": EVERY}, start)
         for k in range(round(SPAN / EVERY)):
             driven.step(start + k * EVERY, EVERY)
-        forces += [re.search(r"about (\d+) N", m)[1] for m in driven.messages if WORDS in m]
+        forces += [re.search(r"about (\d+) N", m)[1] for m in warnings_of(driven)]
     assert len(forces) == 2
     assert forces[0] == forces[1]
 
@@ -177,14 +196,11 @@ def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMake
     driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
     driven.step(0.0, EVERY)
     state = driven.slave.getFMUstate()
-    for k in range(1, round(0.14 / EVERY)):
-        driven.step(k * EVERY, EVERY)
+    run(driven, EVERY, round(0.14 / EVERY) - 1, first=1)
     driven.slave.setFMUstate(state)
-    for k in range(1, round(SPAN / EVERY)):
-        driven.step(k * EVERY, EVERY)
-    (messages,) = [m for m in driven.messages if WORDS in m]
-    plain = drive(host(prototype_fmu), EVERY)[1]
-    assert [messages] == plain
+    run(driven, EVERY, round(SPAN / EVERY) - 1, first=1)
+    assert len(warnings_of(driven)) == 1
+    assert warnings_of(driven) == drive(host(prototype_fmu), EVERY)[1]
 
 
 def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu: Path, host: HostMaker) -> None:
@@ -193,9 +209,8 @@ def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu: Path, host: 
     for _ in range(2):
         driven.slave.setFMUstate(state)
         driven.messages.clear()
-        for k in range(50):
-            driven.step(k * 0.02, 0.02)
-        warnings.append([m for m in driven.messages if WORDS in m])
+        run(driven, 0.02, 50)
+        warnings.append(warnings_of(driven))
         driven.slave.reset()
         driven.start({"step_size": 0.02})
     assert len(warnings[0]) == 1
@@ -205,8 +220,7 @@ def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu: Path, host: 
 def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build: Callable[..., Path], host: HostMaker) -> None:
     """Each hop is abrupt, so the two motions go apart until the second one ends; half a second later it is judged."""
     driven = host(build("hopper")).start({"step_size": 0.004})
-    for k in range(850):
-        driven.step(k * 0.004, 0.004)
+    run(driven, 0.004, 850)
     (messages,) = driven.messages
     assert WORDS in messages
     assert float(messages.split("At ")[1].split(" s")[0]) < 2.8
@@ -220,14 +234,12 @@ def test_places_or_rates_are_compared_without_a_road_and_outputs_at_rest_judge_n
     h: float, span: float, scene: str, build: Callable[..., Path], host: HostMaker
 ) -> None:
     """A double pendulum in long steps: its tip goes elsewhere, or is right; its pin is open by round-off."""
-    ends, names = [], ["tip.x", "tip.y"]
+    ends = []
     for step in (2e-4, h):
-        driven, rows = host(build(scene)).start({"step_size": step}), []
-        for k in range(round(span / h)):
-            driven.step(k * h, h)
-            rows.append([driven.get(name) for name in names])
+        driven = host(build(scene)).start({"step_size": step})
+        rows = run(driven, h, round(span / h), TIP)
         driven.slave.terminate()
-        ends.append((np.array(rows), driven.messages))
+        ends.append((rows, driven.messages))
     (fine, nothing), (coarse, messages) = ends
     error = np.abs(coarse - fine).max() / np.ptp(fine, axis=0).max()
     assert nothing == []
@@ -241,16 +253,14 @@ def test_places_or_rates_are_compared_without_a_road_and_outputs_at_rest_judge_n
 def test_a_step_that_is_halved_is_made_twice(build: Callable[..., Path], host: HostMaker) -> None:
     """A state that is set ends the second motion of the start; the next step that the solver halves begins one."""
     driven = host(build("crank_slider")).start({"torque": 4.0, "step_size": 1e-3})
-    for k in range(300):
-        driven.step(k * 1e-3, 1e-3)
+    run(driven, 1e-3, 300)
     halvings = driven.get("solver.halvings")
-    assert not any(WORDS in m for m in driven.messages)
+    assert not warnings_of(driven)
     driven.slave.setFMUstate(driven.slave.getFMUstate())
-    for k in range(300, 2000):
-        driven.step(k * 1e-3, 1e-3)
+    run(driven, 1e-3, 1700, first=300)
     assert driven.get("solver.halvings") > halvings
     driven.slave.terminate()
-    assert any(WORDS in m for m in driven.messages)
+    assert warnings_of(driven)
 
 
 def test_steps_that_are_all_halved_are_compared_with_half_of_their_halves(
@@ -258,54 +268,37 @@ def test_steps_that_are_all_halved_are_compared_with_half_of_their_halves(
 ) -> None:
     """Steps of 0.1 s are made as two of 0.05 s, and the slider is off by 24 % of its range."""
     driven = host(scene_fmu("flyball")).start({"step_size": 0.1})
-    for k in range(100):
-        driven.step(k * 0.1, 0.1)
+    run(driven, 0.1, 100)
     assert driven.get("solver.halvings") >= 100
     driven.slave.terminate()
-    (warning,) = [m for m in driven.messages if WORDS in m]
+    (warning,) = warnings_of(driven)
     assert "computed again with 1/4 of it" in warning
     assert float(re.search(r"([\d.]+) %", warning)[1]) == pytest.approx(24.0, abs=2.0)
 
 
 def test_steps_of_seconds_are_compared_as_often_as_short_ones(build: Callable[..., Path], host: HostMaker) -> None:
     """Of 600 steps of 6 s; stops are met from the 60th on."""
-    rows, warnings = [], []
-    for step in (0.1, 6.0):
-        driven = host(build("slow_stops")).start({"step_size": step})
-        for k in range(600):
-            driven.step(k * 6.0, 6.0)
-            rows.append([driven.get(f"y{i}") for i in range(2)])
-        driven.slave.terminate()
-        warnings.append([m for m in driven.messages if WORDS in m])
-    fine, coarse = np.split(np.array(rows), 2)
+    (fine, nothing), (coarse, warnings) = (
+        to_the_end(host(build("slow_stops")), step, 6.0, 600, ("y0", "y1")) for step in (0.1, 6.0)
+    )
     assert np.abs(coarse - fine).max() > 0.05 * np.ptp(fine, axis=0).max()
-    assert [len(w) for w in warnings] == [0, 1]
+    assert (len(nothing), len(warnings)) == (0, 1)
 
 
 def test_short_steps_of_a_motion_that_parts_late_are_reported(build: Callable[..., Path], host: HostMaker) -> None:
     """The double pendulum is right for 2 s, and off by a quarter after 3 s."""
-    tips, warnings = [], []
-    for step in (5e-5, 1e-3):
-        driven = host(build("double_pendulum")).start({"step_size": step})
-        for k in range(250):
-            driven.step(k * 0.02, 0.02)
-            tips.append([driven.get(name) for name in ("tip.x", "tip.y")])
-        warnings.append([m for m in driven.messages if WORDS in m])
-    off = np.abs(np.subtract(*np.split(np.array(tips), 2))).max(axis=1) / 0.4
+    fine, coarse = (host(build("double_pendulum")).start({"step_size": step}) for step in (5e-5, 1e-3))
+    off = np.abs(run(fine, 0.02, 250, TIP) - run(coarse, 0.02, 250, TIP)).max(axis=1) / 0.4
     assert off[:100].max() < 0.01
     assert off[:150].max() > 0.2
-    assert len(warnings[1]) == 1
+    assert len(warnings_of(coarse)) == 1
 
 
 def going(driven: Any, h: float, span: float) -> tuple[np.ndarray, list[str]]:
     """The tip of a rod every 0.1 s, and what is said, to a host that asks for all."""
     driven.start({"step_size": h})
     driven.slave.setDebugLogging(True, ["logAll"])
-    rows = []
-    for k in range(round(span / 0.1)):
-        driven.step(k * 0.1, 0.1)
-        rows.append([driven.get(name) for name in ("tip.x", "tip.y")])
-    return np.array(rows), driven.messages
+    return run(driven, 0.1, round(span / 0.1), TIP), driven.messages
 
 
 def test_a_growing_error_is_extrapolated_after_the_last_second_motion(
@@ -338,8 +331,7 @@ def test_nothing_is_made_twice_where_no_output_is_compared(
     """Else a state that is set ends a second motion, which the log tells."""
     driven = host(build(scene)).start({"step_size": 0.02})
     driven.slave.setDebugLogging(True, ["logAll"])
-    for k in range(5):
-        driven.step(k * 0.02, 0.02)
+    run(driven, 0.02, 5)
     driven.slave.setFMUstate(driven.slave.getFMUstate())
     assert len([m for m in driven.messages if "second motion" in m]) == times
 
@@ -362,20 +354,14 @@ def test_a_stop_that_is_met_late_is_reported_where_it_is_wrong_and_only_there(
     h: float, scene: str, build: Callable[..., Path], host: HostMaker
 ) -> None:
     """Without a road too: what is made twice from the start on ends before the spring is met."""
-    forces, warnings = [], []
-    for step in (2e-4, h):
-        driven = host(build(scene)).start({"step_size": step})
-        for k in range(1100):
-            driven.step(k * 0.01, 0.01)
-            forces.append(driven.get("spring.force"))
-        driven.slave.terminate()
-        warnings.append([m for m in driven.messages if WORDS in m])
-    fine, coarse = np.split(np.array(forces), 2)
+    (fine, nothing), (coarse, warnings) = (
+        to_the_end(host(build(scene)), step, 0.01, 1100, ("spring.force",)) for step in (2e-4, h)
+    )
     error = np.abs(coarse - fine).max() / np.abs(fine).max()
-    assert warnings[0] == []
-    assert len(warnings[1]) == (error > 0.05)
+    assert nothing == []
+    assert len(warnings) == (error > 0.05)
     assert (error > 0.05) == (h > 0.005)
-    for message in warnings[1]:
+    for message in warnings:
         off, part = re.search(
             r"spring.force is off by about ([\d.]+) N, ([\d.]+) %+ of the largest load", message
         ).groups()

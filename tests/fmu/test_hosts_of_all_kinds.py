@@ -84,10 +84,22 @@ def test_a_step_beyond_the_stop_time_is_an_error(crane: Path, host: HostMaker) -
     assert driven.step(0.02, 2 * H) == ERROR
     assert "stop time 0.03" in driven.messages[-1]
     assert driven.step(0.02, H) == OK
-    other = host(crane)
-    assert ERROR in (other.call("setupExperiment", None, 1.0, 0.5), other.call("enterInitializationMode"))
-    other.slave.reset()
-    assert other.call("setupExperiment", None, 1.0, 1.0) == other.call("enterInitializationMode") == OK
+
+
+def test_a_run_may_end_where_it_starts(crane: Path, host: HostMaker) -> None:
+    """Then no step fits; its state can be set again; an end before the start is refused."""
+    driven = host(crane)
+    assert ERROR in (driven.call("setupExperiment", None, 2.0, 1.0), driven.call("enterInitializationMode"))
+    assert "lies before the start time 2 s" in driven.messages[-1]
+    driven.slave.reset()
+    assert driven.call("setupExperiment", None, 2.0, 2.0) == driven.call("enterInitializationMode") == OK
+    assert driven.call("exitInitializationMode") == OK
+    before = driven.outputs()
+    assert driven.restore(driven.saved()) == OK
+    assert driven.outputs() == before
+    assert not driven.three or driven.get("time") == 2.0
+    assert driven.step(2.0, H) == ERROR
+    assert "beyond the stop time" in driven.messages[-1]
 
 
 def test_an_input_without_limits(build: Callable[..., Path], host: HostMaker) -> None:

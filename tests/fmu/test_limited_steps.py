@@ -37,15 +37,11 @@ def status_of(driven: Any, k: int, h: float = H) -> int:
     return int(driven.whole_status(k * h, h))
 
 
-def everything(driven: Any, but: tuple[str, ...] = ()) -> list[float]:
-    return list(driven.slave.getReal([r for name, r in driven.references.items() if name not in but]))
-
-
 def test_no_limit_and_one_that_is_not_reached_give_the_same_bits(slider: Path, host: HostMaker) -> None:
     free, limited = (start(host(slider), limit) for limit in (0, 30))
     for k in range(200):
         assert status_of(free, k) == status_of(limited, k) == OK
-    assert everything(free, (LIMIT,)) == everything(limited, (LIMIT,))
+    assert free.everything((LIMIT,)) == limited.everything((LIMIT,))
     assert free.get("solver.capped_steps") == free.get("solver.capped_residual") == 0.0
 
 
@@ -105,12 +101,12 @@ def test_a_saved_state_keeps_the_limit_its_count_and_its_messages(slider: Path, 
         status_of(driven, k)
         k += 1
     other = host(slider)
-    assert other.restore(bytes(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))) == OK
-    assert everything(other) == everything(driven)
+    assert other.restore(driven.saved()) == OK
+    assert other.everything() == driven.everything()
     count = len(driven.messages)
     for i in range(k, k + STEPS):
         assert status_of(other, i) == status_of(driven, i)
-    assert everything(other) == everything(driven)
+    assert other.everything() == driven.everything()
     assert other.messages == driven.messages[count:]
     assert driven.get("solver.capped_steps") > 10
 

@@ -13,6 +13,9 @@ import pytest
 
 import mbs
 from fmu_src.build.scene_registry import load_scene
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
+from mbs.scenes import prototype_car
 from mbs.simulation.state import Pose
 from tests import kinds
 from tests.fmu import scenes
@@ -164,3 +167,33 @@ def test_a_start_beyond_the_digits_is_refused_by_its_name(prototype_fmu: Path, h
         assert "wishbone" not in message
         assert driven.set(name, 0.0) == OK
     assert driven.call("exitInitializationMode") == OK
+
+
+IN_MOTION = {"initial.speed": 20.0, "initial.lateral_speed": 0.3, "initial.yaw_rate": 0.25}
+OUTPUTS = ("chassis.roll", "chassis.ay", "wheel_FL.Fz", "wheel_RR.Fy", "energy.kinetic", "chassis.x")
+
+
+def test_a_settled_start_is_that_of_the_engine(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu).start(
+        {**IN_MOTION, "steering": 0.1, "brake": 0.1, "step_size": STEP, "initial.settling": 1.0}
+    )
+    system = mbs.compile(prototype_car.build())
+    instance = Instance(LoadedSystem(system.to_bytes()))
+    inputs, sensors = ([entry["name"] for entry in system.meta[k]] for k in ("inputs", "sensors"))
+    for name in ("steering", "brake"):
+        instance.set_input(inputs.index(name), 0.1)
+    instance.set_pose(0.0, 0.0, 0.0, 0.0, *IN_MOTION.values())
+    instance.initialise(0.0)
+    instance.settle(1.0, STEP)
+    for k in range(10):
+        actual = instance.sensors()
+        assert [driven.get(n) for n in OUTPUTS] == [actual[sensors.index(n)] for n in OUTPUTS]
+        assert driven.step(k * STEP, STEP) == 0
+        instance.step(STEP)
+    assert abs(actual[sensors.index("chassis.roll")]) > 0.03
+
+
+def test_a_start_that_has_not_settled_is_reported(prototype_fmu: Path, host: HostMaker) -> None:
+    short, long = (host(prototype_fmu).start({**IN_MOTION, "initial.settling": t}) for t in (0.1, 3.0))
+    assert any("has not settled" in m and "initial.settling" in m for m in short.messages)
+    assert not any("settle" in m for m in long.messages)

@@ -70,7 +70,7 @@ def test_a_ramp_is_followed_inside_the_step(build: Callable[..., Path], host: Ho
 def test_derivatives_set_are_part_of_the_state(build: Callable[..., Path], host: HostMaker) -> None:
     driven = host(build("crane", "native")).start()
     assert slope(driven, "torque", 1, 50.0) == OK
-    data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    data = driven.saved()
     assert driven.step(0.0, STEP) == OK
     expected = driven.outputs()
     other = host(build("crane", "native"))
@@ -135,7 +135,7 @@ def test_outputs_by_inputs_of_a_communication_step(
     assert np.all(np.abs(actual - expected) < DERIVATIVE_ERROR * scale)
     assert np.min(np.abs(expected)) > 0.0
     assert derivative(driven, unknown, known, [-3.0]) == pytest.approx([-3.0 * x for x in actual], rel=1e-6)
-    assert other.restore(driven.slave.serializeFMUstate(driven.slave.getFMUstate())) == OK
+    assert other.restore(driven.saved()) == OK
     assert derivative(other, unknown, known, [1.0]) == actual
     assert other.step(20 * INNER + step, step) == driven.step(20 * INNER + step, step) == OK
     assert other.outputs() == driven.outputs()

@@ -42,7 +42,7 @@ def both(pair: list[Any], function: str, *arguments: Any) -> Any:
 
 
 def states(pair: list[Any]) -> list[bytes]:
-    return [bytes(d.slave.serializeFMUstate(d.slave.getFMUstate())) for d in pair]
+    return [d.saved() for d in pair]
 
 
 def random_call(rng: random.Random, references: dict[str, int], time: float) -> tuple[str, tuple[Any, ...]]:

@@ -64,7 +64,7 @@ def test_values_rates_and_derivatives_are_ours_converted(host, build, renamed_cr
     # the end of the range is the other one
     assert theirs.set("Motor.Trq", -0.5) == 0
     assert "'Motor.Trq' was set to -0.5 N.m and is held at -0.03" in theirs.messages[-1]
-    state = theirs.slave.serializeFMUstate(theirs.slave.getFMUstate())
+    state = theirs.saved()
     theirs.step(0.2, 0.01)
     after = theirs.get("X")
     assert theirs.restore(bytes(state)) == 0
@@ -159,8 +159,7 @@ def test_variables_without_another_name_are_reported_with_the_reason(tmp_path: P
 def test_a_body_on_the_ground_and_a_road_without_friction_are_reported_under_other_names(host, tmp_path) -> None:
     """The force of the ground counts downwards; the friction is set while driving."""
     (tmp_path / "names.toml").write_text(
-        '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n"road.friction" = "Mu"\n',
-        encoding="utf-8",
+        '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n"road.friction" = "Mu"\n', encoding="utf-8"
     )
     name, system = load_scene("prototype_car")
     path = build_fmu(system, name, tmp_path, [fmpy.platform], names=read_content(tmp_path / "names.toml"))

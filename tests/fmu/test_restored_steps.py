@@ -38,20 +38,11 @@ def pair(build: Callable[..., Path], host: HostMaker, step_size: float) -> tuple
     return results[0], results[1]
 
 
-def everything(driven: Any) -> list[float]:
-    """All variables, the solver's figures too."""
-    return list(driven.slave.getReal(list(driven.references.values())))
-
-
 def derivative(driven: Any) -> list[float]:
     """Of the outputs by the input, over the last good step; it looks at the present forces."""
     names = ("bob.x", "bob.vx", "energy.total")
     known = [driven.references["pull"]]
     return list(driven.slave.getDirectionalDerivative([driven.references[n] for n in names], known, [1.0]))
-
-
-def state(driven: Any) -> bytes:
-    return bytes(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))
 
 
 def slope(driven: Any, order: int, value: float) -> int:
@@ -67,7 +58,7 @@ def goes_on_as(tried: Any, other: Any) -> None:
     for k in range(3):
         time = (BEFORE + k) * H
         assert tried.step(time, H) == other.step(time, H) == OK
-        assert everything(tried) == everything(other)
+        assert tried.everything() == other.everything()
 
 
 CHANGES: dict[str, Callable[[Any], Any]] = {
@@ -86,14 +77,14 @@ def test_the_state_is_the_one_before(pair: tuple[Any, Any], change: str) -> None
     tried, other = pair
     for driven in pair:
         CHANGES[change](driven)
-    before = state(tried)
+    before = tried.saved()
     refused(tried)
-    assert state(tried)[HEADER:] == before[HEADER:] == state(other)[HEADER:]
-    assert everything(tried) == everything(other)
+    assert tried.saved()[HEADER:] == before[HEADER:] == other.saved()[HEADER:]
+    assert tried.everything() == other.everything()
     assert derivative(tried) == derivative(other)
     for driven in pair:  # what was set takes effect with the next step
         assert driven.step(BEFORE * H, 0.1 * H) == OK
-    assert everything(tried) == everything(other)
+    assert tried.everything() == other.everything()
     used = tried.references["pull_used"]
     assert tried.slave.getReal([used])[0] > UNDONE["pull"]
 

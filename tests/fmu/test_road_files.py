@@ -67,6 +67,12 @@ def get(host: Any) -> str:
     return str(value.decode() if isinstance(value, bytes) else value)
 
 
+def on_road(driven: Any, road: object, start: dict[str, float] | None = None) -> Any:
+    """An instance that is started on a road."""
+    assert text(driven, str(road)) == OK, driven.messages
+    return driven.start(start or {})
+
+
 def heights(host: Any, steps: int = 300, time: float = 0.0) -> list[float]:
     results = []
     for k in range(steps):
@@ -90,9 +96,7 @@ def test_the_description_has_it_after_all_others(car: Path) -> None:
 
 
 def test_a_path_gives_the_same_bits_as_in_python(car: Path, host: Any, roads: Path) -> None:
-    driven = host(car)
-    assert text(driven, str(roads / "rough.road")) == OK
-    driven.start({"initial.speed": 12.0})
+    driven = on_road(host(car), roads / "rough.road", {"initial.speed": 12.0})
     assert get(driven) == str(roads / "rough.road")
     system = mbs.compile(prototype_car.build())
     simulation = mbs.Simulation(system, pose=mbs.Pose(speed=12.0), parameters={"road.file": roads / "rough.road"})
@@ -106,9 +110,7 @@ def test_a_path_gives_the_same_bits_as_in_python(car: Path, host: Any, roads: Pa
 def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(car: Path, host: Any, tmp_path: Path) -> None:
     road = tmp_path / "steep.road"
     write_road(PlaneRoad(0.0, np.tan(np.radians(30.0)), 0.0, 1.0), road)
-    driven = host(car)
-    assert text(driven, str(road)) == OK
-    driven.start()
+    driven = on_road(host(car), road)
     assert 0.0 < driven.get("chassis.ground_force") < 1e-9  # it is put down until a point of it touches
     assert not [m for m in driven.messages if "rests on its body" in m]
     simulation = mbs.Simulation(mbs.compile(prototype_car.build()), parameters={"road.file": road})
@@ -119,9 +121,7 @@ def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(car: Path, h
 
 def test_the_roads_in_the_resources_are_found_by_name(car: Path, host: Any) -> None:
     for path in sorted(FOLDER.glob("*.road")):
-        driven = host(car)
-        assert text(driven, path.name) == OK
-        driven.start({"initial.speed": 10.0})
+        driven = on_road(host(car), path.name, {"initial.speed": 10.0})
         assert np.all(np.isfinite(heights(driven, 20)))
 
 
@@ -153,9 +153,7 @@ def test_a_uri_and_letters_of_any_language(car: Path, host: Any, roads: Path) ->
     place = roads / "straße путь 道.road"
     place.write_bytes((roads / "high.road").read_bytes())
     for value in (str(place), place.as_uri(), place.as_uri().replace("file:", "FILE:")):
-        driven = host(car)
-        assert text(driven, value) == OK, driven.messages
-        driven.start()
+        driven = on_road(host(car), value)
         assert driven.get("chassis.z") > 2.0
 
 
@@ -212,11 +210,9 @@ def test_reset_takes_it_away(car: Path, host: Any, roads: Path) -> None:
 
 
 def test_a_state_brings_its_road_with_it(car: Path, host: Any, roads: Path) -> None:
-    driven = host(car)
-    text(driven, str(roads / "rough.road"))
-    driven.start({"initial.speed": 12.0})
+    driven = on_road(host(car), roads / "rough.road", {"initial.speed": 12.0})
     heights(driven, 50)
-    state = driven.slave.serializeFMUstate(driven.slave.getFMUState())
+    state = driven.saved()
     later = heights(driven, 100, 50 * H)
     for other in (host(car), host(car).start()):
         assert other.restore(state) == OK, other.messages
@@ -268,18 +264,14 @@ def test_a_road_that_is_cut_while_driving_is_a_refused_step(car: Path, host: Any
 
 
 def test_starts_on_a_slope_and_parameters_without_effect_are_reported(car: Path, host: Any, roads: Path) -> None:
-    driven = host(car)
-    text(driven, str(roads / "slope.road"))
-    driven.start({"road.friction": 0.5})
+    driven = on_road(host(car), roads / "slope.road", {"road.friction": 0.5})
     messages = "\n".join(driven.messages)
     assert "The road is not level where this starts: the start is raised by 2 m" in messages
     sinks = float(re.search(r"above its place of rest sinks by (\S+) m\.", messages)[1])
     assert sinks == pytest.approx(0.05 * 2.3, rel=0.1)  # the wheelbase
     assert "'road.friction' is 0.5, without effect" in messages
     assert "With 'initial.settling' of 3 it begins at rest" in messages
-    settled = host(car)
-    text(settled, str(roads / "slope.road"))
-    settled.start({"brake": 1.0, "initial.settling": 3.0})
+    settled = on_road(host(car), roads / "slope.road", {"brake": 1.0, "initial.settling": 3.0})
     assert settled.messages == []
     driven.messages.clear()
     assert driven.set("road.kerb_height", 0.1) == OK
@@ -324,9 +316,7 @@ def test_a_wheel_that_is_driven_into_a_wall_is_reported_once(car: Path, host: An
     heights = np.repeat(0.35 * np.clip((x - 8.0) / 0.1, 0.0, 1.0)[:, None], 21, axis=1)  # below the body
     with pytest.warns(RoadWarning):
         write_road(GridRoad((-10.0, -5.0), (0.05, 0.5), heights, 1.0), tmp_path / "wall.road")
-    driven = host(car)
-    text(driven, str(tmp_path / "wall.road"))
-    driven.start({"initial.speed": 25.0})
+    driven = on_road(host(car), tmp_path / "wall.road", {"initial.speed": 25.0})
     for k in range(200):
         if driven.step(k * H, H) > 1:
             break
@@ -379,9 +369,7 @@ def test_a_wheel_in_a_face_of_a_road_file_is_refused_with_place_radius_and_spaci
     heights = np.repeat(np.where(np.arange(-10.0, 40.0, 0.2) > 10.1, 0.6, 0.0)[:, None], 5, axis=1)
     with pytest.warns(mbs.RoadWarning, match="a face of 0.6 m"):
         write_road(GridRoad((-10.0, -10.0), (0.2, 5.0), heights, 0.9), tmp_path / "wall.road")
-    driven = host(car)
-    text(driven, str(tmp_path / "wall.road"))
-    driven.start({"initial.speed": 60.0})
+    driven = on_road(host(car), tmp_path / "wall.road", {"initial.speed": 60.0})
     status, k = OK, 0
     while status <= 1 and k < 200:
         before = driven.outputs()

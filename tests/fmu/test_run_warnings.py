@@ -88,7 +88,7 @@ def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None
     driven = host(slider)
     run(driven, 1e-3, 1.0)
     assert len(driven.messages) == 1
-    data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    data = driven.saved()
     other = host(slider)
     assert other.restore(data) == OK
     assert other.step(1.0, 1e-3) == OK

@@ -42,7 +42,7 @@ def test_state_goes_to_a_new_process(build: Callable[..., Path], host: HostMaker
     crane = build("crane")
     driven = host(crane).start({"torque": 4.0, "spring.stiffness": 9.0})
     driven.run(30, 0.01)
-    data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    data = driven.saved()
     (tmp_path / "state").write_bytes(data)
     expected = [driven.outputs(), *driven.run(49, 0.01, 0.3)]
     done = subprocess.run(
@@ -65,7 +65,7 @@ def test_state_before_initialisation(sled: Path, host: HostMaker) -> None:
 
 def test_state_of_another_fmu_is_refused(crane: Path, reach: Path, host: HostMaker) -> None:
     other = host(reach).start()
-    data = other.slave.serializeFMUstate(other.slave.getFMUstate())
+    data = other.saved()
     driven = host(crane).start()
     driven.run(3, 0.01)
     before = driven.outputs()
@@ -76,7 +76,7 @@ def test_state_of_another_fmu_is_refused(crane: Path, reach: Path, host: HostMak
 
 def test_a_state_of_another_version_is_refused_with_a_remedy(crane: Path, host: HostMaker) -> None:
     driven = host(crane).start()
-    data = bytearray(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))
+    data = bytearray(driven.saved())
     data[8] -= 1
     assert driven.restore(bytes(data)) == ERROR
     assert "of another version; save one again with this FMU" in driven.messages[-1]
@@ -86,7 +86,7 @@ def test_damaged_states_are_refused(crane: Path, host: HostMaker) -> None:
     driven = host(crane).start()
     driven.run(3, 0.01)
     before = driven.outputs()
-    data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    data = driven.saved()
     flipped = [bytes(b ^ (k == place) for k, b in enumerate(data)) for place in range(0, len(data), 97)]
     for bad in (data[:20], data[:-8], data + b"\0", bytes(len(data)), b"x", *flipped):
         assert driven.restore(bad) == ERROR

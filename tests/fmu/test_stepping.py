@@ -10,6 +10,7 @@ import pytest
 
 import mbs
 from fmu_src.build.scene_registry import load_scene
+from hosts.fmu.fmu import Fmu
 from tests.fmu.calls import ERROR, OK, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -135,3 +136,24 @@ def test_outputs_do_not_depend_on_the_order_of_get_and_set(crane: Path, host: Ho
     again.run(4, 0.01)
     assert late == again.outputs()
     assert late != before
+
+
+def end_of_drive(path: Path, lengths: np.ndarray, h: float, step_size: float = 0.002) -> np.ndarray:
+    """Place and loads of the car at the end of a run in steps of these lengths, s; its host counts in steps of h."""
+    names = ["chassis.x", "chassis.y", *(f"wheel_{place}.Fz" for place in ("FL", "FR", "RL", "RR"))]
+    values = np.zeros(len(names))
+    with Fmu(path) as fmu:
+        fmu.initialise({"initial.speed": 15.0, "steering": 0.1, "step_size": step_size})
+        for k, length in enumerate(lengths):
+            fmu.step(k * h, float(length))
+        fmu.reader(names)(values)
+    return values
+
+
+def test_two_and_a_half_inner_steps_are_three_whatever_round_off_the_hosts_times_have(prototype_fmu: Path) -> None:
+    h, steps = 0.005, 400  # step_size is 0.002 s
+    as_summed = end_of_drive(prototype_fmu, np.full(steps, h), h)
+    as_differences = end_of_drive(prototype_fmu, np.diff(h * np.arange(steps + 1)), h)
+    three = end_of_drive(prototype_fmu, np.full(steps, h), h, step_size=h / 3.0)
+    assert np.allclose(as_differences, as_summed, rtol=1e-8, atol=1e-8)
+    assert np.allclose(three, as_summed, rtol=1e-8, atol=1e-8)

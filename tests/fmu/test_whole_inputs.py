@@ -82,7 +82,7 @@ def test_a_state_brings_the_lever_back(stick: Path, host: HostMaker) -> None:
     lever = [driven.references["lever"]]
     driven.slave.setInteger(lever, [-1])
     driven.run(10, H)
-    saved = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    saved = driven.saved()
     first = driven.run(20, H, 10 * H)
     driven.slave.setInteger(lever, [1])
     assert driven.restore(saved) == OK

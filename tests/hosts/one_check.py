@@ -1,4 +1,4 @@
-"""One check of `ali3 check` in a forked process: without a start of Python and without the other checks."""
+"""Verdicts of `ali3 check`: of the command, and of one check in a forked process, without a start of Python."""
 
 import json
 import os
@@ -8,8 +8,10 @@ from pathlib import Path
 
 from ali3.temporary_folder import temporary_folder
 from hosts.check.all_checks import CHECKS, run_check
+from hosts.check.command import main
 from hosts.check.instance import open_subject
 from tests.forked import forked
+from tests.in_process import run
 
 
 def one_check(fmu: Path, name: str, steps: int = 10) -> tuple[str, str]:
@@ -30,3 +32,10 @@ def one_check(fmu: Path, name: str, steps: int = 10) -> tuple[str, str]:
     assert code == 0, text or f"the process of the check {name} ended with {code}"
     verdict, words = json.loads(text)
     return verdict, words
+
+
+def all_checks(fmu: Path, *options: object) -> tuple[int, dict[str, tuple[str, str]]]:
+    """Exit code of the command, and verdict and words by the name of the check."""
+    done = run(main, fmu, *options)
+    lines = [line for line in done.stdout.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
+    return done.returncode, {line[6:28].strip(): (line[:4].strip(), line[30:]) for line in lines}

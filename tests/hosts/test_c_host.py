@@ -14,17 +14,12 @@ HERE = Path(__file__).parent
 
 
 @pytest.fixture(scope="module")
-def fmu(tuned: Path) -> Path:
-    return tuned
-
-
-@pytest.fixture(scope="module")
-def host(fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+def host(tuned: Path, tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     """Its command line up to the number of steps."""
     folder = tmp_path_factory.mktemp("c_host")
-    unpack(fmu, folder / "fmu")
+    unpack(tuned, folder / "fmu")
     library = next((folder / "fmu" / "binaries" / fmpy.platform).iterdir())
-    guid = fmpy.read_model_description(str(fmu)).guid
+    guid = fmpy.read_model_description(str(tuned)).guid
     return [str(compile_host(folder)), str(library), (folder / "fmu" / "resources").as_uri(), guid]
 
 
@@ -36,15 +31,15 @@ def reference(fmu: Path, name: str) -> int:
     return next(int(v.valueReference) for v in fmpy.read_model_description(str(fmu)).modelVariables if v.name == name)
 
 
-def test_names_and_references_set_the_same(fmu: Path, host: list[str]) -> None:
-    place = reference(fmu, "bob.y")
+def test_names_and_references_set_the_same(tuned: Path, host: list[str]) -> None:
+    place = reference(tuned, "bob.y")
     tail = (20, 0.01, place, place)
     values = {"spring.stiffness": "250", "spring.free_length": "0.7", "pull": "-3.5"}
     by_name = run(host, *tail, *(part for n, x in values.items() for part in ("--set", f"{n}={x}")))
     assert by_name.returncode == 0, by_name.stderr
-    by_reference = run(host, *tail, *(f"{reference(fmu, n)}={x}" for n, x in values.items()))
+    by_reference = run(host, *tail, *(f"{reference(tuned, n)}={x}" for n, x in values.items()))
     assert by_name.stdout == by_reference.stdout != run(host, *tail).stdout
-    with Fmu(fmu) as driven:
+    with Fmu(tuned) as driven:
         driven.initialise({n: float(x) for n, x in values.items()})
         for k in range(20):
             driven.step(0.01 * k, 0.01)

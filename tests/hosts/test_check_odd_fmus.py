@@ -10,12 +10,11 @@ import pytest
 
 from ali3.isolated_processes import Lost
 from hosts.check.all_checks import CHECKS, Checker, finding_of_loss
-from hosts.check.command import main
 from hosts.check.instance import Finding
 from hosts.experiment.pool import Pool
 from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.hosts.odd_fmus import odd_fmu
-from tests.in_process import run
+from tests.hosts.one_check import all_checks
 
 pytestmark = pytest.mark.slow
 
@@ -30,13 +29,6 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
         return fmus[name]
 
     return of_name
-
-
-def verdicts(path: Path, *options: object) -> tuple[int, dict[str, tuple[str, str]]]:
-    """The exit code, and verdict and words by the name of the check."""
-    done = run(main, path, *options)
-    lines = [line for line in done.stdout.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
-    return done.returncode, {line[6:28].strip(): (line[:4].strip(), line[30:]) for line in lines}
 
 
 def of_some(path: Path, names: tuple[str, ...], steps: int, limit: float = 20.0) -> list[tuple[str, str]]:
@@ -64,7 +56,7 @@ def test_a_step_that_never_ends_is_bad_and_other_checks_are_done(fmu: Callable[[
 
 @pytest.mark.skipif(sys.platform == "win32", reason="names of signals")
 def test_a_step_that_crashes_is_bad_and_every_other_check_is_done(fmu: Callable[[str], Path]) -> None:
-    code, found = verdicts(fmu("crashing"), "--steps", 5)
+    code, found = all_checks(fmu("crashing"), "--steps", 5)
     assert code == 1
     assert list(found) == [check.name for check in CHECKS]
     for name in ("runs", "repeats", "reset", "states"):
@@ -75,7 +67,7 @@ def test_a_step_that_crashes_is_bad_and_every_other_check_is_done(fmu: Callable[
 
 
 def test_long_steps_are_notes(fmu: Callable[[str], Path]) -> None:
-    code, found = verdicts(fmu("long_steps"), "--steps", 5, "--time-limit", 2)
+    code, found = all_checks(fmu("long_steps"), "--steps", 5, "--time-limit", 2)
     assert code == 0
     assert list(found) == [check.name for check in CHECKS]
     assert not [name for name, (verdict, _) in found.items() if verdict == "BAD"]
@@ -92,7 +84,7 @@ def test_long_steps_are_notes(fmu: Callable[[str], Path]) -> None:
 def test_missing_functions_are_one_line(fmu: Callable[[str], Path], tmp_path: Path) -> None:
     library = f"binaries/{fmpy.platform}/long_steps{fmpy.sharedLibraryExtension}"
     other = {library: lambda data: data.replace(b"fmi2GetRealStatus\0", b"fmi2GetRealStatos\0")}
-    code, found = verdicts(changed_fmu(fmu("long_steps"), tmp_path / "copy.fmu", other))
+    code, found = all_checks(changed_fmu(fmu("long_steps"), tmp_path / "copy.fmu", other))
     assert code == 1
     assert [name for name, (verdict, _) in found.items() if verdict == "BAD"] == ["functions"]
     assert found["functions"][1].startswith("1 of 34 are missing: fmi2GetRealStatus (FMI 2.0, 2.3)")

@@ -10,7 +10,7 @@ import pytest
 from hosts.check.all_checks import CHECKS
 from hosts.check.command import main
 from tests.hosts.odd_fmus import planted_fmu
-from tests.hosts.one_check import one_check
+from tests.hosts.one_check import all_checks, one_check
 from tests.in_process import run
 from tests.quick import quick
 
@@ -88,16 +88,12 @@ FEW = [(plant, three) for plant, three in FAULTS if not three or plant in FIRST.
 """Each fault in FMI 2.0, and in FMI 3.0 the first that a check finds."""
 
 
-def found(fmu: Path) -> tuple[int, dict[str, tuple[str, str]]]:
-    """Exit code of the command, and verdict and words by the check."""
-    done = run(main, fmu, "--steps", 10, "--time-limit", 10)
-    lines = [line for line in done.stdout.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
-    return done.returncode, {line[6:28].strip(): (line[:4].strip(), line[30:]) for line in lines}
+LIMITS = ("--steps", 10, "--time-limit", 10)
 
 
 @pytest.mark.parametrize("three", [False, True])
 def test_without_a_fault_nothing_is_bad(tmp_path: Path, three: bool) -> None:
-    _, lines = found(planted_fmu(tmp_path, "NONE", three))
+    _, lines = all_checks(planted_fmu(tmp_path, "NONE", three), *LIMITS)
     bad = {name: message for name, (verdict, message) in lines.items() if verdict == "BAD"}
     assert not bad
     assert lines["stop time"][0] == "note"  # a step beyond it is taken
@@ -117,10 +113,10 @@ def test_an_fmu_of_one_instance_in_a_process(tmp_path: Path) -> None:
     """Where it says so each check frees what was before; else it gives no second one, and that is one verdict."""
     flag = {"canHandleVariable": 'canBeInstantiatedOnlyOncePerProcess="true" canHandleVariable'}
     (tmp_path / "said").mkdir()
-    _, lines = found(planted_fmu(tmp_path / "said", "ONCE", False, flag))
+    _, lines = all_checks(planted_fmu(tmp_path / "said", "ONCE", False, flag), *LIMITS)
     assert not [name for name, (verdict, _) in lines.items() if verdict == "BAD"]
     assert lines["repeats"] == ("ok", "bit for bit, one after another")
-    _, lines = found(planted_fmu(tmp_path, "ONCE", False))
+    _, lines = all_checks(planted_fmu(tmp_path, "ONCE", False), *LIMITS)
     (bad,) = [message for verdict, message in lines.values() if verdict == "BAD"]
     assert bad.startswith("it is not instantiated (FMI 2.0, 2.1.5): Failed to instantiate")
     assert "checks, which call functions of the FMU" in lines["not done"][1]

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ from hosts.compare.command import main as compare
 from hosts.view.command import main
 from tests.hosts.catalogue import synthetic_records
 from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
-from tests.in_browser import headless_chromium, wait_until
+from tests.in_browser import wait_until
 from tests.viewer.hand_scenes import floats
 from tests.viewer.simulator_program import Program
 from viewer.page_file import write_page
@@ -65,12 +65,6 @@ def foreign(scene_fmu: Callable[..., Path], tmp_path_factory: pytest.TempPathFac
 
     changes = {DESCRIPTION: hostile, "resources/geometry.json": json.dumps(drawing()).encode()}
     return changed_fmu(built, file, changes)
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with headless_chromium() as browser:
-        yield browser
 
 
 def opened(chromium: Any, file: Path) -> Any:

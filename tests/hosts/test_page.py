@@ -63,7 +63,7 @@ def test_the_page_holds_the_content_of_the_fmu_only(tuned: Path, tmp_path: Path)
     assert f"<title>{html.escape('1 < 2 & </script>')}</title>" in text
     data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
     assert data["options"] == {
-        **{"name": "Tuned", "run": True, "start": {"spring.free_length": 0.7}, "step": 0.005, "plots": ["bob.y"]},
+        **{"name": "Tuned", "run": True, "start": {"spring.free_length": 0.7}, "step": 0.005, "plots": ["bob.y"]}
     }
     (part,) = data["fmus"]
     scene = json.loads(gzip.decompress(base64.b64decode(part["scene"])))

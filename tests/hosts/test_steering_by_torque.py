@@ -10,7 +10,7 @@ import pytest
 from fmu_src.build.build import build_fmu
 from hosts.fmu.fmu import Fmu
 from mbs import Pose, Simulation, System, compile
-from tests.vehicle.column_car import column_car
+from tests.vehicle.rigid_car import column_car
 
 pytestmark = pytest.mark.slow
 

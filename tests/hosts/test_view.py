@@ -23,9 +23,9 @@ from hosts.run.command import main as run_fmu
 from hosts.view import result_tables as recorded
 from hosts.view.command import main as view
 from tests.hosts.changed_fmu import changed_fmu
+from tests.in_browser import chromium_or_skip
 from tests.viewer.test_page_text import data_of, numbers
 from viewer import open_browser
-from viewer.browser import BrowserError, find_chromium
 
 ROOT = Path(__file__).parents[2]
 SCENE = {
@@ -347,10 +347,7 @@ def test_without_a_browser_for_pictures_there_is_one_sentence(
 @pytest.mark.slow
 def test_pictures_and_animations_are_written_without_a_page(result: Path, said: Said) -> None:
     pytest.importorskip("playwright")
-    try:
-        find_chromium()
-    except BrowserError as error:
-        pytest.skip(str(error))
+    chromium_or_skip()
     status, text = said(result, "--png", "p.png", "--at", "0.5", "--size", 320, 240, "--gltf", "p.glb")
     assert status == 0, text
     assert "written: p.glb, p.png" in text

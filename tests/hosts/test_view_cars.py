@@ -12,8 +12,8 @@ from hosts.run.command import main as run
 from hosts.view.command import main as view
 from hosts.view.result_tables import read_table
 from tests.hosts.test_view import shown
+from tests.in_browser import chromium_or_skip
 from tests.viewer.poses import FramePoses
-from viewer.browser import BrowserError, find_chromium
 
 WHEELS = ("FL", "FR", "RL", "RR")
 
@@ -53,10 +53,7 @@ def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(prototype_fmu: Path, t
 @pytest.mark.slow  # two pages are drawn by the processor
 def test_two_cars_in_one_picture(prototype_fmu: Path, tmp_path: Path) -> None:
     pytest.importorskip("playwright")
-    try:
-        find_chromium()
-    except BrowserError as error:
-        pytest.skip(str(error))
+    chromium_or_skip()
     tables = [
         driven(prototype_fmu, tmp_path / name, "--stop-time", "0.5", "--set", f"initial.y={y}")
         for name, y in (("one", 0.0), ("other", 3.0))

@@ -1,4 +1,4 @@
-"""A parameter set of all parameters with the values of the FMU, as a build writes it, changes nothing in a command."""
+"""Parameter sets of a car: one with all values of the FMU, as a build writes it, changes nothing in a command."""
 
 import json
 from collections.abc import Mapping
@@ -78,3 +78,19 @@ def test_the_simulator_keeps_its_world_and_place(variables: Variables, prototype
         results.append(json.loads(record.read_text())["settings"])
     assert results[0] == results[1]
     assert any(entry["name"] == "road.file" for entry in results[1])
+
+
+def test_a_ratio_that_is_set_is_reported_beside_the_constants_of_the_file(variables: Variables) -> None:
+    """Half the travel per turn: twice the angle to full lock and the ratio; without it nothing is told."""
+    settings = Settings(variables)
+    assert not settings.rows()
+    drawn = variables["steering.rack_per_turn"].start
+    assert isinstance(drawn, float)
+    settings.add_numbers({"steering.rack_per_turn": 0.5 * drawn}, "--set")
+    rows = dict(settings.rows())
+    for name in ("vehicle.steering_wheel_angle_max", "vehicle.steering_ratio"):
+        constant = variables[name].start
+        assert isinstance(constant, float)
+        assert rows[name].startswith(f"constant {constant:.6g} of the FMU")
+        assert float(rows[name].split()[-1]) == pytest.approx(2.0 * constant, rel=1e-5)
+        assert "ratio of the car file" in variables[name].description

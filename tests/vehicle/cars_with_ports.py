@@ -9,7 +9,7 @@ import mbs
 from mbs.vehicle import load
 from mbs.vehicle.car import Car
 from tests.elements.harness import Element
-from tests.vehicle.column_car import rigid_chassis
+from tests.vehicle.rigid_car import rigid_chassis
 
 WHEELS = ("FL", "FR", "RL", "RR")
 STEP = 0.002

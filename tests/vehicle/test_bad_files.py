@@ -320,10 +320,7 @@ def test_changes_that_are_no_mapping():
         load("prototype").changed(3)
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [{"front.spring.stifness": 1.0}, {"front.tyre.radius": 0.2}],
-)
+@pytest.mark.parametrize("changes", [{"front.spring.stifness": 1.0}, {"front.tyre.radius": 0.2}])
 def test_the_same_through_every_door(changes, copied, capsys):
     """By a file, by `changed` and by the command line."""
     file = copied()

@@ -11,7 +11,7 @@ from mbs.common.errors import ModelError
 from mbs.shapes.pose_outputs import pose_outputs
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.errors import CarFileError
-from tests.vehicle.column_car import COLUMN, column_car
+from tests.vehicle.rigid_car import COLUMN, column_car
 
 SMOOTH = {"friction": 0.0, "rack_friction": 0.0}
 H = 0.005

@@ -131,10 +131,7 @@ def test_a_car_keeps_its_books_and_does_so_in_lanes(content: dict[str, Any], fol
 @pytest.mark.parametrize(
     ("numbers", "match"),
     [
-        (
-            {"camber_per_lateral_force": -4e-6},
-            r"lateral_per_lateral_force is 0 m/N and .*-4e-06 rad/N",
-        ),
+        ({"camber_per_lateral_force": -4e-6}, r"lateral_per_lateral_force is 0 m/N and .*-4e-06 rad/N"),
         (
             {"lateral_per_lateral_force": 1e-6},
             r"lateral_per_lateral_force is 1e-06 m/N and .* 0 rad/N; .* 0\.05 to 1\.5 m",

@@ -56,8 +56,7 @@ def drive(system: System, seconds: float = 1.5) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("name", "angle", "way", "load"),
-    [("saloon", 1e-6, 1e-6, 5e-5), ("hatchback", 1e-4, 1e-5, 1e-3)],
+    ("name", "angle", "way", "load"), [("saloon", 1e-6, 1e-6, 5e-5), ("hatchback", 1e-4, 1e-5, 1e-3)]
 )
 def test_it_drives_as_the_links_that_its_tables_come_from(
     name: str, angle: float, way: float, load: float, content: dict, folder: Path
@@ -270,10 +269,7 @@ def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Pa
     written(tmp_path, ["wheel_travel_left [m]", *heading[1:2], *sides], lifted)
     table, hub = read_curves(tmp_path, "rear.csv", "key", 1.0), mirrored.hub
     short, whole = slice(-len(table.travel), None), slice(None)
-    for side, own, second in (
-        (Side("rear", "left", 1.0), short, whole),
-        (Side("rear", "right", -1.0), whole, short),
-    ):
+    for side, own, second in ((Side("rear", "left", 1.0), short, whole), (Side("rear", "right", -1.0), whole, short)):
         one, other = mirrored.of(side), wheel_curves(table, side, hub)
         np.testing.assert_allclose(other.travel, one.travel[own], atol=1e-12)
         np.testing.assert_allclose(other.second, one.second[second], atol=1e-12)

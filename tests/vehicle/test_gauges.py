@@ -157,20 +157,11 @@ def test_bridges_of_the_driving_car_are_sums_of_its_single_gauges(fidelity):
         ({"tube": ["D1L", "LRL"], "place": 0.5}, "the tube runs from LRL to D1L, and place counts from LRL"),
         ({"tube": ["XXL", "YYL"], "place": 0.5}, "no tube ends at XXL"),
         ({"tube": ["LRL", "D1L"], "place": 1.5}, r"gauges\.G\.place is 1\.5; it must be 0 or between 0.002 and 1"),
-        (
-            {"tube": ["LRL", "D1L"], "place": 0.5, "fibre": "upper"},
-            r"gauges\.G\.fibre is 'upper'; it must be 'top'",
-        ),
+        ({"tube": ["LRL", "D1L"], "place": 0.5, "fibre": "upper"}, r"gauges\.G\.fibre is 'upper'; it must be 'top'"),
         ({"tube": ["LRL", "D1L"], "place": 0.5, "fibre": 400.0}, r"gauges\.G\.fibre is 400\.0; .* 360 deg"),
         ({"tube": ["D1L", "S1L"], "place": 0.5, "fibre": "rear"}, "runs in that direction; name another fibre"),
-        (
-            {"tube": ["LRL", "D1L"], "place": 0.5, "bridge": "full"},
-            r"gauges\.G\.bridge is 'full'; it must be 'half'",
-        ),
-        (
-            {"tube": ["LRL", "D1L"], "place": 0.5, "bridge": "axial", "fibre": "top"},
-            "has no fibre, leave it out",
-        ),
+        ({"tube": ["LRL", "D1L"], "place": 0.5, "bridge": "full"}, r"gauges\.G\.bridge is 'full'; it must be 'half'"),
+        ({"tube": ["LRL", "D1L"], "place": 0.5, "bridge": "axial", "fibre": "top"}, "has no fibre, leave it out"),
         ({"tube": ["LRL"], "place": 0.5}, r"gauges\.G\.tube"),
     ],
 )

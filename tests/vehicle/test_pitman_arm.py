@@ -25,11 +25,7 @@ ARM = {
     "frequency": 10.0,
     "front_wheel_angle_max": 0.57,
 }
-SKEW = {
-    "idler_pivot": [0.05, -0.37, 0.24],
-    "idler_joint": [-0.115, -0.33, 0.25],
-    "arm_axis_top": [-0.015, 0.43, 0.55],
-}
+SKEW = {"idler_pivot": [0.05, -0.37, 0.24], "idler_joint": [-0.115, -0.33, 0.25], "arm_axis_top": [-0.015, 0.43, 0.55]}
 TRAPEZOID, SKEWED = CAR.changed({"steering": ARM}), CAR.changed({"steering": ARM | SKEW})
 TURN = {"throttle": 0.3, "steering": lambda t: 0.9 * math.sin(3.0 * t)}
 

@@ -19,7 +19,7 @@ from tests.vehicle.cars_with_ports import (
     with_ports,
     works_of,
 )
-from tests.vehicle.column_car import column_car
+from tests.vehicle.rigid_car import column_car
 
 
 def names(car: Car) -> tuple[list[str], list[str]]:

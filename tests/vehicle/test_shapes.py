@@ -217,11 +217,7 @@ def meets(start: np.ndarray, end: np.ndarray, triangles: np.ndarray) -> bool:
 
 @pytest.mark.parametrize(
     ("car", "body", "shell", "tubes"),
-    [
-        ("prototype", "", 0, 129),
-        ("hatchback", "closed", 3, 1),
-        ("hatchback", "clear", 3, 1),
-    ],
+    [("prototype", "", 0, 129), ("hatchback", "closed", 3, 1), ("hatchback", "clear", 3, 1)],
 )
 def test_the_body_has_the_shape_of_the_file(car: str, body: str, shell: int, tubes: int) -> None:
     shapes = scene(car, body)["shapes"]

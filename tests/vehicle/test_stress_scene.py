@@ -51,9 +51,7 @@ def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
 
 
 @pytest.mark.slow
-def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
-    part: dict[str, Any],
-) -> None:
+def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(part: dict[str, Any]) -> None:
     run = kerb_run(3)
     eta = amplitudes(part, run)
     frame, _ = TUBULAR.frame()

@@ -13,7 +13,7 @@ from mbs.common.errors import ModelError
 from mbs.model.table_bodies import TabledBody
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.linkages.linkage import Linkage
-from tests.vehicle.column_car import column_car
+from tests.vehicle.rigid_car import column_car
 from tests.viewer.poses import FramePoses
 
 CAR = "hatchback"

@@ -1,4 +1,4 @@
-"""Recordings of films, a Chromium for the pictures of a module of tests, and a page with one view."""
+"""Recordings of films, and a page with one view."""
 
 import io
 import pickle
@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from ali3.scene.recording import Recording
-from tests.in_browser import bundle_or_skip, headless_chromium
 from viewer import bundle
 
 _MAKE = """([scene, options]) => {
@@ -66,14 +65,6 @@ class DrawnPage:
         """Pixels of many points, asked for at once."""
         listed = [[float(x) for x in point] for point in points]
         return list(self._page.evaluate("points => points.map(point => view.project(point))", listed))
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    """A Chromium without a window; tests are skipped where there is none."""
-    bundle_or_skip()
-    with headless_chromium() as browser:
-        yield browser
 
 
 @pytest.fixture(scope="module")

@@ -177,13 +177,7 @@ def everything() -> dict[str, Any]:
             },
         ],
         "scenery": [
-            {
-                "kind": "line",
-                "points": [[0, 0, 0], [1, 0, 0]],
-                "width": 0.15,
-                "colour": "white",
-                "dash": [3, 6],
-            },
+            {"kind": "line", "points": [[0, 0, 0], [1, 0, 0]], "width": 0.15, "colour": "white", "dash": [3, 6]},
             {"kind": "cone", "at": [0, 0, 0], "height": 0.5, "colour": "orange"},
             {"kind": "tree", "at": [0, 0, 0], "height": 9, "seed": 1},
             {"kind": "sign", "at": [0, 0, 0], "yaw": 0.5, "text": "20 %", "height": 2.5},

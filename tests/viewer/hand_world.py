@@ -95,11 +95,6 @@ def scenery() -> list[dict[str, Any]]:
     for seed in range(300):
         a, b = chance.uniform(-190, 190), chance.choice([-1.0, 1.0]) * chance.uniform(26, 120)
         results.append(
-            {
-                "kind": "tree",
-                "at": [a, b, float(height(a, b))],
-                "height": float(chance.uniform(5, 14)),
-                "seed": seed,
-            }
+            {"kind": "tree", "at": [a, b, float(height(a, b))], "height": float(chance.uniform(5, 14)), "seed": seed}
         )
     return results

@@ -215,3 +215,18 @@ def test_a_wheel_carries_the_page_or_its_build_warns(backend, tmp_path, built):
     else:
         assert data["artifacts"] == []
         assert messages == ["this wheel carries no page that draws: npm could not fetch its packages"]
+
+
+@pytest.mark.slow
+def test_units_of_the_page(modules):
+    """The parts that need no browser, by Node's own test runner; in one process: each file would start Node again."""
+    result = subprocess.run(
+        [page_build.node_and_npm()[0], "--test", "--test-isolation=none", *map(str, (PAGE / "test").glob("*.test.js"))],
+        cwd=PAGE,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "# pass 0" not in result.stdout

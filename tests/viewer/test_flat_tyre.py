@@ -26,9 +26,7 @@ def scene(at: list[float]) -> dict[str, Any]:
         "extent": EXTENT,
         "focus": "",
         "frames": {"wheel FL": moving("wheel FL") | {"start": [[0, CENTRE, 0], [1, 0, 0, 0]]}},
-        "shapes": [
-            {"kind": "wheel", "frame": "wheel FL", "at": at, "axis": [0, 0, 1], "radius": RADIUS, "width": 0.2},
-        ],
+        "shapes": [{"kind": "wheel", "frame": "wheel FL", "at": at, "axis": [0, 0, 1], "radius": RADIUS, "width": 0.2}],
         "arrows": [{"name": "tyre", "kind": "force", "unit": "N", "tyre": tyre}],
         "roads": [],
     }

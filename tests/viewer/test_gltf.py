@@ -311,10 +311,7 @@ def test_a_second_writing_as_text_gives_the_same_with_its_numbers_in_the_text(co
         ({"deformation": -1}, r"^The deformation is -1; it must be a number from 0 to 1e\+06\.$"),
         ({"recording": 3}, r"^A recording is needed; this is an object of type int\.$"),
         ({"recording": Recording(None, T, {"a": T}, name="plots")}, r"^'plots' has no scene: "),
-        (
-            {"recording": Recording(hand_scenes.crank(T).scene, T, {})},
-            r"^'crank' has no scene: there are no shapes",
-        ),
+        ({"recording": Recording(hand_scenes.crank(T).scene, T, {})}, r"^'crank' has no scene: there are no shapes"),
     ],
 )
 def test_a_file_that_cannot_be_written_is_refused_in_one_sentence(tmp_path, arguments, message):

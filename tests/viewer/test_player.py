@@ -55,11 +55,7 @@ def opened(chromium: Any, tmp_path: Path) -> Iterator[Callable[..., Opened]]:
     pages: list[Opened] = []
 
     def open_page(
-        *recordings: Recording,
-        hash_text: str = "",
-        size: tuple[int, int] = SIZE,
-        script: str = "",
-        **options: Any,
+        *recordings: Recording, hash_text: str = "", size: tuple[int, int] = SIZE, script: str = "", **options: Any
     ) -> Opened:
         file = tmp_path / f"page {len(pages)} äö.html"
         write_page(file, recordings, options=options)

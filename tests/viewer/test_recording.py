@@ -81,7 +81,7 @@ def test_a_missing_column_removes_only_the_parts_that_need_it() -> None:
     assert recording.scene is not None
     assert set(recording.scene["frames"]) == {"body", "arm"}
     assert [shape["kind"] for shape in recording.scene["shapes"]] == [
-        *("box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper"),
+        *("box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper")
     ]
     assert [arrow["name"] for arrow in recording.scene["arrows"]] == ["pin", "tyre"]
     assert recording.scene["flexible"] == []

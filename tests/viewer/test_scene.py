@@ -153,11 +153,7 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
         (("flexible", 0, "beams"), [[0, 2]], "flexible[0].beams[0] names node 2; the largest is 1."),
         (("flexible", 0, "radii"), [], "flexible[0].radii has 0 entries; it must have 1, one for each beam."),
         (("flexible", 0, "stress", "rows"), floats([1]), "flexible[0].stress.rows has 1 numbers; it must have 2."),
-        (
-            ("flexible", 0, "gauges", 0, "nodes"),
-            [0, 2],
-            "flexible[0].gauges[0].nodes names node 2; the largest is 1.",
-        ),
+        (("flexible", 0, "gauges", 0, "nodes"), [0, 2], "flexible[0].gauges[0].nodes names node 2; the largest is 1."),
         (("flexible", 0, "gauges", 0, "along"), 1.5, "flexible[0].gauges[0].along is 1.5; it must be at most 1."),
         (("flexible", 0, "stress", "rule"), "round", "flexible[0].stress.fibres is 1; the rule 'round' has 3."),
         (("arrows", 1, "axes"), "wing", "arrows[1].axes is 'wing', which is not a frame"),

@@ -179,11 +179,7 @@ DRIVER = "controlBus.driverBus."
 INPUTS = {
     "ours": (("steering", 1.0), ("throttle", 1.0), ("brake", 1.0)),
     "carmaker": (("DM.Steer.Ang", LOCK), ("DM.Gas", 1.0), ("DM.Brake", 1.0)),
-    "carsim": (
-        ("IMP_STEER_SW", LOCK * 180.0 / math.pi),
-        ("IMP_THROTTLE_ENGINE", 1.0),
-        ("IMP_PCON_BK", PRESSURE / 1e6),
-    ),
+    "carsim": (("IMP_STEER_SW", LOCK * 180.0 / math.pi), ("IMP_THROTTLE_ENGINE", 1.0), ("IMP_PCON_BK", PRESSURE / 1e6)),
     "chrono": (("steering", 1.0), ("throttle", 1.0), ("braking", 1.0)),
     "osi": (
         ("host_vehicle_data.vehicle_steering_wheel.angle", LOCK),

@@ -34,7 +34,7 @@ def test_a_fault_is_the_outcome_of_its_test_and_runs_are_written(tmp_path: Path)
     assert len(parts) > 1
     write_runs(good, outcome)
     assert sorted(p.name for p in (tmp_path / "runs" / "steady_circle").iterdir()) == [
-        *("b_left.csv", "b_left.json", "b_right.csv", "b_right.json"),
+        *("b_left.csv", "b_left.json", "b_right.csv", "b_right.json")
     ]
     assert "KeyError('nothing')" in str(perform_task(faulty, parts.append))
 

@@ -82,10 +82,7 @@ def test_a_car_that_is_too_weak_has_no_gradient_but_a_reason() -> None:
 
 @pytest.mark.parametrize(
     ("settings", "message"),
-    [
-        ({"method": 2.5}, "it must be 1, 2 or 3"),
-        ({"fit_from": 3.0, "fit_to": 3.2}, "at least 0.5 m/s² above"),
-    ],
+    [({"method": 2.5}, "it must be 1, 2 or 3"), ({"fit_from": 3.0, "fit_to": 3.2}, "at least 0.5 m/s² above")],
 )
 def test_wrong_settings_are_reported(settings: dict[str, float], message: str) -> None:
     with pytest.raises(HostError, match=message):

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pendulum import measured, measured_pull, motion
 
-from hosts.compare.command import main
+from hosts.compare.command import _names, main
 from hosts.view.result_tables import read_table
+from tests.hosts.compare.pendulum import measured, measured_pull, motion
 
+SCENES = Path(__file__).parents[1] / "scenes.py"
 TRUE = (123.0, 1.7)
 Columns = dict[str, np.ndarray]
 
@@ -20,11 +21,7 @@ def log_columns(delay: float = 0.0) -> Columns:
     signals = measured(motion(*TRUE), 1, 0.0, delay)
     t = signals["bob.x"].time
     pull = measured_pull()
-    return {
-        "time": t,
-        "pull": np.interp(t, pull.time, pull.values),
-        **{n: s.values for n, s in signals.items()},
-    }
+    return {"time": t, "pull": np.interp(t, pull.time, pull.values), **{n: s.values for n, s in signals.items()}}
 
 
 def write(file: Path, columns: Columns) -> Path:
@@ -77,6 +74,15 @@ class TestCommand:
             main([str(tuned), str(log), *options])
             results.append(json.loads(record.read_text())["measures"])
         assert results[0] == results[1]
+
+    @pytest.mark.slow
+    def test_an_fmu_of_fmi_3_is_fitted_too(self, scene_fmu: Callable[..., Path], log: Path, tmp_path: Path) -> None:
+        fmu, record = scene_fmu(f"{SCENES}:tuned", "fmi3"), tmp_path / "record.json"
+        fits = ["--fit", "spring.stiffness", "--fit", "spring.damping=0.2:5"]
+        assert main([str(fmu), str(log), "--out", str(tmp_path), "--json", str(record), *fits]) == 0
+        found = {f["name"]: f["value"] for f in json.loads(record.read_text())["fit"]["found"]}
+        for name, true in zip(("spring.stiffness", "spring.damping"), TRUE, strict=True):
+            assert found[name] == pytest.approx(true, rel=0.03)
 
     @pytest.mark.slow
     @pytest.mark.drawn
@@ -153,12 +159,7 @@ class TestCommand:
         ],
     )
     def test_a_wrong_unit_is_seen_and_nothing_is_fitted(
-        self,
-        tuned: Path,
-        tmp_path: Path,
-        capsys: pytest.CaptureFixture[str],
-        factor: float,
-        messages: list[str],
+        self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], factor: float, messages: list[str]
     ) -> None:
         columns = log_columns()
         file = write(tmp_path / "odd.csv", columns | {"bob.x": factor * columns["bob.x"]})
@@ -185,10 +186,7 @@ class TestCommand:
         [
             (["--signals", "bob.z"], "--signals: 'bob.z' is not an output of the FMU; did you mean"),
             (["--signals", "solver.status"], "'solver.status' is not in the log"),
-            (
-                ["--fit", "spring.stifness"],
-                "the FMU has no parameter 'spring.stifness'; did you mean 'spring.st",
-            ),
+            (["--fit", "spring.stifness"], "the FMU has no parameter 'spring.stifness'; did you mean 'spring.st"),
             (["--fit", "spring.stiffness=200:100"], "the first must be the smaller"),
             (["--fit", "spring.stiffness=1:500"], "the range of the FMU is"),
             (["--fit", "spring.stiffness=150:500"], "begins at 100 N/m, which is not between 150 and 500"),
@@ -246,3 +244,7 @@ class TestCommand:
         assert "lies at its upper bound, 110 N/m" in capsys.readouterr().out
         assert main([*common, "--fit", "step_size=0.01:0.012"]) == 2
         assert "does not change any of the compared signals" in capsys.readouterr().err
+
+
+def test_commas_part_names_but_not_the_places_of_an_array() -> None:
+    assert _names("a.b=1:2,c[1,2]=0.5:3,d") == ["a.b=1:2", "c[1,2]=0.5:3", "d"]

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pendulum import END, measured, measured_pull, motion
 
 from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.fit_unknowns import Unknown, nuisances
@@ -13,6 +12,7 @@ from hosts.compare.replay import Replay, replay_manoeuvre
 from hosts.compare.segments import Segment
 from hosts.driving.result import Result
 from hosts.fmu.fmu_source import FmuSource
+from tests.hosts.compare.pendulum import END, measured, measured_pull, motion
 
 STEP = 0.01
 STIFFNESS = 123.0  # N/m

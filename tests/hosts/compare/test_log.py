@@ -251,11 +251,7 @@ BAD = [
     ("time,pull,bob.x\n" + rows("{ms},{f},{x}"), "", '[time] unit = "ms"'),
     ("time,Pull,bob_x\n" + rows("{t},{f},{x}"), "", "has no column with the name of an input or output"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = "f"', "has no column 'f'; did you mean 'F'"),
-    (
-        "time,F,x\n" + rows("{t},{f},{x}"),
-        '[signals]\n"bob.X" = "x"',
-        "'bob.X' is not an input or output of Tuned",
-    ),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\n"bob.X" = "x"', "'bob.X' is not an input or output of Tuned"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\n"spring.free_length" = "x"', "is a parameter of Tuned.fmu"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "deg" }', "is in 'deg'; 'pull' of"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "kNn" }', "or 'kN'"),

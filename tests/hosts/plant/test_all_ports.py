@@ -215,12 +215,7 @@ def test_a_wheel_in_the_air_and_a_standing_car_cause_no_warning(ported: Path) ->
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("ported", "normal"),
-    [
-        (CARS[0], (0.0, 0.0, 0.0)),
-        (CARS[2], (0.0, 0.0, -1.0)),
-    ],
-    indirect=["ported"],
+    ("ported", "normal"), [(CARS[0], (0.0, 0.0, 0.0)), (CARS[2], (0.0, 0.0, -1.0))], indirect=["ported"]
 )
 def test_an_invalid_normal_is_reported_at_each_wheel(ported: Path, normal: tuple[float, ...]) -> None:
     with Car(ported, step=0.004) as car:

@@ -31,11 +31,13 @@ def texts(page, kind):
     raise AssertionError(f"no {kind} came")
 
 
-def until(condition):
+def until(what):
+    """Wait until the value of a function is true; returns it."""
     deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+    while not (value := what()):
+        assert time.monotonic() < deadline, "it did not happen in time"
+        time.sleep(0.002)
+    return value
 
 
 def read_to_the_end(page):

@@ -17,12 +17,7 @@ class Drive:
     """A sledge that is driven and recorded as the simulator does it, with restarts and rewinds."""
 
     def __init__(
-        self,
-        path: Path,
-        folder: Path,
-        table: str | None,
-        start: dict[str, Any],
-        every: dict[str, int] | None = None,
+        self, path: Path, folder: Path, table: str | None, start: dict[str, Any], every: dict[str, int] | None = None
     ) -> None:
         self.fmu, self.start = Fmu(path), start
         inputs, outputs = self.fmu.names("input"), self.fmu.names("output")

@@ -19,11 +19,11 @@ from hosts.common.errors import HostError
 from hosts.simulator import process
 from hosts.simulator.car import Car, CarSettings, CarState, Event
 from hosts.simulator.driven_fmu import DrivenFmu
+from tests.hosts.simulator import pages
 
 ROOT = Path(__file__).parents[3]
 H = 0.002
 AT_ONCE = math.inf
-PATIENCE = 60.0
 POSIX = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 
 Made = Callable[..., Car]
@@ -46,11 +46,7 @@ def make(fmu: Callable[[str], Path]) -> object:
 
 def until(car: Car, reached: Callable[[CarState], bool]) -> CarState:
     """The first moment seen that is as asked."""
-    end = time.perf_counter() + PATIENCE
-    while not reached(moment := car.latest()):
-        assert time.perf_counter() < end, moment
-        time.sleep(0.002)
-    return moment
+    return pages.until(lambda: moment if reached(moment := car.latest()) else None)
 
 
 def steps(car: Car, count: int) -> CarState:
@@ -62,26 +58,16 @@ def steps(car: Car, count: int) -> CarState:
 
 def said(car: Car, kind: str) -> Event:
     """The next event of a kind."""
-    end = time.perf_counter() + PATIENCE
-    while True:
-        for event in car.events():
-            if event.kind == kind:
-                return event
-        assert time.perf_counter() < end, f"no event of kind {kind}"
-        time.sleep(0.002)
+    return pages.until(lambda: next((event for event in car.events() if event.kind == kind), None))
 
 
 def gone(pid: int) -> bool:
-    end = time.perf_counter() + 10.0
-    while time.perf_counter() < end:
-        try:
-            os.kill(pid, 0)
-            if Path(f"/proc/{pid}/stat").exists() and Path(f"/proc/{pid}/stat").read_text().split()[2] == "Z":
-                return True
-        except (ProcessLookupError, FileNotFoundError):
-            return True
-        time.sleep(0.05)
-    return False
+    """Whether there is no such process, or but its exit code."""
+    try:
+        os.kill(pid, 0)
+        return Path(f"/proc/{pid}/stat").exists() and Path(f"/proc/{pid}/stat").read_text().split()[2] == "Z"
+    except (ProcessLookupError, FileNotFoundError):
+        return True
 
 
 def folder_of(car: Car) -> Path:
@@ -227,10 +213,7 @@ def test_a_process_that_is_killed_is_one_sentence(make: Made) -> None:
     car.command("run")
     until(car, lambda m: m.count > 5)
     os.kill(pid_of(car), signal.SIGKILL)
-    end = time.perf_counter() + PATIENCE
-    while not car.ended:
-        assert time.perf_counter() < end
-        time.sleep(0.01)
+    pages.until(lambda: car.ended)
     for call in (car.latest, lambda: car.command("run"), lambda: car.want({"throttle": (1.0, 1.0)})):
         with pytest.raises(HostError, match=r"^The car's process was killed \(SIGKILL\).*; start"):
             call()
@@ -250,7 +233,7 @@ def test_close_ends_a_process_that_does_not_listen_beside_another_car(make: Made
     assert steps(car, 400).values[speed] == pytest.approx(10.0, abs=0.5)
     os.kill(pid, signal.SIGSTOP)
     car.close()
-    assert gone(pid)
+    pages.until(lambda: gone(pid))
     assert not folder.exists()
     moment = steps(other, 300)
     assert (moment.count, moment.values[speed]) == (300, pytest.approx(5.0, abs=0.5))
@@ -288,11 +271,7 @@ def test_no_orphan_is_left_when_the_main_process_is_killed(fmu: Callable[[str], 
     main.kill()
     main.wait()
     main.stdout.close()
-    assert gone(int(pid))
-    end = time.monotonic() + 60.0
-    while Path(folder).exists() and time.monotonic() < end:
-        time.sleep(0.05)  # its guard removes it after its end
-    assert not Path(folder).exists()
+    pages.until(lambda: gone(int(pid)) and not Path(folder).exists())  # its guard removes it after its end
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,8 @@ from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.recording import Recorder
 from hosts.recordings.replay import Repeater, replay
 from hosts.simulator.car import Car, CarSettings
-from tests.hosts.simulator.test_car import AT_ONCE, PATIENCE, steps, until
+from tests.hosts.simulator.pages import PATIENCE
+from tests.hosts.simulator.test_car import AT_ONCE, steps, until
 
 
 def settings(fmu: Path, folder: Path, **others: Any) -> CarSettings:

@@ -21,6 +21,11 @@ from tests.hosts.simulator.raw_client import request
 from tests.hosts.simulator.served import PLACES, WORLD, serving
 
 
+def want(page, **values):
+    """A wish of the keys of a page."""
+    page.send(json.dumps({"type": "want", "source": "keys", "values": values}))
+
+
 def test_a_page_gets_its_description_first_and_then_frames_of_all_numbers(served, car):
     with connect(served.url) as page:
         hello = json.loads(page.recv(timeout=10))
@@ -60,9 +65,7 @@ def test_a_car_that_stands_still_sends_no_frames(car, served):
 
 def test_wishes_and_commands_reach_the_car(car, served):
     with connect(served.url) as page:
-        page.send(
-            json.dumps({"type": "want", "source": "keys", "values": {"steering": [0.3, 1.6], "throttle": [1, None]}})
-        )
+        want(page, steering=[0.3, 1.6], throttle=[1, None])
         page.send(json.dumps({"type": "command", "name": "speed", "value": 0.5}))
         page.send(json.dumps({"type": "command", "name": "speed", "value": 7}))
         assert "must be from 0.05 to 1" in texts(page, "refused")["text"]
@@ -126,13 +129,15 @@ def test_every_page_is_informed_of_a_new_device(car, served):
         assert [device["id"] for device in shown] == ["wheel", "pedals"]
 
 
-def test_a_closed_page_releases_its_inputs(car, served):
-    with connect(served.url) as page:
-        page.send(
-            json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5], "steering": [0.4, 1.6]}})
-        )
+def test_a_closed_page_releases_its_inputs_and_a_second_one_keeps_its_own(car, served):
+    with connect(served.url) as one, connect(served.url) as two:
+        want(one, throttle=[1.0, 2.5], steering=[0.4, 1.6])
         until(lambda: car.wanted.get("throttle") == (1.0, 2.5))
-    until(lambda: car.wanted["throttle"] == (0.0, 5.0) and car.wanted["steering"] == (0.0, 3.0))
+        want(two, brake=[1.0, 4.0])
+        until(lambda: car.wanted.get("brake") == (1.0, 4.0))
+        one.close()
+        until(lambda: car.wanted["throttle"] == (0.0, 5.0) and car.wanted["steering"] == (0.0, 3.0))
+        assert car.wanted["brake"] == (1.0, 4.0)
     assert any("Page 1 was closed: steering, throttle let go." in text for text in served.told)
 
 
@@ -157,23 +162,11 @@ def test_the_car_stands_when_its_last_page_goes_and_drives_on_when_one_comes_bac
 
 def test_a_stalled_page_releases_its_inputs_and_drives_again_afterwards(car, served, monkeypatch):
     monkeypatch.setattr(connected_page, "STALLED", 0.2)
-    want = json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5]}})
     with connect(served.url) as page:
         for turn in (1, 2):
-            page.send(want)
+            want(page, throttle=[1.0, 2.5])
             until(lambda turn=turn: car.wishes == turn * [{"throttle": (1.0, 2.5)}, {"throttle": (0.0, 5.0)}])
             until(lambda turn=turn: sum("no longer sends messages: throttle" in text for text in served.told) == turn)
-
-
-def test_a_second_page_may_drive_too(car, served):
-    with connect(served.url) as one, connect(served.url) as two:
-        one.send(json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5]}}))
-        until(lambda: car.wanted.get("throttle") == (1.0, 2.5))
-        two.send(json.dumps({"type": "want", "source": "keys", "values": {"brake": [1.0, 4.0]}}))
-        until(lambda: car.wanted.get("brake") == (1.0, 4.0))
-        one.close()
-        until(lambda: car.wanted["throttle"] == (0.0, 5.0))
-        assert car.wanted["brake"] == (1.0, 4.0)
 
 
 def test_page_and_world_are_handed_out_packed_where_the_client_can(served):
@@ -246,10 +239,6 @@ def test_a_port_that_is_taken_names_the_next_free_one():
             web.listening_socket("127.0.0.1", port)
         free = int(str(refusal.value).rsplit(" ", 1)[1].rstrip("."))
         web.listening_socket("127.0.0.1", free).close()
-    with pytest.raises(HostError, match=r"The port is 70000; it must be"):
-        web.listening_socket("127.0.0.1", 70000)
-    with pytest.raises(HostError, match=r"The server cannot listen on 203.0.113.1: "):
-        web.listening_socket("203.0.113.1", 0)
 
 
 def test_a_port_that_the_user_may_not_have(monkeypatch):

@@ -18,13 +18,13 @@ import pytest
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 
+from tests.hosts.simulator.pages import HEADER, PATIENCE
 from tests.hosts.simulator.raw_client import RawClient, request
 from viewer import bundle
 
 ROOT = Path(__file__).parents[3]
 STEP = 0.005
 HOSTILE_STEPS = 300
-PATIENCE = 60.0  # s, of a machine that does much else
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C of another process is sent by a signal")
 
 
@@ -91,7 +91,7 @@ class Page:
         """Read until the next frame."""
         while isinstance(data := self.connection.recv(timeout=PATIENCE), str):
             self.texts.append(json.loads(data))
-        head = struct.unpack_from("<4I10d", data)
+        head = struct.unpack_from(HEADER, data)
         self.epoch, self.flags, self.count, self.time = head[1], head[2], head[4], head[5]
         values = np.frombuffer(data, "<f8", offset=96)
         self.values = dict(zip(self.hello["columns"], values, strict=True))

@@ -59,10 +59,7 @@ def table_study(study_file: Callable[..., Path], folder: Path) -> Path:
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_runs_that_raise_crash_or_hang_are_rows_and_are_made_again(
-    study_file: Callable[..., Path],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = table_study(study_file, tmp_path)
     ended = run_study(file, tmp_path / "out", None, 2)

@@ -9,7 +9,7 @@ import pytest
 from SALib.sample import sobol
 from scipy.stats import qmc
 
-from hosts.study.points import grid_points
+from hosts.study.points import digest, grid_points, points_of_columns
 from hosts.study.random_points import UnitPoints, latin_hypercube, saltelli, sobol_sequence
 
 
@@ -59,3 +59,11 @@ def test_sobol_points_are_balanced_at_a_power_of_two() -> None:
 def test_a_grid_has_all_combinations_once_the_last_fastest() -> None:
     places = np.floor(grid_points((2, 3))(0, 6) * [2, 3]).astype(int)
     assert [tuple(place) for place in places] == list(itertools.product(range(2), range(3)))
+
+
+@pytest.mark.parametrize("row", [0, 500, 999])
+def test_a_change_of_any_row_of_a_table_is_seen(row: int) -> None:
+    values: list[float | int | bool | str] = [float(k) for k in range(1000)]
+    changed = [*values[:row], values[row] + 0.5, *values[row + 1 :]]  # type: ignore[operator]
+    assert digest(points_of_columns({"a": values})) == digest(points_of_columns({"a": list(values)}))
+    assert digest(points_of_columns({"a": values})) != digest(points_of_columns({"a": changed}))

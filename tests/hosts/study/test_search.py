@@ -25,8 +25,7 @@ def test_a_monotone_measure_is_met_by_few_runs() -> None:
 
 
 @pytest.mark.parametrize(
-    ("top", "law"),
-    [(4.0, lambda x: x - 0.7 + (x - 2.0) ** 3), (19000.0, lambda x: 1.174 + 0.69 / (1.0 + x / 800.0))],
+    ("top", "law"), [(4.0, lambda x: x - 0.7 + (x - 2.0) ** 3), (19000.0, lambda x: 1.174 + 0.69 / (1.0 + x / 800.0))]
 )
 def test_the_slope_is_that_of_a_run_beside_it(top: float, law: Callable[[float], float]) -> None:
     """The secant of the ends meets the first, with a slope of 5; in the second it is another one at the left."""

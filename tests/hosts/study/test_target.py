@@ -106,11 +106,7 @@ def test_what_changes_by_rounding_alone_does_not_change(
         (("--between", "1:50"), "spring.stiffness", "--by and --between need --target"),
         (("--target", "lowest=-1.2"), "bob.x", "--by: 'bob.x' is an output of the FMU; it cannot be set"),
         (("--target", "lowest=-1.2"), "spring.mass", "--by: 'spring.mass' is a constant, 0.1 kg; it cannot be set"),
-        (
-            ("--target", "lowest=-1", "--target", "highest=2"),
-            "pull",
-            "is given 2 times, lowest=-1 and highest",
-        ),
+        (("--target", "lowest=-1", "--target", "highest=2"), "pull", "is given 2 times, lowest=-1 and highest"),
         (
             ("--target", "lowest=-1.2", "--between", "-1:1"),
             "spring.stiffness",

@@ -1,4 +1,4 @@
-"""Messages before a study: its plan, and a measure that the trial runs could not compute."""
+"""Messages before a study: its plan, that of the example, and a measure that the trial runs could not compute."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +10,7 @@ from hosts.common.road import road_value
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu_source import FmuSource
 from hosts.study.campaign import run_study
+from hosts.study.command import main
 from hosts.study.jobs import Job
 from hosts.study.study_runs import SingleProcess
 from hosts.study.worker_data import Run, Work
@@ -47,3 +48,21 @@ def test_a_start_is_reported_where_a_run_has_it(
     with SingleProcess(work, tmp_path / "none.fmu") as processes:
         assert "none.fmu" in processes.run(Run(0, {"initial.x": x})).reason
     assert capfd.readouterr().err.count("warning: ") == reported
+
+
+EXAMPLE = Path(__file__).parents[3] / "examples" / "handling_study.toml"
+
+
+@pytest.mark.slow
+def test_the_example_is_a_plan(
+    prototype_fmu: Path,
+    tmp_path: Path,
+    in_process: None,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr("hosts.fmu.built_fmu.fmu_of_car", lambda car, *_: {"prototype": prototype_fmu}[car])
+    assert main([str(EXAMPLE), "--dry-run", "--out", str(tmp_path / "out")]) == 0
+    assert "192 points x 1 = 192 runs" in capsys.readouterr().out
+    assert "192 runs" in EXAMPLE.read_text(encoding="utf-8")
+    assert not (tmp_path / "out").exists()

@@ -27,12 +27,7 @@ class FourBar:
 
     def points(self):
         """Hard points by the names of a car file."""
-        (ly, lz), (by, bz), (uy, uz), (vy, vz) = (
-            self.lower_pivot,
-            self.lower_ball,
-            self.upper_pivot,
-            self.upper_ball,
-        )
+        (ly, lz), (by, bz), (uy, uz), (vy, vz) = (self.lower_pivot, self.lower_ball, self.upper_pivot, self.upper_ball)
         return {
             "lower_pivot_front": [0.15, ly, lz],
             "lower_pivot_rear": [-0.15, ly, lz],

@@ -21,11 +21,7 @@ def run(car, motion):
 
 @pytest.mark.parametrize(
     ("car", "axle", "motion"),
-    [
-        ("prototype", "rear", "heave"),
-        ("hatchback", "rear", "roll"),
-        ("hatchback", "front", "steer"),
-    ],
+    [("prototype", "rear", "heave"), ("hatchback", "rear", "roll"), ("hatchback", "front", "steer")],
 )
 def test_the_car_in_motion_goes_through_the_same_positions(car, axle, motion):
     done, linkage = run(car, motion), Linkage(load(car), axle)

@@ -1,11 +1,12 @@
-"""Planar wishbones against closed forms: equal and parallel, parallel and sloping, unequal; over large travel."""
+"""Planar wishbones against closed forms: equal and parallel, sloping, unequal; over large travel, and steered."""
 
 from functools import cache
 
 import numpy as np
 import pytest
 
-from mbs.vehicle.kinematics.curves import travel_curve
+from mbs.vehicle.kinematics.car_kinematics import wheel_by_rack
+from mbs.vehicle.kinematics.curves import steer_curve, travel_curve
 from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle.kinematics.planar_wishbones import CENTRE, TRACK_HALF, FourBar
 
@@ -87,3 +88,27 @@ def test_wheel_rate_by_the_lever_law_over_large_travel():
     roll = 2.0 * TRACK_HALF**2 * opposite.drawn()["wheel_rate_left"]
     assert opposite.drawn()["roll_stiffness"] == pytest.approx(roll, rel=1e-9)
     assert linkage.data.wheel.centre[2] == CENTRE
+
+
+def test_ackermann_and_turning_circle_of_upright_steering_axes():
+    car = LEVEL.car(tie_rod_inner=(-0.14, 0.30, 0.15), tie_rod_outer=(-0.12, 0.57, 0.15))
+    assert car.rack_direction == -1.0  # rods behind the axle
+    c = steer_curve(Linkage(car, "front"), np.linspace(-0.05, 0.05, 11), wheel_by_rack(car))
+    assert (np.diff(c["steering_wheel_angle"]) > 0.0).all()
+    kingpin_y = 0.60
+    offset, base = TRACK_HALF - kingpin_y, car.wheelbase
+    for k in (0, 2, 8, 10):
+        left, right = c["steer_angle_left"][k], c["steer_angle_right"][k]
+        inner, outer = (left, right) if left > 0.0 else (-right, -left)  # a turn to the left, mirrored if need be
+        # contact centres: the offset turned about the kingpins
+        x_in, y_in = -offset * np.sin(inner), kingpin_y + offset * np.cos(inner)
+        x_out, y_out = offset * np.sin(outer), -kingpin_y - offset * np.cos(outer)
+        middle_in = y_in + (x_in + base) / np.tan(inner)
+        ideal = np.arctan2(x_out + base, middle_in - y_out)
+        assert c["ackermann_error"][k] == pytest.approx(outer - ideal, abs=1e-12)
+        assert c["ackermann"][k] == pytest.approx(100.0 * (inner - outer) / (inner - ideal), rel=1e-9)
+        middle = 0.5 * (middle_in + y_out + (x_out + base) / np.tan(outer))
+        assert c["turning_circle"][k] == pytest.approx(2.0 * np.hypot(x_out + base, middle - y_out), rel=1e-9)
+        assert abs(c["ackermann_steer_angle"][k]) == pytest.approx(ideal, rel=1e-12)
+    assert np.isnan(c["ackermann"][5])
+    np.testing.assert_allclose(c["ackermann"][:5], c["ackermann"][:5:-1], rtol=1e-9)

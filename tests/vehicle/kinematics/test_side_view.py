@@ -89,11 +89,7 @@ def test_anti_squat_by_the_way_of_the_wheel_centre():
     points = "rear.suspension.points.lower_pivot"
     plain = load("prototype")
     car = plain.changed(
-        {
-            f"{points}_front": [-2.12, 0.30, 0.23],
-            f"{points}_rear": [-2.38, 0.30, 0.17],
-            "chassis.frame.or_rigid": True,
-        }
+        {f"{points}_front": [-2.12, 0.30, 0.23], f"{points}_rear": [-2.38, 0.30, 0.17], "chassis.frame.or_rigid": True}
     )
     p = dict(car.rear.suspension.points)
     as_strut = p | {"strut_lower": p["lower_ball_joint"]}

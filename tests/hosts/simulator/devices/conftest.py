@@ -40,6 +40,14 @@ def attach(sdl_started: None) -> Iterator[Attach]:
         device.pull_out()
 
 
+@pytest.fixture
+def wheel(attach: Attach) -> Any:
+    """Plugged in, with its pedals at rest."""
+    from tests.hosts.simulator.devices.virtual import rested
+
+    return rested(attach())
+
+
 class Run:
     """`Devices` that run, with what they told and want."""
 

@@ -13,21 +13,14 @@ from hypothesis import strategies as st
 from hosts.common.errors import HostError
 from hosts.simulator.devices.mapping import read_settings
 from hosts.simulator.protocol import DEVICE_MESSAGES
-from tests.hosts.simulator.devices.virtual import ANGLE_MAX, GAMEPAD, OTHER, sdl2, until
+from tests.hosts.simulator.devices.virtual import ANGLE_MAX, GAMEPAD, OTHER, rested, sdl2
+from tests.hosts.simulator.pages import until
 
 WHEEL = "device Wheel"
 PEDALS = "device Pedals"
 
 
-def rested(device):
-    """A wheel whose pedals rest at the high end, as most do."""
-    for k in (1, 2, 3):
-        device.axis(k, 1.0)
-    return device
-
-
-def test_a_wheel_turns_the_steering_by_its_angle_and_presses_pedals(attach, start):
-    wheel = rested(attach())
+def test_a_wheel_turns_the_steering_by_its_angle_and_presses_pedals(wheel, start):
     run = start()
     wheel.axis(0, -1.0)
     wheel.axis(2, -1.0)
@@ -43,8 +36,7 @@ def test_a_wheel_turns_the_steering_by_its_angle_and_presses_pedals(attach, star
     assert run.said("Wheel is plugged in and drives steering by axis 0, throttle by axis 2 and brake by axis 3")
 
 
-def test_a_device_that_lies_untouched_moves_nothing(attach, start):
-    wheel = rested(attach())
+def test_a_device_that_lies_untouched_moves_nothing(wheel, start):
     wheel.axis(0, 0.6)
     run = start()
     wheel.axis(2, 0.0)
@@ -52,8 +44,7 @@ def test_a_device_that_lies_untouched_moves_nothing(attach, start):
     assert list(run.arbiter.by_source[WHEEL]) == ["throttle"]
 
 
-def test_requests_are_sent_again_for_a_later_listener(attach, start):
-    wheel = rested(attach())
+def test_requests_are_sent_again_for_a_later_listener(wheel, start):
     run = start()
     wheel.axis(2, -1.0)
     until(lambda: run.arbiter.value(WHEEL, "throttle"))
@@ -65,16 +56,14 @@ def test_requests_are_sent_again_for_a_later_listener(attach, start):
     assert time.monotonic() - begin >= 0.45, "what does not move is not said at every reading"
 
 
-def test_without_the_angle_of_the_car_a_whole_turn_is_full_steering(attach, start):
-    wheel = rested(attach())
+def test_without_the_angle_of_the_car_a_whole_turn_is_full_steering(wheel, start):
     run = start(constants={})
     wheel.axis(0, -1.0)
     assert until(lambda: run.arbiter.value(WHEEL, "steering")) == 1.0
     assert run.said("does not say vehicle.steering_wheel_angle_max")
 
 
-def test_a_car_that_is_steered_by_an_angle_follows_it(attach, start):
-    wheel = rested(attach())
+def test_a_car_that_is_steered_by_an_angle_follows_it(wheel, start):
     run = start(inputs=("steering_wheel_angle_demand", "throttle"), constants={})
     assert not run.said("does not say")
     wheel.axis(0, -1.0)
@@ -131,8 +120,7 @@ def test_a_gamepad_drives_by_its_triggers_and_buttons_move_the_selector(attach, 
     assert until(lambda: run.arbiter.value("device Pad", "selector")) == -1.0
 
 
-def test_a_press_moves_the_selector_once(attach, start):
-    wheel = rested(attach())
+def test_a_press_moves_the_selector_once(wheel, start):
     run = start()
     run.devices.assign(run.only()["id"], "selector reverse", {"source": "hat 0 down"})
     moved = []
@@ -144,8 +132,7 @@ def test_a_press_moves_the_selector_once(attach, start):
     assert moved == [-1.0]
 
 
-def test_a_calibration_finds_ends_and_drives_nothing_meanwhile(attach, start):
-    wheel = rested(attach())
+def test_a_calibration_finds_ends_and_drives_nothing_meanwhile(wheel, start):
     run = start()
     wheel.axis(2, 0.0)
     until(lambda: run.arbiter.value(WHEEL, "throttle"))
@@ -169,8 +156,7 @@ def test_a_calibration_finds_ends_and_drives_nothing_meanwhile(attach, start):
     assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == 1.0
 
 
-def test_a_pedal_that_is_pressed_while_it_is_reassigned_is_released(attach, start):
-    wheel = rested(attach())
+def test_a_pedal_that_is_pressed_while_it_is_reassigned_is_released(wheel, start):
     run = start()
     wheel.axis(2, -1.0)
     until(lambda: run.arbiter.value(WHEEL, "throttle"))
@@ -180,8 +166,7 @@ def test_a_pedal_that_is_pressed_while_it_is_reassigned_is_released(attach, star
     assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == pytest.approx((0.5 - 0.2) / 0.8, abs=1e-4)
 
 
-def test_a_mapping_is_kept_and_reset(attach, start, tmp_path):
-    rested(attach())
+def test_a_mapping_is_kept_and_reset(wheel, start, tmp_path):
     run = start()
     id, before = run.only()["id"], run.only()["mapping"]
     file = tmp_path / f"{id}.toml"
@@ -251,8 +236,7 @@ def test_a_folder_that_cannot_be_written_is_reported_and_the_mapping_holds(attac
         ({"type": "dance", "device": "ID"}, "'dance', which is unknown"),
     ],
 )
-def test_a_wrong_message_is_refused_and_changes_nothing(attach, start, message, words):
-    rested(attach())
+def test_a_wrong_message_is_refused_and_changes_nothing(wheel, start, message, words):
     run = start()
     before = run.only()["mapping"]
     with pytest.raises(HostError, match=words):
@@ -272,8 +256,7 @@ KEYS = {"input": st.just("throttle") | JSON, "mapping": JSON, "settings": JSON, 
 
 
 @pytest.mark.slow
-def test_no_message_does_more_than_be_refused(attach, start):
-    rested(attach())
+def test_no_message_does_more_than_be_refused(wheel, start):
     run = start()
     id = run.only()["id"]
 
@@ -310,8 +293,7 @@ def test_where_sdl_cannot_start_a_sentence_is_reported(monkeypatch, start):
     assert run.said("SDL says")
 
 
-def test_an_error_in_the_thread_releases_inputs_and_is_reported(attach, start):
-    wheel = rested(attach())
+def test_an_error_in_the_thread_releases_inputs_and_is_reported(wheel, start):
     run = start()
 
     def fail(source, values):

@@ -12,7 +12,8 @@ from hosts.common.errors import HostError
 from hosts.simulator.devices.force_feedback import FULL, PULSE, RISE, ForceLaw
 from hosts.simulator.devices.mapping import DeviceSettings
 from tests.hosts.simulator.devices.haptics import CONSTANT, DAMPER, SPRING, Haptics
-from tests.hosts.simulator.devices.virtual import GAMEPAD, sdl2, until
+from tests.hosts.simulator.devices.virtual import GAMEPAD, sdl2
+from tests.hosts.simulator.pages import until
 
 UNHURRIED = settings(deadline=None)
 """A busy machine fails no test."""
@@ -89,6 +90,15 @@ def haptics(sdl_started, monkeypatch):
     return Haptics().install(monkeypatch)
 
 
+@pytest.fixture
+def pushed(attach, start, haptics):
+    """A wheel, its torque and `Devices`, once its motor pushes to the right."""
+    wheel, torque = attach(), Torque(6.0)
+    run = start(torque)
+    until(lambda: haptics.levels and haptics.levels[-1] < 0)
+    return wheel, torque, run
+
+
 def test_the_motor_gets_a_constant_force_along_the_steering_axis(attach, start, haptics):
     attach()
     torque = Torque(4.0)
@@ -115,11 +125,8 @@ def test_old_sdl_without_steering_axis_gets_a_force_from_the_right(attach, start
     assert haptics.of(CONSTANT)[0]["direction"] == sdl2.SDL_HAPTIC_CARTESIAN
 
 
-def test_while_the_car_does_not_run_the_force_is_zero_and_a_spring_holds(attach, start, haptics):
-    attach()
-    torque = Torque(6.0)
-    start(torque)
-    until(lambda: haptics.levels and haptics.levels[-1] < 0)
+def test_while_the_car_does_not_run_the_force_is_zero_and_a_spring_holds(pushed, haptics):
+    _, torque, _ = pushed
     assert haptics.coefficient(SPRING) == 0
     assert haptics.coefficient(DAMPER) == round(0.1 * 32767)
     torque.value = None
@@ -129,10 +136,8 @@ def test_while_the_car_does_not_run_the_force_is_zero_and_a_spring_holds(attach,
     until(lambda: haptics.coefficient(SPRING) == 0)
 
 
-def test_at_the_end_the_force_is_zero_and_the_motor_closed(attach, start, haptics):
-    attach()
-    run = start(Torque(6.0))
-    until(lambda: haptics.levels and haptics.levels[-1] < 0)
+def test_at_the_end_the_force_is_zero_and_the_motor_closed(pushed, haptics):
+    _, _, run = pushed
     run.devices.close()
     assert haptics.levels[-1] == 0
     assert not haptics.running
@@ -140,10 +145,8 @@ def test_at_the_end_the_force_is_zero_and_the_motor_closed(attach, start, haptic
     assert haptics.calls[-2:] == ["StopAll", "Close"]
 
 
-def test_pulled_out_the_motor_is_closed_and_a_new_one_opened_when_it_is_back(attach, start, haptics):
-    wheel = attach()
-    run = start(Torque(6.0))
-    until(lambda: haptics.levels and haptics.levels[-1] < 0)
+def test_pulled_out_the_motor_is_closed_and_a_new_one_opened_when_it_is_back(pushed, attach, haptics):
+    wheel, _, run = pushed
     wheel.pull_out()
     until(lambda: not haptics.open)
     assert haptics.levels[-1] == 0
@@ -152,11 +155,8 @@ def test_pulled_out_the_motor_is_closed_and_a_new_one_opened_when_it_is_back(att
     until(lambda: run.only()["force"])
 
 
-def test_an_error_of_the_torque_ends_the_force_with_one_sentence(attach, start, haptics):
-    attach()
-    torque = Torque(6.0)
-    run = start(torque)
-    until(lambda: haptics.levels and haptics.levels[-1] < 0)
+def test_an_error_of_the_torque_ends_the_force_with_one_sentence(pushed, haptics):
+    _, torque, run = pushed
     torque.value = ValueError("no car")
     until(lambda: run.said("Wheel goes on without force: ValueError: no car."))
     until(lambda: not haptics.open)
@@ -164,10 +164,8 @@ def test_an_error_of_the_torque_ends_the_force_with_one_sentence(attach, start, 
     assert run.only()["force"] is False
 
 
-def test_a_refused_update_is_reported_once_and_the_wheel_still_steers(attach, start, haptics):
-    wheel = attach()
-    run = start(Torque(6.0))
-    until(lambda: haptics.levels and haptics.levels[-1] < 0)
+def test_a_refused_update_is_reported_once_and_the_wheel_still_steers(pushed, haptics):
+    wheel, _, run = pushed
     haptics.refuse = {"UpdateEffect"}
     until(lambda: run.said("goes on without force: its motor refuses a constant force: SDL says"))
     until(lambda: not haptics.open)
@@ -176,10 +174,8 @@ def test_a_refused_update_is_reported_once_and_the_wheel_still_steers(attach, st
     assert sum("without force" in sentence for sentence in run.told) == 1
 
 
-def test_a_motor_that_hangs_holds_nothing_up(attach, start, haptics):
-    wheel = attach()
-    run = start(Torque(6.0))
-    until(lambda: haptics.levels and haptics.levels[-1] < 0)
+def test_a_motor_that_hangs_holds_nothing_up(pushed, haptics):
+    wheel, _, run = pushed
     haptics.hang = threading.Event()
     try:
         wheel.axis(0, -1.0)

@@ -8,8 +8,7 @@ import pytest
 
 from hosts.common.errors import HostError
 from tests.hosts.simulator.devices.haptics import Haptics
-from tests.hosts.simulator.devices.virtual import until
-from tests.in_browser import bundle_or_skip, headless_chromium
+from tests.hosts.simulator.pages import until
 from viewer import bundle
 
 pytestmark = pytest.mark.slow  # a browser
@@ -20,13 +19,6 @@ _MAKE = """() => {
   document.body.append(panel.element);
   panel.show([]);
 }"""
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    bundle_or_skip()
-    with headless_chromium() as browser:
-        yield browser
 
 
 class Panel:
@@ -78,14 +70,6 @@ def panel(chromium: Any, start: Any) -> Iterator[Panel]:
     page.close()
     assert opened.errors == []
     assert opened.refused == []
-
-
-@pytest.fixture
-def wheel(attach: Any) -> Any:
-    attached = attach()
-    for k in (1, 2, 3):
-        attached.axis(k, 1.0)
-    return attached
 
 
 def test_it_shows_devices_as_they_come_and_go(panel, start, attach):

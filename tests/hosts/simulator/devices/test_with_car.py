@@ -8,15 +8,12 @@ import pytest
 from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.input_arbiter import InputArbiter
 from tests.hosts.simulator.devices.haptics import Haptics
-from tests.hosts.simulator.devices.virtual import until
+from tests.hosts.simulator.pages import until
 
 
 @pytest.mark.slow
-def test_the_car_follows_the_angle_of_the_wheel_and_pulls_it_back(prototype_fmu, attach, start, monkeypatch):
+def test_the_car_follows_the_angle_of_the_wheel_and_pulls_it_back(prototype_fmu, wheel, start, monkeypatch):
     haptics = Haptics().install(monkeypatch)
-    wheel = attach()
-    for k in (1, 2, 3):
-        wheel.axis(k, 1.0)
     with Car(CarSettings(fmu=prototype_fmu, start={"initial.speed": 12.0}, priority=False)) as car:
 
         def now(name: str) -> float:

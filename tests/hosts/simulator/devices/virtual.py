@@ -1,10 +1,8 @@
 """SDL's virtual devices, and what stands in for the car's side."""
 
 import ctypes
-import time
 import warnings
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import pytest
 
@@ -55,6 +53,13 @@ class VirtualDevice:
                 return
 
 
+def rested(device: VirtualDevice) -> VirtualDevice:
+    """A wheel whose pedals rest at the high end, as most do."""
+    for k in (1, 2, 3):
+        device.axis(k, 1.0)
+    return device
+
+
 class RecordedArbiter:
     """In place of `InputArbiter`: keeps what each source wants last."""
 
@@ -73,14 +78,3 @@ class RecordedArbiter:
 
     def value(self, source: str, name: str) -> float | None:
         return self.by_source.get(source, {}).get(name, (None, None))[0]
-
-
-def until(what: Callable[[], Any], seconds: float = 60.0) -> Any:
-    """Wait until the value of a function is true; returns it."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        value = what()
-        if value:
-            return value
-        time.sleep(0.002)
-    raise AssertionError("it did not happen in time")
