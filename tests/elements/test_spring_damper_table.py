@@ -138,12 +138,12 @@ BARRIER = [(0.1, 0.0), (1.2, 0.0), (1.503, 0.0), (1.507, 280.0), (1.511, 0.0), (
 """Rows of a table, m and N."""
 
 
-def slide(rows: object) -> System:
-    """2 kg on a line, on a spring from 1 m behind the start."""
-    m = Model("slide", dimension=2, gravity=(0.0, 0.0))
+def slide(rows: object, speed: float = SPEED, gravity: float = 0.0) -> System:
+    """2 kg on a line, on a spring from 1 m behind the start; gravity is along the line."""
+    m = Model("slide", dimension=2, gravity=(gravity, 0.0))
     body = m.body("body", mass=2.0, com=(1.0, 0.0), inertia=0.1)
     m.prismatic("guide", m.ground, body, axis=(1.0, 0.0))
-    m.initial_velocity(body, linear=(SPEED, 0.0), angular=0.0)
+    m.initial_velocity(body, linear=(speed, 0.0), angular=0.0)
     m.add(SpringDamperTable(rows).record("spring", body.point((1.0, 0.0)) - m.ground.point((0.0, 0.0))))  # type: ignore[arg-type]
     m.force("push", body, inputs=[m.input("push", min=-1.0, max=1.0), None])
     m.sense_position("x", body, component="x")
@@ -173,7 +173,21 @@ def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method: str, ener
     assert error(run) < 0.1 or any(w.category is AccuracyWarning for w in caught)
 
 
-@pytest.mark.parametrize(("limit", "divisions"), [(0, 2), (4, 0), (10, 2)])
+@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha"])
+def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(method: str) -> None:
+    """It takes half of the energy up to its middle; behind it the body moves as without it, later."""
+    h, gravity = 0.02, 10.0  # 2 mm in the first step
+    begin, middle, end = 1.0004, 1.0006, 1.0008
+    peak = 2.0 * gravity * (middle - 1.0) / (middle - begin)
+    rows = [(0.1, 0.0), (0.9, 0.0), (begin, 0.0), (middle, peak), (end, 0.0), (3.0, 0.0), (9.0, 0.0)]
+    run = simulate(slide(rows, 0.0, gravity), 0.2, h, method=method, estimate_error=False, progress=False)
+    fine = simulate(slide(rows, 0.0, gravity), 0.2, 1e-5, method=method, every=2000, estimate_error=False, progress=False)
+    assert run.report is not None
+    assert run.report.divisions >= 2
+    assert np.abs(run["x"] - fine["x"])[1:].max() < 1e-4
+
+
+@pytest.mark.parametrize(("limit", "divisions"), [(0, 2), (4, 1), (10, 2)])
 def test_parts_of_a_step_over_a_barrier_share_its_limit_of_iterations(limit: int, divisions: int) -> None:
     instance = Instance(LoadedSystem(slide(BARRIER).to_bytes()))
     instance.set_settings(step_iterations=limit)
