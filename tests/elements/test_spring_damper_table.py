@@ -181,7 +181,9 @@ def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(metho
     peak = 2.0 * gravity * (middle - 1.0) / (middle - begin)
     rows = [(0.1, 0.0), (0.9, 0.0), (begin, 0.0), (middle, peak), (end, 0.0), (3.0, 0.0), (9.0, 0.0)]
     run = simulate(slide(rows, 0.0, gravity), 0.2, h, method=method, estimate_error=False, progress=False)
-    fine = simulate(slide(rows, 0.0, gravity), 0.2, 1e-5, method=method, every=2000, estimate_error=False, progress=False)
+    fine = simulate(
+        slide(rows, 0.0, gravity), 0.2, 1e-5, method=method, every=2000, estimate_error=False, progress=False
+    )
     assert run.report is not None
     assert run.report.divisions >= 2
     assert np.abs(run["x"] - fine["x"])[1:].max() < 1e-4

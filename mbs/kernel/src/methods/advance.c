@@ -101,7 +101,7 @@ static double part_end(const ali3_instance *in, double t, double h, double resol
   if (in->system->size.ng == 0) return fmin(inputs, t);
   const double jump = ali3_guides_break(in, in->clock.now + near, inputs + near),
                end = jump < t - near ? fmin(jump, inputs) : fmin(inputs, t),
-               piece_end = ali3_guides_resolved(in, in->clock.now, end, near, ali3_method_order(in) == 2);
+               piece_end = ali3_guides_resolved(in, in->clock.now, end, near, ali3_method_order(in) <= 2);
   if (piece_end == end && jump < inputs + near) *guide = jump;
   return piece_end;
 }
