@@ -175,18 +175,19 @@ def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method: str, ener
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha"])
 def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(method: str) -> None:
-    """It takes half of the energy up to its middle; behind it the body moves as without it, later."""
+    """It takes a quarter of the energy up to its middle; without it the body is 6 mm further at the end."""
     h, gravity = 0.02, 10.0  # 2 mm in the first step
     begin, middle, end = 1.0004, 1.0006, 1.0008
-    peak = 2.0 * gravity * (middle - 1.0) / (middle - begin)
+    peak = gravity * (middle - 1.0) / (middle - begin)
     rows = [(0.1, 0.0), (0.9, 0.0), (begin, 0.0), (middle, peak), (end, 0.0), (3.0, 0.0), (9.0, 0.0)]
-    run = simulate(slide(rows, 0.0, gravity), 0.2, h, method=method, estimate_error=False, progress=False)
-    fine = simulate(
-        slide(rows, 0.0, gravity), 0.2, 1e-5, method=method, every=2000, estimate_error=False, progress=False
+    run, fine = (
+        simulate(system, 0.2, step, method=method, every=round(h / step), estimate_error=False, progress=False)
+        for system in [slide(rows, 0.0, gravity)]
+        for step in (h, 2e-5)
     )
     assert run.report is not None
     assert run.report.divisions >= 2
-    assert np.abs(run["x"] - fine["x"])[1:].max() < 1e-4
+    assert np.abs(run["x"] - fine["x"]).max() < 5e-4
 
 
 @pytest.mark.parametrize(("limit", "divisions"), [(0, 2), (4, 1), (10, 2)])
