@@ -130,9 +130,8 @@ def _with_remarks(record: RunRecord, comments: Iterable[tuple[int, str]], path: 
     return replace(record, start={**record.start, **start})
 
 
-def check_times(times: Sequence[float], path: Path) -> None:
-    """Refuse times of rows, s, before 0, too large for distinct rows, as those since 1970, or one of three rows."""
-    first, last = times[0], times[-1]
+def check_begin(first: float, last: float, path: Path) -> None:
+    """Refuse a table with times, s, before 0 or too large for distinct rows, as those since 1970."""
     if first < 0.0:
         raise HostError(f"{path} begins at {first:.15g} s; a run begins at 0: add {-first:.15g} s to all its times.")
     if last > _LATEST:
@@ -140,6 +139,11 @@ def check_times(times: Sequence[float], path: Path) -> None:
             f"{path} goes from {first:.15g} to {last:.15g} s; a run begins at 0 and ends before {_LATEST:.2g} s: "
             "subtract the first time from all, and write them in s."
         )
+
+
+def check_times(times: Sequence[float], path: Path) -> None:
+    """Refuse times, s, of the rows of inputs: those of `check_begin`, and one of three rows."""
+    check_begin(times[0], times[-1], path)
     if (thrice := next((a for a, b in zip(times, times[2:], strict=False) if a == b), None)) is not None:
         raise HostError(
             f"{path} has more than two rows at {thrice:.15g} s; a jump has two, with the values before and after it."

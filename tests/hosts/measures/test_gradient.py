@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hosts.measures.gradient import gradient
+from hosts.measures.library import gradient
 
 
 def test_a_line_is_found_however_dense_its_points_are() -> None:

@@ -91,6 +91,11 @@ double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1) {
 
 static const double NEAR = 1e-6; /* of the way: a nearer point is at its start or end */
 
+double ali3_cubic_departure(const double y[2], const double rise[2], double u, double value) {
+  const double v = 1.0 - u;
+  return fabs(value - v * v * (y[0] * (1.0 + 2.0 * u) + rise[0] * u) - u * u * (y[1] * (1.0 + 2.0 * v) - rise[1] * v));
+}
+
 /* Fraction of the way from x0 to x1 of the point that departs most from the cubic through both, if by too much;
  * otherwise 1. `part`: what it is of the whole way. */
 static double find_departing_point(const ali3_cubic_table *t, double x0, double x1, double part, double share,
@@ -101,15 +106,13 @@ static double find_departing_point(const ali3_cubic_table *t, double x0, double 
   while (last < t->n && t->x[last] < high) last++;
   if (last == first) return 1.0;
   const piece p0 = make_piece(t, way > 0.0 ? first : last), p1 = make_piece(t, way > 0.0 ? last : first);
-  const double y0 = evaluate_piece(&p0, x0), y1 = evaluate_piece(&p1, x1),
-               largest = fmax(least, fmax(fabs(y0), fabs(y1)));
-  const double rise0 = way * find_slope(&p0, x0 - p0.start), rise1 = way * find_slope(&p1, x1 - p1.start);
+  const double y[2] = {evaluate_piece(&p0, x0), evaluate_piece(&p1, x1)},
+               rise[2] = {way * find_slope(&p0, x0 - p0.start), way * find_slope(&p1, x1 - p1.start)},
+               largest = fmax(least, fmax(fabs(y[0]), fabs(y[1])));
   double most = 0.0, fraction = 1.0;
   for (int32_t k = first; k < last; k++) {
-    const double u = (t->x[k] - x0) / way, v = 1.0 - u;
-    const double cubic = v * v * (y0 * (1.0 + 2.0 * u) + rise0 * u) + u * u * (y1 * (1.0 + 2.0 * v) - rise1 * v);
-    const double departure = fabs(t->y[k] - cubic);
-    if (!(part * u > NEAR && v > NEAR && departure > most && departure > share * fmax(largest, fabs(t->y[k]))))
+    const double u = (t->x[k] - x0) / way, departure = ali3_cubic_departure(y, rise, u, t->y[k]);
+    if (!(part * u > NEAR && 1.0 - u > NEAR && departure > most && departure > share * fmax(largest, fabs(t->y[k]))))
       continue;
     most = departure;
     fraction = u;

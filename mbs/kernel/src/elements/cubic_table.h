@@ -21,6 +21,10 @@ double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope
 /* Mean of y from x0 to x1: the difference quotient of the integral, free of cancellation. */
 double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1);
 
+/* Distance of a value, at the fraction u of a way, from the cubic with the values y and the slopes times the way `rise`
+ * at both ends. */
+double ali3_cubic_departure(const double y[2], const double rise[2], double u, double value);
+
 /* Fraction of the way from x0 to x1, to x1 or a point of the table, on which values and slopes at both ends tell y: no
  * point departs from the cubic through them by more than `share` of the largest of |y| and `least`. */
 double ali3_cubic_resolved(const ali3_cubic_table *t, double x0, double x1, double share, double least);

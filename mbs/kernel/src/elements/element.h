@@ -79,11 +79,10 @@ typedef struct ali3_element_type {
   /* Of the same springs: fraction of a step of size h at which the first stop with a kink is met or left, from the
    * outputs at the start and the end of the step; 1: none is. */
   double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);
-  /* Of springs by a table, whose outputs are length, force and rate: time, s, up to h, in which the length, going on by
-   * its rate, meets the first row that the cubic through values and slopes at both ends misses by more than `share` of
-   * the largest force and of `largest`, N. */
-  double (*resolved_step)(const double *real, const int32_t *integer, const double *out, double h, double share,
-                          double largest);
+  /* Of springs by a table, whose outputs are length, force and rate: fraction of the way between two lengths, m, to the
+   * first row that the cubic through values and slopes at both ends misses by more than `share` of the largest force
+   * and of `largest`, N; 1: no row. */
+  double (*resolved)(const double *real, const int32_t *integer, double from, double to, double share, double largest);
   bool conservative; /* a potential, or a force of inputs alone: composed steps of order four accept it */
   /* Whether a conservative element dissipates energy with these data. */
   bool (*lossy)(const double *real, int32_t nreal, const int32_t *integer);

@@ -103,12 +103,12 @@ static bool is_beyond_stop(const double *real, const double *out) {
 }
 
 /* The table of a damper does not fall: it hides nothing between two rates. */
-static double find_resolved_step(const double *real, const int32_t *integer, const double *out, double h, double share,
-                                 double largest) {
-  const double stretch = out[0] - real[FREE_LENGTH], factor = real[STIFFNESS_FACTOR];
-  if (integer[SPRING_POINTS] == 0 || factor == 0.0) return h;
+static double find_resolved_way(const double *real, const int32_t *integer, double from, double to, double share,
+                                double largest) {
+  const double free_length = real[FREE_LENGTH], factor = real[STIFFNESS_FACTOR];
+  if (integer[SPRING_POINTS] == 0 || factor == 0.0) return 1.0;
   const ali3_cubic_table table = read_spring_table(real, integer);
-  return h * ali3_cubic_resolved(&table, stretch, stretch + h * out[2], share, largest / factor);
+  return ali3_cubic_resolved(&table, from - free_length, to - free_length, share, largest / factor);
 }
 
 /* A damper never supplies energy: its force must not decrease with the rate and is 0 at rest. */
@@ -142,5 +142,5 @@ const ali3_element_type ali3_spring_damper_table = {
     .first_force = 1,
     .n_forces = 1,
     .check = check,
-    .resolved_step = find_resolved_step,
+    .resolved = find_resolved_way,
 };

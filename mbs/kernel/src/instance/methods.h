@@ -16,7 +16,7 @@ typedef struct {
 /* Guides in a step, ng each. */
 typedef struct {
   double *mean;    /* mean rates over the step */
-  double *jump;    /* 2 ng: smallest jumps of rate and of acceleration of each guide of time that divide a step */
+  double *abrupt;  /* 3 ng: of guides of time: least departure, jumps of rate and acceleration that divide a step */
   double *follows; /* 1 if a filtered guide moves in the step, otherwise 0 */
 } ali3_guide_work;
 

@@ -127,15 +127,22 @@ bool ali3_divides_at_row(ali3_instance *in, const ali3_request *request) {
   return divides_abruptly(in, request, MIN_ITERATIONS);
 }
 
+double ali3_table_resolved(const ali3_instance *in, int32_t element, double from, double to) {
+  const ali3_system *S = in->system;
+  const ali3_element_size *at = S->el_size + element;
+  if (S->el_kind[element]->resolved == NULL) return 1.0;
+  return S->el_kind[element]->resolved(in->parameters.el_real + at->real, S->el_int + at->integer, from, to, ABRUPT,
+                                       in->report.largest_force);
+}
+
 double ali3_tables_resolved_step(const ali3_instance *in, double h) {
   const ali3_system *S = in->system;
+  enum { LENGTH = 0, RATE = 2 };
   if (!S->has_force_tables) return h;
   for (int32_t c = 0; c < S->n_contact; c++) {
     const int32_t e = S->contact[c].element;
-    const ali3_element_size *at = S->el_size + e;
-    if (S->el_kind[e]->resolved_step == NULL) continue;
-    h = S->el_kind[e]->resolved_step(in->parameters.el_real + at->real, S->el_int + at->integer, in->now.out + at->out,
-                                     h, ABRUPT, in->report.largest_force);
+    const double *out = in->now.out + S->el_size[e].out;
+    if (S->el_kind[e]->resolved != NULL) h *= ali3_table_resolved(in, e, out[LENGTH], out[LENGTH] + h * out[RATE]);
   }
   return h;
 }

@@ -92,15 +92,18 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
   return ALI3_OK;
 }
 
-/* End of the next part of a step of h to time t: the next jump of an input or a guide, or the point to which forces by
- * table are resolved, `resolved` s from now, otherwise t. `*guide`: time of the jump if it is one of a guide, otherwise
- * infinity. */
+/* End of the next part of a step of h to time t: the next jump of an input or a guide, or the point to which guides and
+ * forces by table are resolved, of the latter `resolved` s from now, otherwise t. `*guide`: time of the jump if it is
+ * one of a guide, otherwise infinity. */
 static double part_end(const ali3_instance *in, double t, double h, double resolved, double *guide) {
   const double near = AT_END * h, inputs = ali3_inputs_until(in, resolved < h ? fmin(t, in->clock.now + resolved) : t);
-  const double piece_end =
-      in->system->size.ng > 0 ? ali3_guides_break(in, in->clock.now + near, inputs + near) : inputs + near;
-  *guide = piece_end < inputs + near ? piece_end : HUGE_VAL;
-  return piece_end < t - near ? fmin(piece_end, inputs) : fmin(inputs, t);
+  *guide = HUGE_VAL;
+  if (in->system->size.ng == 0) return fmin(inputs, t);
+  const double jump = ali3_guides_break(in, in->clock.now + near, inputs + near),
+               end = jump < t - near ? fmin(jump, inputs) : fmin(inputs, t),
+               piece_end = ali3_guides_resolved(in, in->clock.now, end, near, ali3_method_order(in) <= 2);
+  if (piece_end == end && jump < inputs + near) *guide = jump;
+  return piece_end;
 }
 
 bool ali3_is_divided(const ali3_instance *in, double t, double h) {

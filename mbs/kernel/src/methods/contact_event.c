@@ -1,6 +1,7 @@
 /* Location of contact events: a step in which an end stop is met or left is divided at that time. The force has a kink
  * there, whose error by the trapezoidal rule depends on its position in the step, so that errors of two step sizes
- * would not be comparable. The time is located in the last trial step, and again in its parts. */
+ * would not be comparable. The time is located in the last trial step, and again in its parts. So are rows of a force
+ * by table that the step passed by its acceleration, which no rate at its start shows. */
 #include "contact_event.h"
 
 #include <math.h>
@@ -15,6 +16,14 @@ void ali3_events_begin(ali3_instance *in, int32_t depth) {
   in->parting.events_left = depth > 0 && in->system->nr == 0 ? MAX_EVENTS : -1;
 }
 
+/* Share of a step of h at which the length of a force by table is at the first row that its ends do not resolve, from
+ * the outputs (length, force, rate) at both ends; 1 if they resolve all. */
+static double row_passed(const ali3_instance *in, int32_t element, const double *from, const double *to, double h) {
+  const double way = ali3_table_resolved(in, element, from[0], to[0]), row = from[0] + way * (to[0] - from[0]);
+  if (way == 1.0) return 1.0;
+  return ali3_crossing(h, (double[]){from[0] - row, to[0] - row}, (double[]){from[2], to[2]});
+}
+
 /* Share of a step of h from the outputs `from` to `to` at which the first element reports an event; 1: none does. */
 static double first_event(const ali3_instance *in, const double *from, const double *to, double h) {
   const ali3_system *S = in->system;
@@ -22,9 +31,11 @@ static double first_event(const ali3_instance *in, const double *from, const dou
   for (int32_t c = 0; c < S->n_contact; c++) {
     const int32_t e = S->contact[c].element;
     const ali3_element_type *kind = S->el_kind[e];
-    if (kind->event == NULL) continue;
     const ali3_element_size *at = S->el_size + e;
-    first = fmin(first, kind->event(in->parameters.el_real + at->real, at->nreal, from + at->out, to + at->out, h));
+    if (kind->event != NULL)
+      first = fmin(first, kind->event(in->parameters.el_real + at->real, at->nreal, from + at->out, to + at->out, h));
+    else if (kind->resolved != NULL)
+      first = fmin(first, row_passed(in, e, from + at->out, to + at->out, h));
   }
   return first;
 }

@@ -100,27 +100,29 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
   if (!inside) *sd = *sdd = 0.0;
 }
 
-/* A jump of the rate or acceleration of a guide of time counts if it is larger than ABRUPT times their range, which is
- * more than noise of samples, and than SAME times their largest value, which is more than round-off. */
-static const double ABRUPT = 0.05, SAME = 1e-9;
+/* A jump of the rate or acceleration of a guide of time, or a departure of its value from a cubic, counts if it is
+ * larger than ABRUPT times their range, which is more than noise of samples, and than SAME times their largest value,
+ * which is more than round-off. Parts depart by at most STRAIGHT of that, as with tables of inputs. */
+static const double ABRUPT = 0.05, SAME = 1e-9, STRAIGHT = 0.2;
+enum { QUARTERS = 4 }; /* of a piece: its rates may be 0 at both ends and in the middle */
 
 void ali3_guides_measure(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
     const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
-    double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
+    double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int32_t i = 0; i < (int32_t)real[0]; i++)
-      for (int32_t part = 0; part < 3; part++) {
-        double s, rate[2];
-        piece(real, i, 0.5 * part * (real[2 + i] - real[1 + i]), &s, &rate[0], &rate[1]);
-        for (int32_t k = 0; k < 2; k++) {
-          least[k] = fmin(least[k], rate[k]);
-          most[k] = fmax(most[k], rate[k]);
+      for (int32_t part = 0; part <= QUARTERS; part++) {
+        double value[3];
+        piece(real, i, part * (real[2 + i] - real[1 + i]) / QUARTERS, &value[0], &value[1], &value[2]);
+        for (int32_t k = 0; k < 3; k++) {
+          least[k] = fmin(least[k], value[k]);
+          most[k] = fmax(most[k], value[k]);
         }
       }
-    for (int32_t k = 0; k < 2; k++)
-      in->guide.jump[2 * g + k] = fmax(ABRUPT * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
+    for (int32_t k = 0; k < 3; k++)
+      in->guide.abrupt[3 * g + k] = fmax(ABRUPT * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
   }
 }
 
@@ -143,7 +145,62 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
     const int32_t n = (int32_t)real[0];
     if (end <= breaks[0] || t >= breaks[n]) continue;
     for (int32_t i = t < breaks[0] ? 0 : piece_at(real, t) + 1; i <= n && breaks[i] < end; i++)
-      if (breaks[i] > t && (all || jumps(real, i, in->guide.jump + 2 * g))) end = breaks[i];
+      if (breaks[i] > t && (all || jumps(real, i, in->guide.abrupt + 3 * g + 1))) end = breaks[i];
+  }
+  return end;
+}
+
+/* Whether a break of a guide of time between `from` and `to` departs by more than `least` from the cubic through values
+ * and rates there. */
+static bool departs(const double *real, double from, double to, double least) {
+  const int32_t n = (int32_t)real[0];
+  const double *breaks = real + 1, way = to - from;
+  int32_t i = from < breaks[0] ? 0 : piece_at(real, from) + 1;
+  if (i > n || breaks[i] >= to) return false;
+  double s[2], rise[2], value, rate, unused;
+  guide_of_time(real, from, &s[0], &rise[0], &unused);
+  guide_of_time(real, to, &s[1], &rise[1], &unused);
+  for (int32_t k = 0; k < 2; k++) rise[k] *= way;
+  for (; i <= n && breaks[i] < to; i++) {
+    guide_of_time(real, breaks[i], &value, &rate, &unused);
+    if (ali3_cubic_departure(s, rise, (breaks[i] - from) / way, value) > least) return true;
+  }
+  return false;
+}
+
+/* The first time after t at which a piece of a guide of time begins or ends, or a quarter of it. */
+static double next_quarter(const double *real, double t) {
+  const int32_t n = (int32_t)real[0];
+  const double *breaks = real + 1;
+  if (t < breaks[0]) return breaks[0];
+  if (t >= breaks[n]) return HUGE_VAL;
+  const int32_t i = piece_at(real, t);
+  const double quarter = (breaks[i + 1] - breaks[i]) / QUARTERS;
+  for (int32_t k = 1; k < QUARTERS; k++)
+    if (breaks[i] + k * quarter > t) return breaks[i] + k * quarter;
+  return breaks[i + 1];
+}
+
+/* By how much the mean of the rates at two times misses the way of a guide of time between them. */
+static double missed_way(const double *real, double from, double to) {
+  double s[2], rate[2], unused;
+  guide_of_time(real, from, &s[0], &rate[0], &unused);
+  guide_of_time(real, to, &s[1], &rate[1], &unused);
+  return fabs(s[1] - s[0] - 0.5 * (to - from) * (rate[0] + rate[1]));
+}
+
+double ali3_guides_resolved(const ali3_instance *in, double t, double end, double near, bool by_means) {
+  const ali3_system *S = in->system;
+  for (int32_t g = 0; g < S->size.ng; g++) {
+    if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
+    const double *real = in->parameters.guide_real + S->guide_real_ptr[g], least = in->guide.abrupt[3 * g];
+    const double from = t + near, to = end - near;
+    double part = next_quarter(real, from), next = part;
+    if (part >= to || !(departs(real, from, to, least) || (by_means && missed_way(real, from, to) > least))) continue;
+    while ((next = next_quarter(real, next + near)) < to && !departs(real, from, next - near, STRAIGHT * least) &&
+           !(by_means && missed_way(real, from, next - near) > STRAIGHT * least))
+      part = next;
+    end = part;
   }
   return end;
 }

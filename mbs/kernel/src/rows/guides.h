@@ -21,13 +21,17 @@ double ali3_guide_clamped(const ali3_instance *in, int32_t g, double demand);
 double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s);
 /* NULL, or what is wrong with the numbers of a guide. */
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal);
-/* Measures the range of rate and acceleration of each guide of time and writes the smallest jumps that count to
- * in->guide.jump. */
+/* Measures the ranges of each guide of time, its rate and acceleration and writes the smallest departures and jumps that
+ * count to in->guide.abrupt. */
 void ali3_guides_measure(ali3_instance *in);
 /* The first break of a guide of time after t and before `end`, otherwise `end`; s. */
 double ali3_guides_until(const ali3_instance *in, double t, double end);
 /* The first such break at which rate or acceleration of the guide jump. */
 double ali3_guides_break(const ali3_instance *in, double t, double end);
+/* End of the next part of a step from t to `end`, s: `end` if values and rates of the guides of time there tell what
+ * they are at their breaks in between, and with `by_means` if the mean of both rates tells the way; otherwise a quarter
+ * of a piece up to which they nearly do. Times within `near` of t and `end` do not count. */
+double ali3_guides_resolved(const ali3_instance *in, double t, double end, double near, bool by_means);
 /* Writes guides and their rates at the start to v: filtered ones rest where their inputs hold them. */
 void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t);
 /* Evaluates guides of time and tables at t, s, in v; filtered ones keep their values. */

@@ -87,7 +87,7 @@ void ali3_elements_derive(ali3_system *s) {
                                         .state = s->el_state_ptr[e],
                                         .out = s->el_out_ptr[e]};
     if (s->el_kind[e]->n_forces > 0) s->contact[s->n_contact++] = contact_of(s, e);
-    if (s->el_kind[e]->resolved_step != NULL) s->has_force_tables = true;
+    if (s->el_kind[e]->resolved != NULL) s->has_force_tables = true;
     s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
     derive_element(s, e);
   }
