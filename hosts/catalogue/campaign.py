@@ -60,7 +60,6 @@ def _run_tests(
     store: ResultStore[TestRecord],
 ) -> int:
     """Run the tests without a stored record, and write all results after each. Returns the exit code."""
-
     outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
     tasks = []
     for test in tests:
@@ -115,7 +114,6 @@ def _finished_tasks(
     tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], store: ResultStore[TestRecord]
 ) -> Generator[None]:
     """Run all tasks with a progress bar; after each, its outcome is in `outcomes` and its record in the store."""
-
     experiment: Experiment[Task, Outcome] = Experiment(
         "catalogue",
         perform_task,

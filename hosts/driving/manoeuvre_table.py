@@ -142,7 +142,7 @@ def check_begin(first: float, last: float, path: Path) -> None:
 
 
 def check_times(times: Sequence[float], path: Path) -> None:
-    """Refuse times, s, of the rows of inputs: those of `check_begin`, and one of three rows."""
+    """Refuse times, s, of rows of inputs that `check_begin` refuses, and a time of more than two rows."""
     check_begin(times[0], times[-1], path)
     if (thrice := next((a for a, b in zip(times, times[2:], strict=False) if a == b), None)) is not None:
         raise HostError(

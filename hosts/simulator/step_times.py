@@ -32,7 +32,12 @@ _QUANTILES = (("median", 0.5), ("p99", 0.99), ("p999", 0.999))
 
 
 class LateCauses:
-    """Determines the cause with the longest time. `clock`: clock of the calling thread."""
+    """Determines the cause with the longest time. `clock`: clock of the calling thread.
+
+    The host of a virtual machine may withdraw processors ("steal"), which no priority within the machine prevents.
+    Linux reports the run time of a thread, including interrupts and unreported steal, and its wait time while others
+    ran.
+    """
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock

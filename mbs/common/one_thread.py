@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ContextDecorator
 from functools import cache
-from threading import Lock, Thread
+from threading import Lock
 from types import TracebackType
 
 import scipy.linalg  # noqa: F401  (loads SciPy's own BLAS, which `_libraries` must find)
@@ -13,7 +14,9 @@ from threadpoolctl import ThreadpoolController
 
 
 class _OneThread(ContextDecorator):
-    """Context and decorator in which BLAS has one thread, in the whole process.
+    """Context and decorator in which the BLAS of the wheels of NumPy and SciPy has one thread, in the whole process.
+
+    It has no effect on an OpenBLAS that uses OpenMP, nor while another thread holds a limit of threadpoolctl.
 
     Contexts may be nested and entered by several threads at once: the last to end gives the threads back.
     """
@@ -41,9 +44,8 @@ class _OneThread(ContextDecorator):
 
 def _run_in_a_new_thread(change: Callable[[], None]) -> None:
     """While the thread that set a limit lives, threadpoolctl ignores other threads."""
-    thread = Thread(target=change)
-    thread.start()
-    thread.join()
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(change).result()
 
 
 @cache

@@ -28,6 +28,7 @@ def test_the_last_line_stands_once(capsys: pytest.CaptureFixture[str]) -> None:
         for _ in range(2):
             bar.fp._due = bar.last_print_t = 0.0  # each state is due, the last too
             bar.update()
+        bar.fp._due = 0.0
     counts = re.findall(r"(\d)/2 ", capsys.readouterr().err)
     assert counts[-2:] == ["1", "2"]
 

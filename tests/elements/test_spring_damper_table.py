@@ -189,6 +189,7 @@ def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(metho
     )
     assert run.report is not None
     assert run.report.divisions >= 2
+    assert run.report.abrupt_steps >= 1
     assert np.abs(run["x"] - fine["x"]).max() < 5e-4
 
 

@@ -22,9 +22,7 @@ PATHS = (
 
 
 OPTIONAL_OF_A_STUDY = {
-    "hosts.fmu.built_fmu",
     "hosts.study.analysis.report",
-    "hosts.study.parts",
     "hosts.study.random_points",
     "hosts.study.repeated_run",
     "hosts.study.target",

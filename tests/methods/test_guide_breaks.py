@@ -1,6 +1,7 @@
 """Steps end where the rate or the acceleration of a prescribed motion jumps, and keep their order there."""
 
 import itertools
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -88,23 +89,65 @@ def test_a_jump_within_a_step_parts_it_and_one_at_its_end_does_not() -> None:
     assert parts == [2, 0, 1, 1]
 
 
-@pytest.mark.parametrize(
-    ("method", "off"), [("ali3p", 0.2), ("energy_momentum", 0.01), ("radau_5", 0.1), ("runge_kutta_8", 0.1)]
-)
-@pytest.mark.parametrize("h", [0.01, 0.005, 0.0025])
-def test_a_smooth_pulse_within_a_step_is_met(method: str, off: float, h: float) -> None:
-    """The mass gets its impulse, W^2 times the integral of the way, and swings by it over W.
-
-    ALi3-P is off by up to 16 %, which it reports, the others by less than `off`.
-    """
-    begin, length, height = 0.3032, 0.002, 0.2
+def quintics(begin: float, length: float, height: float) -> PPoly:
+    """A pulse of two pieces."""
     ends = np.array([0.0, begin, begin + 0.5 * length, begin + length, 2.0])
     pulse = BPoly.from_derivatives(ends, [[value, 0.0, 0.0] for value in (0.0, 0.0, height, 0.0, 0.0)])
-    system = carried(PPoly.from_bernstein_basis(pulse))
+    return PPoly.from_bernstein_basis(pulse)
+
+
+def one_piece(degree: int) -> Callable[[float, float, float], PPoly]:
+    """A pulse (4 x (1 - x))^(degree / 2), whose values and, of degree 4, rates are 0 at both ends."""
+
+    def pulse(begin: float, length: float, height: float) -> PPoly:
+        shape = np.polynomial.Polynomial([0.0, 4.0, -4.0]) ** (degree // 2)
+        c = np.zeros((degree + 1, 3))
+        c[:, 1] = height * (shape.coef / length ** np.arange(degree + 1))[::-1]
+        return PPoly(c, [0.0, begin, begin + length, 2.0])
+
+    return pulse
+
+
+@pytest.mark.parametrize(
+    ("method", "off"), [("ali3p", 0.2), ("energy_momentum", 0.07), ("radau_5", 0.1), ("runge_kutta_8", 0.1)]
+)
+@pytest.mark.parametrize("h", [0.01, 0.005, 0.0025])
+@pytest.mark.parametrize(("pulse", "mean"), [(quintics, 0.5), (one_piece(2), 2.0 / 3.0), (one_piece(4), 8.0 / 15.0)])
+def test_a_pulse_within_a_step_is_met(
+    method: str, off: float, h: float, pulse: Callable[[float, float, float], PPoly], mean: float
+) -> None:
+    """The mass gets its impulse, W^2 times the integral of the way, and swings by it over W."""
+    length, height = 0.002, 0.2
+    system = carried(pulse(0.3032, length, height))
     run = mbs.simulate(system, SPAN, h, method=method, every=round(0.01 / h), estimate_error=False, progress=False)
     assert run.report is not None
-    assert run.report.divisions > 2
-    assert np.abs(run["x"] - 1.0).max() == pytest.approx(0.5 * W * height * length, rel=off)
+    assert run.report.divisions >= 2
+    assert np.abs(run["x"] - 1.0).max() == pytest.approx(mean * W * height * length, rel=off)
+
+
+@pytest.mark.parametrize("limit", [0, 5, 20])
+def test_parts_of_a_step_over_a_pulse_share_its_limit_of_iterations(limit: int) -> None:
+    """The first and the last piece of the pulse are no jumps."""
+    run = mbs.Simulation(carried(quintics(0.3032, 0.002, 0.2)), settings=mbs.Settings(step_iterations=limit))
+    iterations = [0]
+    for _ in range(60):
+        run.step(0.01)
+        iterations.append(run.report.iterations)
+    assert (np.diff(iterations).max() <= limit) == (limit > 0)
+    assert (run.report.divisions > 0) == (limit != 5)
+
+
+def test_under_a_tolerance_a_step_and_its_halves_share_no_part() -> None:
+    """The motion begins after a rest, in which steps have grown."""
+    ends = np.array([0.0, 0.5, 0.9, 2.0])
+    motion = BPoly.from_derivatives(ends, [[value, 0.0, 0.0] for value in (0.0, 0.0, 0.2, 0.2)])
+    system = carried(PPoly.from_bernstein_basis(motion))
+    true = mbs.simulate(system, SPAN, tolerance=1e-9, method="runge_kutta_8", progress=False)
+    run = mbs.simulate(system, SPAN, tolerance=1e-3, method="ali3p", times=true.t, progress=False)
+    assert run.control is not None
+    assert np.abs(run["x"] - true["x"]).max() < 10.0 * run.control.error
+    assert run.report is not None
+    assert run.report.divisions == 0
 
 
 def test_a_motion_of_pieces_that_rest_at_their_ends_divides_no_step() -> None:

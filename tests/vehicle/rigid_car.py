@@ -1,6 +1,6 @@
-"""Cars of the package without their flexible frame, and with a steering column, which does not stand on one.
+"""Cars of the package without their flexible frame, also with a steering column, which such a frame cannot carry.
 
-The FMU of such a file is built in a third of the time.
+Their FMUs are built in a third of the time.
 """
 
 import copy

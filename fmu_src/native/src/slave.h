@@ -310,7 +310,7 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
                  const char *token, const char *resources);
 /* NULL is allowed. */
 void slave_free(slave *s);
-/* Whether the tolerance of an experiment is a number; if not, an error is logged. The inner step does not depend on it. */
+/* Whether the tolerance of an experiment is a number; if not, an error is logged. No step depends on it. */
 bool slave_check_tolerance(slave *s, bool defined, double tolerance);
 /* Sets start and stop time, s. */
 slave_status slave_setup(slave *s, double start_time, bool stop_defined, double stop_time);

@@ -28,8 +28,6 @@ TRAVEL = (-80.0, 80.0)  # mm
 
 def report(options: argparse.Namespace) -> int:
     """Print the measures at the drawing, write page and tables, and return the exit code, 1 if a curve has notes."""
-    import matplotlib  # noqa: F401  # raises its error before the computation
-
     travel = TRAVEL if options.travel is None else options.travel
     low, high = checked_travel(tuple(1e-3 * v for v in travel))
     if high - low < MIN_RANGE:

@@ -61,7 +61,7 @@ def test_the_example_is_a_plan(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("hosts.fmu.built_fmu.fmu_of_car", lambda car, *_: {"prototype": prototype_fmu}[car])
+    monkeypatch.setattr("hosts.study.campaign.fmu_of_car", lambda car, *_: {"prototype": prototype_fmu}[car])
     assert main([str(EXAMPLE), "--dry-run", "--out", str(tmp_path / "out")]) == 0
     assert "192 points x 1 = 192 runs" in capsys.readouterr().out
     assert "192 runs" in EXAMPLE.read_text(encoding="utf-8")

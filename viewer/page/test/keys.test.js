@@ -69,9 +69,9 @@ test("driving comes first, and a key is let go whatever has the focus", () => {
 
 test("a part to which the keyboard has moved the focus has its own keys first, a clicked one none", () => {
   const { done, press, listeners } = listening(({ code, type }) => code === "ArrowLeft" && type === "keydown" && done.push("steer") > 0);
-  const part = /** @type {any} */ ({ tagName: "CANVAS", addEventListener: (name, listener) => (listeners[name] = listener), blur: () => done.push("blur") });
+  const part = /** @type {any} */ ({ tagName: "CANVAS", setAttribute(name, value) { this[name] = value; }, addEventListener: (name, listener) => (listeners[name] = listener), blur: () => done.push("blur") });
   addKeys(part, "a picture", { ArrowLeft: () => done.push("turn"), ArrowRight: () => false });
-  assert.deepEqual([part.tabIndex, part.role, part.ariaLabel], [0, "application", "a picture"]);
+  assert.deepEqual([part.tabIndex, part.role, part["aria-label"]], [0, "application", "a picture"]);
   const left = () => press("ArrowLeft", "ArrowLeft", { target: part });
   for (const byKeyboard of [false, true]) {
     listeners.focusin({ target: { matches: () => byKeyboard } });

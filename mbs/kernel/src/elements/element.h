@@ -65,6 +65,8 @@ typedef struct {
   const char *text; /* sentence without its full stop for an integer outside */
 } ali3_integer;
 
+enum { ALI3_TABLE_LENGTH = 0, ALI3_TABLE_RATE = 2 }; /* outputs of springs by a table */
+
 /* A type of elements. Members that an initialiser does not name are 0 or NULL: the property does not hold, or there is
  * no such function. */
 typedef struct ali3_element_type {

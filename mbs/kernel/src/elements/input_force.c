@@ -1,4 +1,4 @@
-/* An input times constant weights: f_i = w_i input on signal i. Reals: one weight for each signal, in units of its force
+/* An input times constant weights: f_i = w_i input on signal i. Reals: a weight for each signal, in units of its force
  * per unit of the input. */
 #include "element.h"
 #include "input_force_fields.h"

@@ -5,10 +5,9 @@
  * circle of radius (L/2 + B/2)/2 under uniform pressure, on which friction F has the moment R F with R = 2/3 of that
  * radius. A rotation at w_n slides the patch at R w_n: T_steady = -g R^2 w_n with 1/g = w/K + s/F_y max, of cornering
  * stiffness K at the transport speed w and of a patch that already slides at s. The carcass psi follows psi'(d + g R^2)
- * = -c psi - g R^2 w_n, T = c psi + d psi', integrated as in
- * tyre_carcass.h, so that T (w_n + psi') <= 0. Force and moment
- * share friction: (utilisation by F)^2 + (T/(R F_y max))^2 <= 1, otherwise both are scaled by the same factor. So a
- * tyre loses longitudinal and lateral grip while its wheel is steered at standstill.
+ * = -c psi - g R^2 w_n, T = c psi + d psi', integrated as in tyre_carcass.h, so that T (w_n + psi') <= 0. Force and
+ * moment share friction: (utilisation by F)^2 + (T/(R F_y max))^2 <= 1, otherwise both are scaled by the same factor.
+ * So a tyre loses longitudinal and lateral grip while its wheel is steered at standstill.
  *
  * s is the slip velocity times the fourth power of F / (steady F): while the carcass deflects and the patch sticks, the
  * moment of a parked wheel must not decay.

@@ -3,8 +3,9 @@
  * sliding and in the air.
  *
  * Per direction F = c x + d x' with the stiffness c and the damping d of the carcass. x = a + b x' over a step (theta
- * rule, a and b known) makes this F = c a + D x' with D = d + b c, closed with the steady force of the formula at the
- * slip velocity v + x', F = F_steady(v) - g x', of secant slip damping g: from g = 0 (air) to g = infinity (standstill).
+ * rule, a and b known) makes this F = c a + D x' with D = d + b c, and the steady force of the formula at
+ * the slip velocity v + x' is F = F_steady(v) - g x' with the secant slip damping g. Both together have a solution that
+ * is finite from g = 0 (air) to g = infinity (standstill).
  *
  * States, the first four of a tyre: both deflections, m, then their rates, m/s. */
 #ifndef ALI3_TYRE_CARCASS_H

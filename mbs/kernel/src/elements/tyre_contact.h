@@ -63,7 +63,7 @@ ALI3_PER_WIDTH real ali3_tyre_moving(real speed);
 ALI3_PER_WIDTH void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
                                          real ratio, ali3_tyre_motion *m);
 
-/* Adds the horizontal force F, N, along forward and left to f, and its damping C = -dF/dv as xx, xy, yy, N s/m, to S. */
+/* Adds the horizontal force F, N, along forward and left to f, and its damping C = -dF/dv, N s/m, as xx, xy, yy to S */
 ALI3_PER_WIDTH void ali3_tyre_add_force(ali3_element_args *a, const ali3_tyre_motion *m, const real F[2],
                                         const real C[3]);
 

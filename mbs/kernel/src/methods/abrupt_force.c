@@ -127,6 +127,10 @@ bool ali3_divides_at_row(ali3_instance *in, const ali3_request *request) {
   return divides_abruptly(in, request, MIN_ITERATIONS);
 }
 
+bool ali3_divides_at_quarter(ali3_instance *in, const ali3_request *request) {
+  return ali3_allows_division(in, request, MIN_ITERATIONS);
+}
+
 double ali3_table_resolved(const ali3_instance *in, int32_t element, double from, double to) {
   const ali3_system *S = in->system;
   const ali3_element_size *at = S->el_size + element;
@@ -137,12 +141,12 @@ double ali3_table_resolved(const ali3_instance *in, int32_t element, double from
 
 double ali3_tables_resolved_step(const ali3_instance *in, double h) {
   const ali3_system *S = in->system;
-  enum { LENGTH = 0, RATE = 2 };
   if (!S->has_force_tables) return h;
   for (int32_t c = 0; c < S->n_contact; c++) {
     const int32_t e = S->contact[c].element;
     const double *out = in->now.out + S->el_size[e].out;
-    if (S->el_kind[e]->resolved != NULL) h *= ali3_table_resolved(in, e, out[LENGTH], out[LENGTH] + h * out[RATE]);
+    if (S->el_kind[e]->resolved != NULL)
+      h *= ali3_table_resolved(in, e, out[ALI3_TABLE_LENGTH], out[ALI3_TABLE_LENGTH] + h * out[ALI3_TABLE_RATE]);
   }
   return h;
 }

@@ -15,6 +15,8 @@ bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_
 bool ali3_divides(ali3_instance *in, const ali3_request *request);
 /* Whether the limit of iterations leaves room to end a part of a step at a row of a force by table; counts it if so. */
 bool ali3_divides_at_row(ali3_instance *in, const ali3_request *request);
+/* The same at a quarter of a piece of a driving function, which is no abrupt force. */
+bool ali3_divides_at_quarter(ali3_instance *in, const ali3_request *request);
 /* Fraction of the way between two lengths of an element, m, to the first row of its force by table that the ends do not
  * resolve; 1: none, or no table. */
 double ali3_table_resolved(const ali3_instance *in, int32_t element, double from, double to);

@@ -1,5 +1,5 @@
 /* A step by the method of the settings, in parts if it does not converge, a force changes abruptly, inputs jump, or the
- * ends of the step do not resolve a force by table. */
+ * ends of the step do not resolve a force by table or a driving function. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -92,50 +92,60 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
   return ALI3_OK;
 }
 
-/* End of the next part of a step of h to time t: the next jump of an input or a guide, or the point to which guides and
- * forces by table are resolved, of the latter `resolved` s from now, otherwise t. `*guide`: time of the jump if it is
- * one of a guide, otherwise infinity. */
-static double part_end(const ali3_instance *in, double t, double h, double resolved, double *guide) {
-  const double near = AT_END * h, inputs = ali3_inputs_until(in, resolved < h ? fmin(t, in->clock.now + resolved) : t);
-  *guide = HUGE_VAL;
-  if (in->system->size.ng == 0) return fmin(inputs, t);
-  const double jump = ali3_guides_break(in, in->clock.now + near, inputs + near),
-               end = jump < t - near ? fmin(jump, inputs) : fmin(inputs, t),
-               piece_end = ali3_guides_resolved(in, in->clock.now, end, near, ali3_method_order(in) <= 2);
-  if (piece_end == end && jump < inputs + near) *guide = jump;
-  return piece_end;
+/* Time of the next jump of an input or a guide in a step of h to time t, otherwise t. `*guide`: that of a guide, also at
+ * t, otherwise infinity. */
+static double next_jump(const ali3_instance *in, double t, double h, double *guide) {
+  const double near = AT_END * h, inputs = ali3_inputs_until(in, t);
+  const double jump =
+      in->system->size.ng > 0 ? ali3_guides_break(in, in->clock.now + near, inputs + near) : inputs + near;
+  *guide = jump < inputs + near ? jump : HUGE_VAL;
+  return jump < t - near ? fmin(jump, inputs) : fmin(inputs, t);
+}
+
+/* Time up to which a part of a step of h resolves forces by table, at most `end`. */
+static double next_row(const ali3_instance *in, double h, double end) {
+  const double resolved = ali3_tables_resolved_step(in, h), row = in->clock.now + resolved;
+  return resolved < h && row < end - AT_END * h ? row : end;
+}
+
+/* The same for driving functions. Steps under control end at all their breaks, and parts that a step has in common with
+ * its halves would not show in their difference. */
+static double next_quarter(const ali3_instance *in, double h, double end, bool controlled) {
+  if (controlled || in->system->size.ng == 0) return end;
+  return ali3_guides_resolved(in, in->clock.now, end, AT_END * h, ali3_method_order(in) <= 2);
 }
 
 bool ali3_is_divided(const ali3_instance *in, double t, double h) {
   double guide;
-  return part_end(in, t, h, ali3_tables_resolved_step(in, h), &guide) < t || guide < HUGE_VAL;
+  const double jump = next_jump(in, t, h, &guide);
+  return jump < t || guide < HUGE_VAL || next_quarter(in, h, next_row(in, h, t), false) < t;
 }
 
-/* Makes a step, or the rest of one, in parts. A part that ends at a row of a table shares the limit of iterations with
- * those after it, others have one each. */
+/* Makes a step, or the rest of one, in parts. Parts that resolve tables or driving functions share the limit of
+ * iterations with those after them, others have one each. */
 static ali3_status advance_from(ali3_instance *in, const ali3_request *request) {
-  const double t = request->t, h = request->h, resolved = ali3_tables_resolved_step(in, h);
+  const double t = request->t, h = request->h;
   double guide;
   ali3_request part = *request, rest = *request;
   ali3_events_begin(in, request->depth);
-  double piece_end = part_end(in, t, h, resolved, &guide);
-  bool at_row = resolved < h && piece_end < t && in->clock.now + resolved <= piece_end + AT_END * h;
-  if (at_row && !ali3_divides_at_row(in, request)) {
-    at_row = false;
-    piece_end = part_end(in, t, h, h, &guide);
-  }
+  const double jump = next_jump(in, t, h, &guide), row = next_row(in, h, jump),
+               quarter = next_quarter(in, h, row, request->controlled);
+  const bool resolves =
+      quarter < row ? ali3_divides_at_quarter(in, request) : row < jump && ali3_divides_at_row(in, request);
+  const double piece_end = resolves ? quarter : jump;
+  if (resolves) guide = HUGE_VAL;
   if (piece_end == t && guide == HUGE_VAL) return advance_part(in, &part);
   ali3_back_up(in);
-  if (piece_end < t && !at_row) in->report.divisions++;
+  if (piece_end < t && !resolves) in->report.divisions++;
   part.t = fmin(piece_end, guide - ROUND_OFF * fabs(guide));
   if (piece_end < t) part.h = piece_end - in->clock.now;
-  if (at_row) part.iterations_end -= (request->iterations_end - in->report.iterations) / 2;
+  if (resolves) part.iterations_end -= (request->iterations_end - in->report.iterations) / 2;
   if (guide < HUGE_VAL) part.reading = ALI3_READ_ALL; /* guide_jump needs all of the state before it */
   ali3_status status = advance_part(in, &part);
   if (status == ALI3_OK) status = guide < HUGE_VAL ? guide_jump(in, fmax(piece_end, guide)) : ALI3_OK;
   in->bound.iterations_before = in->report.iterations;
   rest.h = t - piece_end;
-  if (!at_row) rest.iterations_end = in->report.iterations + in->settings.step_iterations;
+  if (!resolves) rest.iterations_end = in->report.iterations + in->settings.step_iterations;
   return status == ALI3_OK && piece_end < t ? advance_from(in, &rest) : status;
 }
 

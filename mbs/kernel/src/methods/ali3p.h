@@ -1,5 +1,5 @@
-/* Equations of an ALi3-P step in the increment D = q_(n+1) - q_n, compiled for one instance and for lanes, whose control
- * of the iteration differs (augmented_lagrangian.c, ../lanes/lane_step.h); numbers are those of the paper, see
+/* Equations of an ALi3-P step in the increment D = q_(n+1) - q_n, compiled for one instance and for lanes, which control
+ * the iteration in their own ways (augmented_lagrangian.c, ../lanes/lane_step.h); numbers are those of the paper, see
  * docs/theory.md. */
 #ifndef ALI3_ALI3P_H
 #define ALI3_ALI3P_H
@@ -83,8 +83,8 @@ ALI3_INLINED void add_row_forces(ali3_instance *in) {
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(x) = ALI3_AT(r) + c * ALI3_AT(x))
 }
 
-/* One Newton correction (21) and the multiplier update of some lanes; returns those in which it is finite. `reused`: the
- * tangent belongs to an earlier iterate, and in->step.x has the residual of (20). `accelerated`: the correction is
+/* One Newton correction (21) and the linearised multiplier update of some lanes; returns those in which it is finite.
+ * `reused`: the tangent belongs to an earlier iterate, and in->step.x has the residual of (20). `accelerated`: the correction is
  * combined with the one before it. The penalty uses the Phi_q of the tangent, as it would amplify the part of a later
  * Phi_q outside its range. */
 ALI3_INLINED truth correct(ali3_instance *in, double h, double alpha, truth lanes, int32_t iteration, truth reused,
@@ -127,7 +127,7 @@ typedef struct {
 } step_energy;
 
 /* Projections (24), (25) of velocities and accelerations of some lanes; in->step.Phit holds the rates of the rows.
- * open_power: of the last step; its work in this one is part of the error. *violation: of the velocities before, m/s. */
+ * open_power: of the last step; its work in this one is part of the error. *violation: of velocities before, m/s. */
 ALI3_INLINED step_energy project_rates(ali3_instance *in, double h, double alpha, truth lanes, real open_power,
                                        real *violation) {
   const double c = in->rule.c, limit = ali3_allowed_round_off(in->system, c);

@@ -18,35 +18,45 @@ void ali3_events_begin(ali3_instance *in, int32_t depth) {
 
 /* Share of a step of h at which the length of a force by table is at the first row that its ends do not resolve, from
  * the outputs (length, force, rate) at both ends; 1 if they resolve all. */
-static double row_passed(const ali3_instance *in, int32_t element, const double *from, const double *to, double h) {
-  const double way = ali3_table_resolved(in, element, from[0], to[0]), row = from[0] + way * (to[0] - from[0]);
+static double share_to_row(const ali3_instance *in, int32_t element, const double *from, const double *to, double h) {
+  const double way = ali3_table_resolved(in, element, from[ALI3_TABLE_LENGTH], to[ALI3_TABLE_LENGTH]);
+  const double row = from[ALI3_TABLE_LENGTH] + way * (to[ALI3_TABLE_LENGTH] - from[ALI3_TABLE_LENGTH]);
   if (way == 1.0) return 1.0;
-  return ali3_crossing(h, (double[]){from[0] - row, to[0] - row}, (double[]){from[2], to[2]});
+  return ali3_crossing(h, (double[]){from[ALI3_TABLE_LENGTH] - row, to[ALI3_TABLE_LENGTH] - row},
+                       (double[]){from[ALI3_TABLE_RATE], to[ALI3_TABLE_RATE]});
 }
 
-/* Share of a step of h from the outputs `from` to `to` at which the first element reports an event; 1: none does. */
-static double first_event(const ali3_instance *in, const double *from, const double *to, double h) {
+/* Share of a step of h from the outputs `from` to `to` at which the first element reports an event; 1: none does.
+ * `*at_row`: whether it is a row of a table. */
+static double share_to_event(const ali3_instance *in, const double *from, const double *to, double h, bool *at_row) {
   const ali3_system *S = in->system;
   double first = 1.0;
+  *at_row = false;
   for (int32_t c = 0; c < S->n_contact; c++) {
     const int32_t e = S->contact[c].element;
     const ali3_element_type *kind = S->el_kind[e];
     const ali3_element_size *at = S->el_size + e;
+    double share = 1.0;
     if (kind->event != NULL)
-      first = fmin(first, kind->event(in->parameters.el_real + at->real, at->nreal, from + at->out, to + at->out, h));
+      share = kind->event(in->parameters.el_real + at->real, at->nreal, from + at->out, to + at->out, h);
     else if (kind->resolved != NULL)
-      first = fmin(first, row_passed(in, e, from + at->out, to + at->out, h));
+      share = share_to_row(in, e, from + at->out, to + at->out, h);
+    if (!(share < first)) continue;
+    first = share;
+    *at_row = kind->event == NULL;
   }
   return first;
 }
 
 bool ali3_meets_event(const ali3_instance *in, const ali3_vectors *from, const ali3_vectors *to, double h) {
-  return first_event(in, from->out, to->out, h) < 1.0;
+  bool at_row;
+  return share_to_event(in, from->out, to->out, h, &at_row) < 1.0;
 }
 
 bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
   if (in->parting.events_left < 0) return false;
-  const double h = request->h, fraction = first_event(in, in->now.out, in->next.out, h),
+  bool at_row;
+  const double h = request->h, fraction = share_to_event(in, in->now.out, in->next.out, h, &at_row),
                near = ALI3_AT_END * in->inputs.whole_length;
   if (!(fraction * h > near && (1.0 - fraction) * h > near)) return false;
   if (in->parting.events_left == 0) {
@@ -54,6 +64,7 @@ bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
     return false;
   }
   if (!ali3_allows_division(in, request, in->report.last_iterations)) return false;
+  if (at_row) in->report.abrupt_steps++;
   in->parting.events_left--;
   in->parting.event = fraction;
   return true;

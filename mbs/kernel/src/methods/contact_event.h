@@ -11,7 +11,7 @@ void ali3_events_begin(ali3_instance *in, int32_t depth);
 /* Whether to divide the step from in->now to in->next, whose outputs are evaluated, at the fraction
  * in->parting.event. */
 bool ali3_contact_event(ali3_instance *in, const ali3_request *request);
-/* Whether a step of h, s, from one state to another, whose outputs are evaluated, meets or leaves an end stop, or passes
- * a row of a force by table that its ends do not resolve. */
+/* Whether a step of h, s, from one state to another, whose outputs are evaluated, meets or leaves an end stop with a
+ * kink, or passes a row of a force by table that its ends do not resolve. */
 bool ali3_meets_event(const ali3_instance *in, const ali3_vectors *from, const ali3_vectors *to, double h);
 #endif

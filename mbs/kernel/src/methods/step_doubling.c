@@ -48,8 +48,8 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all)
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
-/* Order by which halves of the step from stored.origin over stored.centre to now err less than the whole one: 1 where an
- * end stop or a row of a table is passed, as the error of a kink depends on where it lies in the step. */
+/* Order by which halves of the step from stored.origin over stored.centre to now err less than the whole one: 1 where
+ * an end stop or a row of a table is passed, as the error of a kink depends on where it lies in the step. */
 static int32_t order_of_step(const ali3_instance *in, double h) {
   const ali3_stored_states *s = &in->stored;
   if (ali3_meets_event(in, &s->origin, &s->centre, 0.5 * h) || ali3_meets_event(in, &s->centre, &in->now, 0.5 * h))

@@ -150,24 +150,6 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
   return end;
 }
 
-/* Whether a break of a guide of time between `from` and `to` departs by more than `least` from the cubic through values
- * and rates there. */
-static bool departs(const double *real, double from, double to, double least) {
-  const int32_t n = (int32_t)real[0];
-  const double *breaks = real + 1, way = to - from;
-  int32_t i = from < breaks[0] ? 0 : piece_at(real, from) + 1;
-  if (i > n || breaks[i] >= to) return false;
-  double s[2], rise[2], value, rate, unused;
-  guide_of_time(real, from, &s[0], &rise[0], &unused);
-  guide_of_time(real, to, &s[1], &rise[1], &unused);
-  for (int32_t k = 0; k < 2; k++) rise[k] *= way;
-  for (; i <= n && breaks[i] < to; i++) {
-    guide_of_time(real, breaks[i], &value, &rate, &unused);
-    if (ali3_cubic_departure(s, rise, (breaks[i] - from) / way, value) > least) return true;
-  }
-  return false;
-}
-
 /* The first time after t at which a piece of a guide of time begins or ends, or a quarter of it. */
 static double next_quarter(const double *real, double t) {
   const int32_t n = (int32_t)real[0];
@@ -181,12 +163,30 @@ static double next_quarter(const double *real, double t) {
   return breaks[i + 1];
 }
 
-/* By how much the mean of the rates at two times misses the way of a guide of time between them. */
-static double missed_way(const double *real, double from, double to) {
+/* Whether a guide of time departs, at a quarter of a piece between `from` and `to`, by more than `least` from the cubic
+ * through values and rates there. */
+static bool departs(const double *real, double from, double to, double least) {
+  const double way = to - from;
+  double at = next_quarter(real, from), s[2], rise[2], value, rate, unused;
+  if (at >= to) return false;
+  guide_of_time(real, from, &s[0], &rise[0], &unused);
+  guide_of_time(real, to, &s[1], &rise[1], &unused);
+  for (int32_t k = 0; k < 2; k++) rise[k] *= way;
+  for (; at < to; at = next_quarter(real, at)) {
+    guide_of_time(real, at, &value, &rate, &unused);
+    if (ali3_cubic_departure(s, rise, (at - from) / way, value) > least) return true;
+  }
+  return false;
+}
+
+/* By how much a method that knows a guide of time at the ends of a step alone misses it: its way by the mean of the
+ * rates, and the mean of its values, to leading order. */
+static double missed_by_means(const double *real, double from, double to) {
+  const double way = to - from;
   double s[2], rate[2], unused;
   guide_of_time(real, from, &s[0], &rate[0], &unused);
   guide_of_time(real, to, &s[1], &rate[1], &unused);
-  return fabs(s[1] - s[0] - 0.5 * (to - from) * (rate[0] + rate[1]));
+  return fmax(fabs(s[1] - s[0] - 0.5 * way * (rate[0] + rate[1])), way / 12.0 * fabs(rate[1] - rate[0]));
 }
 
 double ali3_guides_resolved(const ali3_instance *in, double t, double end, double near, bool by_means) {
@@ -196,9 +196,10 @@ double ali3_guides_resolved(const ali3_instance *in, double t, double end, doubl
     const double *real = in->parameters.guide_real + S->guide_real_ptr[g], least = in->guide.abrupt[3 * g];
     const double from = t + near, to = end - near;
     double part = next_quarter(real, from), next = part;
-    if (part >= to || !(departs(real, from, to, least) || (by_means && missed_way(real, from, to) > least))) continue;
+    if (part >= to || !(departs(real, from, to, least) || (by_means && missed_by_means(real, from, to) > least)))
+      continue;
     while ((next = next_quarter(real, next + near)) < to && !departs(real, from, next - near, STRAIGHT * least) &&
-           !(by_means && missed_way(real, from, next - near) > STRAIGHT * least))
+           !(by_means && missed_by_means(real, from, next - near) > STRAIGHT * least))
       part = next;
     end = part;
   }

@@ -21,8 +21,8 @@ double ali3_guide_clamped(const ali3_instance *in, int32_t g, double demand);
 double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s);
 /* NULL, or what is wrong with the numbers of a guide. */
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal);
-/* Measures the ranges of each guide of time, its rate and acceleration and writes the smallest departures and jumps that
- * count to in->guide.abrupt. */
+/* Measures the ranges of each guide of time, its rate and acceleration, and writes the smallest departures and jumps
+ * that count to in->guide.abrupt. */
 void ali3_guides_measure(ali3_instance *in);
 /* The first break of a guide of time after t and before `end`, otherwise `end`; s. */
 double ali3_guides_until(const ali3_instance *in, double t, double end);

@@ -38,8 +38,8 @@ export function hasKeyboardFocus(part) {
  */
 export function addKeys(part, label, acts) {
   part.tabIndex = 0;
-  part.role = "application"; // otherwise screen readers keep the arrows to themselves
-  part.ariaLabel = label;
+  part.setAttribute("role", "application"); // otherwise screen readers keep the arrows to themselves
+  part.setAttribute("aria-label", label);
   part.addEventListener("click", () => focusedByKeyboard || part.blur()); // clicked, it leaves the keys to the page
   actsOfParts.set(part, acts);
 }

@@ -1,6 +1,5 @@
 // Heights of a terrain of patches with different spacings, and surfaces at a point.
-import { decodeBase64 } from "../bytes.js";
-import { floats } from "../bytes.js";
+import { decodeBase64, floats } from "../bytes.js";
 import looks from "../../../looks.json" with { type: "json" };
 
 /** Number of cells of a side of the table that finds the patch at a point. */

@@ -79,12 +79,13 @@ export class Marks {
 
   /** Labels the object at a pixel of the picture, if there is one. @returns {string[]} lines of its label */
   pick(x, y) {
+    this._index = -1;
     return this._choose(this._hit(x, y));
   }
 
   /** Labels the next object, after the last one none. */
   pickNext() {
-    const targets = this._targets();
+    const targets = this._targets().filter(({ object }) => visible(object));
     this._index = this._picked ? this._index + 1 : 0;
     const { frame, made, object } = targets[this._index] ?? {};
     if (object === undefined) this._choose(null);

@@ -77,6 +77,9 @@ export class Cockpit extends Shell {
   /** Go on after the connection was lost. @param {string} recording - File of the program; empty: none. */
   resume(recording) {
     this._refusal = { time: Infinity, text: "" };
+    this._factors = new Factor();
+    this._factor = null;
+    this.unseen();
     this.source.frames = new Frames();
     this._restart();
     this.notices.flag("lost", "");

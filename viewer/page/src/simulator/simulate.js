@@ -102,6 +102,7 @@ class Simulator {
     }
     const camera = this.cockpit?.cameraName;
     this.cockpit?.dispose();
+    this.cockpit = null; // a page that fails leaves none
     this.cockpit = new Cockpit(this.container, hello, this.link, pageTime);
     this._car = text;
     if (camera) this.cockpit.camera(camera);

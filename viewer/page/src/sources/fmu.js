@@ -184,7 +184,7 @@ export class Session {
     return record.csv(comments, [...inputs, ...tuned], outputs);
   }
 
-  /** Lookups of the numbers of each FMU at a time, NaN before the first row; fixed parameters have their start values. @param {number} [time] - s. */
+  /** Lookups of the numbers of each FMU at a time, NaN before the first row, then start values for fixed parameters. @param {number} [time] - s. */
   sample(time = this.time) {
     return this._bound.map(({ blend, columns, fixed }) => {
       if (this.record.end === 0) return () => NaN;
