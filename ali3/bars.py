@@ -33,8 +33,8 @@ class _Lines:
     _written: float | None = None  # what was done at the last line
 
     def write(self, text: str) -> None:
-        is_closed = self.bar is not None and self.bar.disable
-        is_due = self.bar.n != self._written if is_closed else time.monotonic() >= self._due
+        bar = self.bar
+        is_due = bar.n != self._written if bar is not None and bar.disable else time.monotonic() >= self._due
         if (line := text.strip()) and is_due:
             sys.stderr.write(f"{line}\n")
             self._written = self.bar.n if self.bar is not None else None
