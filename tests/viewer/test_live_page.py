@@ -315,6 +315,7 @@ def test_levers_drive_and_a_hidden_page_stands(live_car: Path, chromium: Any, tm
         if height < 300:  # 1280 x 1024 pixels at a zoom of 400 %
             continue
         parts = (".a3-timing", ".a3-cluster", *levers)
+        opened.page.locator(".a3-cluster").wait_for()  # shown again behind the smallest picture
         figures, *boxes = (opened.page.locator(part).bounding_box() for part in parts)
         beside = [figures["x"] + figures["width"] <= box["x"] for box in boxes]
         above = [figures["y"] + figures["height"] <= box["y"] for box in boxes]

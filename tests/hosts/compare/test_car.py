@@ -84,7 +84,7 @@ def logged(car: Path, folder: Path, start: Mapping[str, float], delay: float = 0
     }
     lines = [";".join(columns)]
     lines += [";".join(f"{v:.7g}".replace(".", ",") for v in row) for row in np.column_stack(list(columns.values()))]
-    (folder / "fahrt.csv").write_text("\n".join(lines), encoding="latin-1")
+    (folder / "fahrt.csv").write_text("\n".join([*lines, ""]), encoding="latin-1")
     (folder / "fahrt.toml").write_text(ALIASES, encoding="utf-8")
     return folder / "fahrt.csv"
 
