@@ -123,18 +123,13 @@ void ali3_abrupt_force(ali3_instance *in) {
     r->abrupt_steps++;
 }
 
-bool ali3_divides_at_row(ali3_instance *in, const ali3_request *request) {
-  return divides_abruptly(in, request, MIN_ITERATIONS);
-}
-
-bool ali3_divides_at_quarter(ali3_instance *in, const ali3_request *request) {
-  return ali3_allows_division(in, request, MIN_ITERATIONS);
+bool ali3_divides_to_resolve(ali3_instance *in, const ali3_request *request, bool at_row) {
+  return at_row ? divides_abruptly(in, request, MIN_ITERATIONS) : ali3_allows_division(in, request, MIN_ITERATIONS);
 }
 
 double ali3_table_resolved(const ali3_instance *in, int32_t element, double from, double to) {
   const ali3_system *S = in->system;
   const ali3_element_size *at = S->el_size + element;
-  if (S->el_kind[element]->resolved == NULL) return 1.0;
   return S->el_kind[element]->resolved(in->parameters.el_real + at->real, S->el_int + at->integer, from, to, ABRUPT,
                                        in->report.largest_force);
 }

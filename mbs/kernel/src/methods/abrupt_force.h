@@ -13,12 +13,11 @@ bool ali3_divides_ahead(ali3_instance *in, const ali3_request *request);
 bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_t iterations);
 /* Whether to repeat the step from in->now to in->next, whose outputs are evaluated, in halves. */
 bool ali3_divides(ali3_instance *in, const ali3_request *request);
-/* Whether the limit of iterations leaves room to end a part of a step at a row of a force by table; counts it if so. */
-bool ali3_divides_at_row(ali3_instance *in, const ali3_request *request);
-/* The same at a quarter of a piece of a driving function, which is no abrupt force. */
-bool ali3_divides_at_quarter(ali3_instance *in, const ali3_request *request);
-/* Fraction of the way between two lengths of an element, m, to the first row of its force by table that the ends do not
- * resolve; 1: none, or no table. */
+/* Whether the limit of iterations leaves room to end a part of a step that resolves a force by table or a guide; counts
+ * it if so, as an abrupt force if it ends `at_row` of a table. */
+bool ali3_divides_to_resolve(ali3_instance *in, const ali3_request *request, bool at_row);
+/* Fraction of the way between two lengths, m, of a spring by a table to the first row that the ends do not resolve; 1:
+ * none. */
 double ali3_table_resolved(const ali3_instance *in, int32_t element, double from, double to);
 /* Step from in->now, s, at most h, to the first row that a force by table at both ends of the step does not resolve. */
 double ali3_tables_resolved_step(const ali3_instance *in, double h);

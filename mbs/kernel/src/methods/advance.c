@@ -130,8 +130,7 @@ static ali3_status advance_from(ali3_instance *in, const ali3_request *request) 
   ali3_events_begin(in, request->depth);
   const double jump = next_jump(in, t, h, &guide), row = next_row(in, h, jump),
                quarter = next_quarter(in, h, row, request->controlled);
-  const bool resolves =
-      quarter < row ? ali3_divides_at_quarter(in, request) : row < jump && ali3_divides_at_row(in, request);
+  const bool resolves = quarter < jump && ali3_divides_to_resolve(in, request, quarter == row);
   const double piece_end = resolves ? quarter : jump;
   if (resolves) guide = HUGE_VAL;
   if (piece_end == t && guide == HUGE_VAL) return advance_part(in, &part);

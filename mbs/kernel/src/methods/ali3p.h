@@ -84,9 +84,9 @@ ALI3_INLINED void add_row_forces(ali3_instance *in) {
 }
 
 /* One Newton correction (21) and the linearised multiplier update of some lanes; returns those in which it is finite.
- * `reused`: the tangent belongs to an earlier iterate, and in->step.x has the residual of (20). `accelerated`: the correction is
- * combined with the one before it. The penalty uses the Phi_q of the tangent, as it would amplify the part of a later
- * Phi_q outside its range. */
+ * `reused`: the tangent belongs to an earlier iterate, and in->step.x has the residual of (20). `accelerated`: the
+ * correction is combined with the one before it. The penalty uses the Phi_q of the tangent, as it would amplify the
+ * part of a later Phi_q outside its range. */
 ALI3_INLINED truth correct(ali3_instance *in, double h, double alpha, truth lanes, int32_t iteration, truth reused,
                            truth accelerated) {
   const ali3_system *S = in->system;

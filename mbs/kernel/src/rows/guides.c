@@ -163,30 +163,22 @@ static double next_quarter(const double *real, double t) {
   return breaks[i + 1];
 }
 
-/* Whether a guide of time departs, at a quarter of a piece between `from` and `to`, by more than `least` from the cubic
- * through values and rates there. */
-static bool departs(const double *real, double from, double to, double least) {
+/* Whether values and rates of a guide of time at two times tell what it is in between, to `least`: at quarters of
+ * pieces by the cubic through them; with `by_means` also its way by the mean of the rates, and the mean of its values,
+ * to leading order. */
+static bool resolved(const double *real, double from, double to, double least, bool by_means) {
   const double way = to - from;
-  double at = next_quarter(real, from), s[2], rise[2], value, rate, unused;
-  if (at >= to) return false;
+  double s[2], rise[2], value, rate, unused;
   guide_of_time(real, from, &s[0], &rise[0], &unused);
   guide_of_time(real, to, &s[1], &rise[1], &unused);
   for (int32_t k = 0; k < 2; k++) rise[k] *= way;
-  for (; at < to; at = next_quarter(real, at)) {
+  if (by_means && (fabs(s[1] - s[0] - 0.5 * (rise[0] + rise[1])) > least || fabs(rise[1] - rise[0]) / 12.0 > least))
+    return false;
+  for (double at = next_quarter(real, from); at < to; at = next_quarter(real, at)) {
     guide_of_time(real, at, &value, &rate, &unused);
-    if (ali3_cubic_departure(s, rise, (at - from) / way, value) > least) return true;
+    if (ali3_cubic_departure(s, rise, (at - from) / way, value) > least) return false;
   }
-  return false;
-}
-
-/* By how much a method that knows a guide of time at the ends of a step alone misses it: its way by the mean of the
- * rates, and the mean of its values, to leading order. */
-static double missed_by_means(const double *real, double from, double to) {
-  const double way = to - from;
-  double s[2], rate[2], unused;
-  guide_of_time(real, from, &s[0], &rate[0], &unused);
-  guide_of_time(real, to, &s[1], &rate[1], &unused);
-  return fmax(fabs(s[1] - s[0] - 0.5 * way * (rate[0] + rate[1])), way / 12.0 * fabs(rate[1] - rate[0]));
+  return true;
 }
 
 double ali3_guides_resolved(const ali3_instance *in, double t, double end, double near, bool by_means) {
@@ -196,10 +188,9 @@ double ali3_guides_resolved(const ali3_instance *in, double t, double end, doubl
     const double *real = in->parameters.guide_real + S->guide_real_ptr[g], least = in->guide.abrupt[3 * g];
     const double from = t + near, to = end - near;
     double part = next_quarter(real, from), next = part;
-    if (part >= to || !(departs(real, from, to, least) || (by_means && missed_by_means(real, from, to) > least)))
-      continue;
-    while ((next = next_quarter(real, next + near)) < to && !departs(real, from, next - near, STRAIGHT * least) &&
-           !(by_means && missed_by_means(real, from, next - near) > STRAIGHT * least))
+    if (part >= to || resolved(real, from, to, least, by_means)) continue;
+    while ((next = next_quarter(real, next + near)) < to &&
+           resolved(real, from, next - near, STRAIGHT * least, by_means))
       part = next;
     end = part;
   }

@@ -29,8 +29,8 @@ double ali3_guides_until(const ali3_instance *in, double t, double end);
 /* The first such break at which rate or acceleration of the guide jump. */
 double ali3_guides_break(const ali3_instance *in, double t, double end);
 /* End of the next part of a step from t to `end`, s: `end` if values and rates of the guides of time there tell what
- * they are at their breaks in between, and with `by_means` if the mean of both rates tells the way; otherwise a quarter
- * of a piece up to which they nearly do. Times within `near` of t and `end` do not count. */
+ * they are at quarters of their pieces in between, and with `by_means` their way and mean; otherwise a quarter of a
+ * piece up to which they nearly do. Times within `near` of t and `end` do not count. */
 double ali3_guides_resolved(const ali3_instance *in, double t, double end, double near, bool by_means);
 /* Writes guides and their rates at the start to v: filtered ones rest where their inputs hold them. */
 void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t);
