@@ -1,10 +1,10 @@
-/* Tyre on a road: radial spring of a disc, horizontal forces by TMeasy (G. Rill, Road Vehicle Dynamics, CRC Press, 2011,
- * chapter 3; tmeasy.c) on the carcass of tyre_carcass.h.
+/* Tyre on a road: radial spring of a disc, horizontal forces by TMeasy (G. Rill, Road Vehicle Dynamics, CRC Press,
+ * 2011, chapter 3; tmeasy.c) on the carcass of tyre_carcass.h.
  *
  * The spin chi has chi' = Omega, rad/s, the absolute rate about the axis e (> 0 rolling forward). Forces and slip
  * velocities are along `forward` and `left` in the road's plane, with its normal upwards. States are those of the
- * carcass, then those of tyre_bore.h. Of two contacts outputs are the means by load; in the air the contact is the point
- * of the road that is nearest within the wheel plane, with its normal.
+ * carcass, then those of tyre_bore.h. Of two contacts outputs are the means by load; in the air the contact is the
+ * point of the road that is nearest within the wheel plane, with its normal.
  *
  * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the
  * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power

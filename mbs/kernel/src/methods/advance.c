@@ -92,8 +92,8 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
   return ALI3_OK;
 }
 
-/* Time of the next jump of an input or a guide in a step of h to time t, otherwise t. `*guide`: that of a guide, also at
- * t, otherwise infinity. */
+/* Time of the next jump of an input or a guide in a step of h to time t, otherwise t. `*guide`: that of a guide, also
+ * at t, otherwise infinity. */
 static double next_jump(const ali3_instance *in, double t, double h, double *guide) {
   const double near = AT_END * h, inputs = ali3_inputs_until(in, t);
   const double jump =
