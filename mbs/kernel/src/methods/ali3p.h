@@ -1,6 +1,6 @@
 /* Equations of an ALi3-P step in the increment D = q_(n+1) - q_n, compiled for one instance and for lanes, which
- * control the iteration in their own ways (augmented_lagrangian.c, ../lanes/lane_step.h); numbers are those of the paper, see
- * docs/theory.md. */
+ * control the iteration in their own ways (augmented_lagrangian.c, ../lanes/lane_step.h); numbers are those of the
+ * paper, see docs/theory.md. */
 #ifndef ALI3_ALI3P_H
 #define ALI3_ALI3P_H
 #include <math.h>
