@@ -26,9 +26,7 @@ from benchmarks.references.cases import CASES, SAMPLES, exact_of
         ("mujoco", "spatial_chain", "RK4", 0.01, 1e-3, 8.0),
     ],
 )
-def test_it_comes_to_the_exact_motion_with_its_order(
-    name: str, scene: str, integrator: str, h: float, most: float, falls: float
-) -> None:
+def test_it_comes_to_the_exact_motion_with_its_order(name, scene, integrator, h, most, falls):
     engine = peers.available()[0].get(name)
     if engine is None:
         pytest.skip(f"{name} is not installed")

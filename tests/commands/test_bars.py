@@ -8,9 +8,7 @@ import pytest
 from ali3 import bars
 
 
-def test_lines_count_each_thing_once_and_become_rarer(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_lines_count_each_thing_once_and_become_rarer(capsys, monkeypatch):
     monkeypatch.setattr(bars, "DELAY", 0.02)
     monkeypatch.setattr(bars._Lines, "_interval", 0.02)
     for _ in bars.bar(range(40), desc="work"):
@@ -23,7 +21,7 @@ def test_lines_count_each_thing_once_and_become_rarer(
     assert not any(character in line for line in lines for character in "\r\x1b")
 
 
-def test_the_last_line_stands_once(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_last_line_stands_once(capsys):
     with bars.bar(total=2, delay=0.0) as bar:
         for _ in range(2):
             bar.fp._due = bar.last_print_t = 0.0  # each state is due, the last too
@@ -34,7 +32,7 @@ def test_the_last_line_stands_once(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(("done", "left"), [(0.0, "?"), (1.0, "?"), (49.0, "?"), (50.0, "26:20")])
-def test_no_remaining_time_is_told_before_a_hundredth_is_done(done: float, left: str) -> None:
+def test_no_remaining_time_is_told_before_a_hundredth_is_done(done, left):
     """The first of 5000 s may have waited for a start. A fifth was done before."""
     with bars.Bar(total=5000.0, initial=1000.0, bar_format="{remaining} to go") as bar:
         bar.n += done

@@ -124,7 +124,7 @@ def ran(command: list[object], folder: Path) -> subprocess.CompletedProcess[str]
     return subprocess.run([sys.executable, *map(str, command)], capture_output=True, text=True, check=False, cwd=folder)
 
 
-def test_each_command_is_in_the_documents() -> None:
+def test_each_command_is_in_the_documents():
     page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
     rows = [line.split("|")[1:3] for line in page.splitlines() if line.startswith("| `ali3 ")]
     assert [name.strip(" `") for name, _ in rows] == [f"ali3 {c.name}" for c in COMMANDS]
@@ -132,7 +132,7 @@ def test_each_command_is_in_the_documents() -> None:
     assert all(text.strip().startswith(c.summary) for (_, text), c in zip(rows, COMMANDS, strict=True))
 
 
-def test_the_list_of_commands_imports_nothing_heavy(tmp_path: Path) -> None:
+def test_the_list_of_commands_imports_nothing_heavy(tmp_path):
     text = "import sys; from ali3.command import main\ntry: main(['--help'])\nfinally: print('\\n', *sys.modules)"
     done = ran(["-c", text], tmp_path)
     assert all(f"\n  {c.name} " in done.stdout for c in COMMANDS)
@@ -141,7 +141,7 @@ def test_the_list_of_commands_imports_nothing_heavy(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda c: c.name)
-def test_the_help_of_a_command_imports_nothing_heavy(command: Command, tmp_path: Path) -> None:
+def test_the_help_of_a_command_imports_nothing_heavy(command, tmp_path):
     text = (
         "import sys; from ali3.command import main\n"
         f"try: main([{command.name!r}, '--help'])\nfinally: print('\\n', *sys.modules)"
@@ -155,7 +155,7 @@ def test_the_help_of_a_command_imports_nothing_heavy(command: Command, tmp_path:
     assert len(ours) <= MOST_MODULES, sorted(ours)
 
 
-def test_an_option_of_two_commands_is_one_option() -> None:
+def test_an_option_of_two_commands_is_one_option():
     results: dict[str, list[argparse.Action]] = {}
     for command in COMMANDS:
         for name, action in options_of(command.name).items():
@@ -173,14 +173,14 @@ def test_an_option_of_two_commands_is_one_option() -> None:
     assert sum(len(set(map(id, options_of(c.name).values()))) - 1 for c in COMMANDS) <= MOST_OPTIONS
 
 
-def test_every_line_of_the_documents_is_a_command(capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_line_of_the_documents_is_a_command(capsys):
     lines = [(file, line) for file, text in documents() for line in typed_lines(text)]
     assert len(lines) > 50
     wrong = [f"{file}: ali3 {shlex.join(line)}: {why}" for file, line in lines if (why := parses(line, capsys))]
     assert not wrong, "\n".join(wrong)
 
 
-def test_commands_that_documents_and_sentences_name_exist() -> None:
+def test_commands_that_documents_and_sentences_name_exist():
     texts = dict(documents())
     suffixes = (".py", ".js", ".toml")
     texts |= {str(f): f.read_text("utf-8") for c in CODE for f in (ROOT / c).rglob("*") if f.suffix in suffixes}
@@ -195,7 +195,7 @@ def test_commands_that_documents_and_sentences_name_exist() -> None:
     assert not wrong, "\n".join(wrong)
 
 
-def test_an_unknown_command_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_command_is_refused(capsys):
     assert main(["biuld"]) == 2
     assert "no command 'biuld'; did you mean 'build'?" in capsys.readouterr().err
     assert main(["zzz"]) == 2
@@ -203,9 +203,7 @@ def test_an_unknown_command_is_refused(capsys: pytest.CaptureFixture[str]) -> No
     assert main([]) == 2
 
 
-def test_messages_name_the_command_that_was_typed(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_messages_name_the_command_that_was_typed(capsys, tmp_path, monkeypatch):
     monkeypatch.setattr(processes, "_prefix", None)
     monkeypatch.chdir(tmp_path)
     assert main(["run", "dist/X.fmu"]) == 2
@@ -221,9 +219,7 @@ def test_messages_name_the_command_that_was_typed(
     "command",
     [pytest.param(c, marks=[pytest.mark.slow] * (c.name in HEAVIER), id=c.name) for c in COMMANDS],
 )
-def test_what_is_long_on_a_command_line_is_not_quoted_whole(
-    command: Command, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_long_on_a_command_line_is_not_quoted_whole(command, monkeypatch, capsys):
     """An unknown option, a file of that name, and each option that reads a number."""
     long, lines = 100_000 * "x", []
     parsers: list[Parser] = []
@@ -240,7 +236,7 @@ def test_what_is_long_on_a_command_line_is_not_quoted_whole(
     assert all("error:" in line and len(line) < 5000 for line in lines)
 
 
-def test_a_missing_extra_is_reported_with_the_line_that_installs_it(tmp_path: Path) -> None:
+def test_a_missing_extra_is_reported_with_the_line_that_installs_it(tmp_path):
     (tmp_path / "some.fmu").write_text("")
     text = "import sys; sys.modules['fmpy'] = None; from ali3.command import main; sys.exit(main(['run', 'some.fmu']))"
     done = ran(["-c", text], tmp_path)
@@ -249,7 +245,7 @@ def test_a_missing_extra_is_reported_with_the_line_that_installs_it(tmp_path: Pa
 
 
 @pytest.mark.slow
-def test_files_of_the_user_cannot_break_a_command(script: Path, crowded: Path) -> None:
+def test_files_of_the_user_cannot_break_a_command(script, crowded):
     done = ran([script, "build", "--scene", "pendulum", "--kind", "native", "--platforms", "this"], crowded)
     assert done.returncode == 0, done.stderr
     assert (crowded / "dist" / "Pendulum.fmu").is_file()
@@ -267,7 +263,7 @@ def test_files_of_the_user_cannot_break_a_command(script: Path, crowded: Path) -
 
 
 @pytest.mark.slow
-def test_as_a_module_it_forgets_the_current_folder(crowded: Path) -> None:
+def test_as_a_module_it_forgets_the_current_folder(crowded):
     # Python itself looks for these before it starts the module
     for name in ("ali3", "types", "typing", "test", "threading"):
         (crowded / f"{name}.py").unlink()
@@ -275,7 +271,7 @@ def test_as_a_module_it_forgets_the_current_folder(crowded: Path) -> None:
     assert (done.returncode, done.stderr) == (2, "error: There is no file none.fmu.\n")
 
 
-def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path: Path) -> None:
+def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path):
     text = (
         "import os, sys, sysconfig; here = os.getcwd(); library = sysconfig.get_path('stdlib')\n"
         "sys.path[:] = [here, library, here]\n"
@@ -290,7 +286,7 @@ def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path: Pat
     assert done.stdout.split() == ["True", "True"]
 
 
-def test_the_module_itself_works_in_a_clone() -> None:
+def test_the_module_itself_works_in_a_clone():
     done = ran(["-m", "ali3", "--help"], ROOT)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("usage: python -m ali3 ")

@@ -39,9 +39,7 @@ def raiser(error: BaseException) -> int:
         (OSError("sources.so: failed to map segment from shared object"), 2, "from shared object\n"),
     ],
 )
-def test_errors_are_one_line(
-    error: BaseException, status: int, message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_errors_are_one_line(error, status, message, capsys):
     assert run_command(lambda: raiser(error), (ValueError,)) == status
     captured = capsys.readouterr()
     assert captured.err.endswith(message)
@@ -57,9 +55,7 @@ def test_errors_are_one_line(
         ImportError("etree.so: failed to map segment from shared object"),
     ],
 )
-def test_missing_memory_is_named_as_the_cause(
-    error: Exception, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_missing_memory_is_named_as_the_cause(error, capsys, monkeypatch):
     monkeypatch.setattr(processes, "_SPARE_MEMORY", 1 << 60)
     assert run_command(lambda: raiser(error)) == 2
     assert capsys.readouterr().err.endswith("raise the limit (ulimit -v).\n")
@@ -67,7 +63,7 @@ def test_missing_memory_is_named_as_the_cause(
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX closes them")
 @pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
-def test_streams_that_the_shell_has_closed_are_nothing(closed: str) -> None:
+def test_streams_that_the_shell_has_closed_are_nothing(closed):
     """Their numbers are no longer free for pipes, and what is printed there is gone."""
     work = (
         "import os, sys; print('out'); print('error', file=sys.stderr); "
@@ -79,9 +75,7 @@ def test_streams_that_the_shell_has_closed_are_nothing(closed: str) -> None:
     assert done.returncode == 0
 
 
-def test_a_current_folder_that_was_deleted_is_the_cause(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_current_folder_that_was_deleted_is_the_cause(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "gone").mkdir()
     os.chdir("gone")
@@ -94,7 +88,7 @@ def test_a_current_folder_that_was_deleted_is_the_cause(
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
-def test_what_the_encoding_of_the_output_lacks_ends_no_command(encoding: str) -> None:
+def test_what_the_encoding_of_the_output_lacks_ends_no_command(encoding):
     code = "from ali3.command_run import run_command; run_command(lambda: print('a \\u2212\\udcff') or 0)"
     done = subprocess.run(
         [sys.executable, "-c", code],
@@ -114,42 +108,42 @@ def test_what_the_encoding_of_the_output_lacks_ends_no_command(encoding: str) ->
         OSError(36, "File name too long", "a/" * 50_000),
     ],
 )
-def test_no_value_makes_a_sentence_endless(error: Exception, capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_value_makes_a_sentence_endless(error, capsys):
     assert run_command(lambda: raiser(error)) == 2
     errors = capsys.readouterr().err
     assert len(errors) < 2200
     assert errors.endswith((" number.\n", "1 2 .\n", "file name too long.\n"))
 
 
-def test_a_usual_sentence_is_reported_whole() -> None:
+def test_a_usual_sentence_is_reported_whole():
     sentence = f"/{'folder/' * 25}car.fmu is not an FMU; its inputs are: {', '.join(f'input_{k}' for k in range(99))}."
     assert shortened(sentence) == sentence
 
 
-def test_a_word_is_shortened_above_its_limit() -> None:
+def test_a_word_is_shortened_above_its_limit():
     assert shortened("x" * 240) == "x" * 240
     assert shortened("x" * 241) == f"{'x' * 100}...{'x' * 60}"
 
 
-def test_one_line_is_short_also_with_control_characters() -> None:
+def test_one_line_is_short_also_with_control_characters():
     zeros = r"\x00" * 50
     assert one_line("\x00" * 10_000) == f"{zeros} ... {zeros}"
     assert one_line("a\nb") == r"a\nb"
 
 
-def test_names_of_files_send_no_control_characters_to_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+def test_names_of_files_send_no_control_characters_to_a_terminal(capsys):
     assert run_command(lambda: raiser(UserError("m.toml has '\x1b[2J\x9b' in\nits second line."))) == 2
     assert capsys.readouterr().err == "error: m.toml has '\\x1b[2J\\x9b' in\nits second line.\n"
 
 
 @pytest.mark.slow
-def test_errors_of_ours_keep_their_traceback() -> None:
+def test_errors_of_ours_keep_their_traceback():
     for error in (ZeroDivisionError(), ModuleNotFoundError("No module named 'x'", name="x")):
         with pytest.raises(type(error)):
             run_command(lambda error=error: raiser(error))
 
 
-def test_a_module_starts_with_the_same_search_path(tmp_path: Path) -> None:
+def test_a_module_starts_with_the_same_search_path(tmp_path):
     (tmp_path / "json.py").write_text("raise SystemExit('the file of the user')\n")
     command = module_command("json.tool", "--help")
     assert subprocess.run(command, cwd=tmp_path, capture_output=True, check=False).returncode == 0
@@ -157,7 +151,7 @@ def test_a_module_starts_with_the_same_search_path(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for one process there")
-def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, tmp_path: Path) -> None:
+def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu, tmp_path):
     (tmp_path / "m.csv").write_text('"time","torque"\n0,0\n100000,1\n')
     (tmp_path / "temporary").mkdir()
     process = subprocess.Popen(
@@ -183,7 +177,7 @@ def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, t
     assert not (tmp_path / "out").exists()
 
 
-def test_without_a_home_the_compiler_leaves_nothing_in_the_temporary_folder(tmp_path: Path) -> None:
+def test_without_a_home_the_compiler_leaves_nothing_in_the_temporary_folder(tmp_path):
     (tmp_path / "file").write_text("")
     text = (
         "from mbs.kernel.build import cache_directory as where; (where() / 'big').write_text('x');"
@@ -201,7 +195,7 @@ def test_without_a_home_the_compiler_leaves_nothing_in_the_temporary_folder(tmp_
     assert list(temporary.iterdir()) == []
 
 
-def test_a_cache_that_cannot_be_written_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_cache_that_cannot_be_written_is_named(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path / "file"))
     build.cache_directory.cache_clear()

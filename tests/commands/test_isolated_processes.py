@@ -49,7 +49,7 @@ class Counter:
         return self.count, os.getpid()
 
 
-def test_an_error_of_a_callback_is_raised_and_the_next_task_is_done(worker: Isolated[str, tuple[int, int]]) -> None:
+def test_an_error_of_a_callback_is_raised_and_the_next_task_is_done(worker):
     def full(word: object) -> None:
         raise OSError(28, "No space left on device")
 
@@ -67,14 +67,12 @@ def worker() -> Any:
     isolated.close()
 
 
-def test_a_process_that_does_not_begin_is_reported_as_such(
-    worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_process_that_does_not_begin_is_reported_as_such(worker, monkeypatch):
     monkeypatch.setattr("ali3.isolated_processes._START_TIMEOUT", 1e-3)
     assert worker.do("") == Lost("had not begun after 0.001 s", late=True)
 
 
-def test_a_process_keeps_its_state_between_tasks_and_may_print(worker: Isolated[str, Any]) -> None:
+def test_a_process_keeps_its_state_between_tasks_and_may_print(worker):
     heard: list[int] = []
     first, process = worker.do("tell", heard.append)
     assert (first, heard) == (1, [0, 1, 2])
@@ -83,9 +81,7 @@ def test_a_process_keeps_its_state_between_tasks_and_may_print(worker: Isolated[
     assert worker.do("") == (3, process)
 
 
-def test_a_task_is_lost_if_another_thread_closes_before_it_is_sent(
-    worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_task_is_lost_if_another_thread_closes_before_it_is_sent(worker, monkeypatch):
     worker.do("")
     started = worker._started
 
@@ -98,9 +94,7 @@ def test_a_task_is_lost_if_another_thread_closes_before_it_is_sent(
     assert worker.do("") == Lost("was ended")
 
 
-def test_nothing_is_sent_if_another_thread_closes_meanwhile(
-    worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_nothing_is_sent_if_another_thread_closes_meanwhile(worker, monkeypatch):
     worker.do("")
     readings = iter([worker._process, None])
     with monkeypatch.context() as patch:
@@ -109,9 +103,7 @@ def test_nothing_is_sent_if_another_thread_closes_meanwhile(
         assert next(readings) is None, "the process is read once"
 
 
-def test_a_start_that_ends_at_its_time_limit_is_reported_as_late(
-    worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_start_that_ends_at_its_time_limit_is_reported_as_late(worker, monkeypatch):
     read_answer = worker._answer
 
     def read_late(process: Any, limit: float | None, end: Callable[[], None]) -> Any:
@@ -129,7 +121,7 @@ def test_a_start_that_ends_at_its_time_limit_is_reported_as_late(
 
 @pytest.mark.slow
 @posix
-def test_after_a_loss_there_is_a_new_process(worker: Isolated[str, Any]) -> None:
+def test_after_a_loss_there_is_a_new_process(worker):
     ways = {
         "crash": "crashed (SIGABRT)",
         "kill": "was killed (SIGKILL), by a user or by the system because memory ran out",
@@ -150,7 +142,7 @@ def test_after_a_loss_there_is_a_new_process(worker: Isolated[str, Any]) -> None
     assert lost.how.startswith("ended with exit code 1: ")
 
 
-def test_errors_of_the_user_come_back(worker: Isolated[str, Any]) -> None:
+def test_errors_of_the_user_come_back(worker):
     for task, message in (("wrong", r"The value is 3\."), ("unreadable", r"a\.csv cannot be read\.")):
         with pytest.raises(UserError, match=message):
             worker.do(task)
@@ -158,7 +150,7 @@ def test_errors_of_the_user_come_back(worker: Isolated[str, Any]) -> None:
 
 
 @posix
-def test_processes_end_with_the_program_in_the_middle_of_a_task() -> None:
+def test_processes_end_with_the_program_in_the_middle_of_a_task():
     text = "from ali3.isolated_processes import Isolated; from tests.commands.test_isolated_processes import Counter; "
     program = subprocess.Popen(
         [sys.executable, "-c", f"{text}Isolated(Counter(), int).do('hang')"], cwd=Path(__file__).parents[2]
@@ -173,7 +165,7 @@ def test_processes_end_with_the_program_in_the_middle_of_a_task() -> None:
 
 
 @posix
-def test_signals_of_a_terminal_are_left_to_the_program(worker: Isolated[str, Any]) -> None:
+def test_signals_of_a_terminal_are_left_to_the_program(worker):
     process = worker.do("")[1]
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         os.kill(process, number)
@@ -187,7 +179,7 @@ def talkative(task: float, tell: Tell) -> int:
     return 8
 
 
-def test_the_limit_is_a_time_without_a_message() -> None:
+def test_the_limit_is_a_time_without_a_message():
     worker: Isolated[float, int] = Isolated(talkative, int)
     try:
         heard: list[float] = []

@@ -31,11 +31,11 @@ def tree(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_versions_agree_at_any_time(check_release: ModuleType) -> None:
+def test_versions_agree_at_any_time(check_release):
     assert check_release.problems(ROOT, None) == []
 
 
-def test_what_is_ready_has_its_notes(check_release: ModuleType, tree: Path) -> None:
+def test_what_is_ready_has_its_notes(check_release, tree):
     assert check_release.problems(tree, "v9.8.7") == []
     assert check_release.section(tree, "9.8.7") == ("2031-02-03", "- A wheel.")
 
@@ -51,18 +51,14 @@ def test_what_is_ready_has_its_notes(check_release: ModuleType, tree: Path) -> N
         ("fmu_src/description/description.py", "-03", "-04", "fmu_src/description/description.py says 2031-02-04"),
     ],
 )
-def test_inconsistent_versions_are_reported(
-    check_release: ModuleType, tree: Path, file: str, old: str, new: str, sentence: str
-) -> None:
+def test_inconsistent_versions_are_reported(check_release, tree, file, old, new, sentence):
     text = (tree / file).read_text()
     assert old in text
     (tree / file).write_text(text.replace(old, new))
     assert any(sentence in problem for problem in check_release.problems(tree, "v9.8.7"))
 
 
-def test_the_command_ends_with_one_if_a_release_is_not_ready(
-    check_release: ModuleType, tree: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_ends_with_one_if_a_release_is_not_ready(check_release, tree, monkeypatch, capsys):
     monkeypatch.setattr(check_release, "ROOT", tree)
     monkeypatch.setattr("sys.argv", ["check_release.py", "v9.8.7"])
     assert check_release.main() == 0
@@ -72,7 +68,7 @@ def test_the_command_ends_with_one_if_a_release_is_not_ready(
     assert "error: The tag is v1.0.0" in capsys.readouterr().err
 
 
-def test_all_parts_of_the_release_are_checked_with_the_present_files(tmp_path: Path, check_release: ModuleType) -> None:
+def test_all_parts_of_the_release_are_checked_with_the_present_files(tmp_path, check_release):
     """The places that are read are where they are read: a tag of another version is refused by three of them."""
     for name in FILES:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -90,7 +86,7 @@ def test_all_parts_of_the_release_are_checked_with_the_present_files(tmp_path: P
         ]
 
 
-def test_workflows_are_valid() -> None:
+def test_workflows_are_valid():
     pytest.importorskip("check_jsonschema")
     files = sorted(map(str, (ROOT / ".github" / "workflows").glob("*.yml")))
     command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", "vendor.github-workflows", *files]

@@ -34,7 +34,7 @@ def holding(file: Path) -> subprocess.Popen[str]:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="locks of folders")
-def test_files_left_by_a_kill_are_removed_with_the_next_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_left_by_a_kill_are_removed_with_the_next_file(tmp_path, monkeypatch):
     dead, alive = holding(tmp_path / "dead.txt"), holding(tmp_path / "alive.txt")
     try:
         assert len(left(tmp_path)) == 2
@@ -57,7 +57,7 @@ def test_files_left_by_a_kill_are_removed_with_the_next_file(tmp_path: Path, mon
     assert not (tmp_path / "dead.txt").exists()
 
 
-def test_a_folder_goes_with_its_block(tmp_path: Path) -> None:
+def test_a_folder_goes_with_its_block(tmp_path):
     def work() -> None:
         with temporary_folder(tmp_path) as folder, atomic_folder(tmp_path / "made") as temporary:
             (folder / "a").write_text("x")
@@ -73,9 +73,7 @@ def test_a_folder_goes_with_its_block(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the folder of a process and its guard")
-def test_the_folder_of_a_process_whose_guard_is_killed_too_goes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_folder_of_a_process_whose_guard_is_killed_too_goes(tmp_path, monkeypatch):
     text = "from ali3.isolated_processes import Isolated; from tests.commands.test_isolated_processes import Counter; "
     text += "p = Isolated(Counter(), tuple[int, int]); p.do(''); print(p._process.process.pid, flush=True); input()"
     command = [sys.executable, "-c", text]

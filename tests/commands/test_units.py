@@ -31,7 +31,7 @@ from hosts.recordings.load_manoeuvre import check_manoeuvre_option
         ("7", "", 7.0),
     ],
 )
-def test_a_number_may_have_a_unit_of_its_quantity(text: str, unit: str, value: float) -> None:
+def test_a_number_may_have_a_unit_of_its_quantity(text, unit, value):
     assert number_with_unit(text, unit) == pytest.approx(value)
 
 
@@ -45,12 +45,12 @@ def test_a_number_may_have_a_unit_of_its_quantity(text: str, unit: str, value: f
         ("nan", "s", "the value is nan"),
     ],
 )
-def test_another_unit_is_reported_with_how_it_is_written(text: str, unit: str, message: str) -> None:
+def test_another_unit_is_reported_with_how_it_is_written(text, unit, message):
     with pytest.raises(ValueError, match=message):
         number_with_unit(text, unit)
 
 
-def test_only_the_command_line_takes_units() -> None:
+def test_only_the_command_line_takes_units():
     stiffness = Variable("k", "", "parameter", "tunable", "Real", "N/m", 1.0, 0.0, 5e4, None, {}, {})
     assert stiffness.read("20kN/m", "--set", with_unit=True) == 20e3
     with pytest.raises(HostError, match="a table: 'k': '20kN/m' is not a number"):
@@ -71,9 +71,7 @@ def test_only_the_command_line_takes_units() -> None:
         (["--step", "10mm"], "argument --step: '10mm' is not a number; write one in s"),
     ],
 )
-def test_a_misspelt_option_is_reported_with_the_near_one(
-    line: list[str], message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_misspelt_option_is_reported_with_the_near_one(line, message, capsys):
     parser = Parser(prog="p")
     for name in ("--manoeuvre", "--step"):
         add_option(parser, name)
@@ -82,7 +80,7 @@ def test_a_misspelt_option_is_reported_with_the_near_one(
     assert message in capsys.readouterr().err
 
 
-def test_options_of_one_letter_and_their_values_are_unchanged() -> None:
+def test_options_of_one_letter_and_their_values_are_unchanged():
     parser = Parser(prog="p")
     for name in ("--manoeuvre", "--step"):
         add_option(parser, name)
@@ -91,7 +89,7 @@ def test_options_of_one_letter_and_their_values_are_unchanged() -> None:
     assert (actual.manoeuvre, actual.step, actual.rest) == ("slalom", 0.01, ["-manoeuvre"])
 
 
-def test_a_value_may_begin_with_a_minus_sign() -> None:
+def test_a_value_may_begin_with_a_minus_sign():
     parser = Parser(prog="p")
     parser.add_argument("--travel", type=quantity("mm"), nargs=2)
     parser.add_argument("--between")
@@ -99,7 +97,7 @@ def test_a_value_may_begin_with_a_minus_sign() -> None:
     assert (actual.travel, actual.between) == ([-30.0, -10.0], "-1:1")
 
 
-def test_misspelt_cars_worlds_and_manoeuvres_are_reported_before_anything_is_made(tmp_path: Path) -> None:
+def test_misspelt_cars_worlds_and_manoeuvres_are_reported_before_anything_is_made(tmp_path):
     for check, word, meant in (
         (lambda word: check_car(Path(word)), "hatchbak", "hatchback"),
         (check_world, "proving_grund", "proving_ground"),
@@ -114,7 +112,7 @@ def test_misspelt_cars_worlds_and_manoeuvres_are_reported_before_anything_is_mad
     check_manoeuvre_option(None)
 
 
-def test_abbreviations_of_options_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_abbreviations_of_options_are_refused(capsys):
     """Reports that repeat a command look for whole options."""
     parser = Parser(prog="p")
     parser.add_argument("--test-setting")

@@ -30,9 +30,7 @@ def text(live_pages: ModuleType, app: SimpleNamespace, page: str = "docs/driving
     return source[0]
 
 
-def test_pages_that_cannot_be_made_are_left_out_with_one_line(
-    live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_pages_that_cannot_be_made_are_left_out_with_one_line(live_pages, tmp_path, monkeypatch, capsys):
     result = {"prototype"}
 
     def make(names: Sequence[str], out: Path) -> str:
@@ -67,9 +65,7 @@ def test_pages_that_cannot_be_made_are_left_out_with_one_line(
     assert app.config.live_pages == list(live_pages.PAGES)
 
 
-def test_a_site_without_live_pages_says_so(
-    live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_site_without_live_pages_says_so(live_pages, tmp_path, monkeypatch):
     monkeypatch.setenv(live_pages.MODE, "none")
     app = site(tmp_path)
     live_pages.build(app)

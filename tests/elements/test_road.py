@@ -22,7 +22,7 @@ def rim(centre: Array, axis: Array, radius: float, count: int = 20001) -> Array:
     return np.asarray(centre + radius * (np.cos(t) * a + np.sin(t) * b))
 
 
-def test_plane_contact_is_the_lowest_point_of_the_disc_on_the_plane() -> None:
+def test_plane_contact_is_the_lowest_point_of_the_disc_on_the_plane():
     road = PlaneRoad(0.1, 0.08, -0.05, 0.7)
     n = np.array([-0.08, 0.05, 1.0]) / np.linalg.norm([0.08, 0.05, 1.0])
     centre, axis = np.array([1.0, 2.0, 0.40]), axis_of(0.3, 0.1)
@@ -38,9 +38,7 @@ def test_plane_contact_is_the_lowest_point_of_the_disc_on_the_plane() -> None:
 @pytest.mark.parametrize(
     ("yaw", "camber", "upper"), [(0.0, 0.0, "before"), (-0.3, 0.15, "before"), (0.2, -0.2, "after")]
 )
-def test_kerb_distance_is_that_of_the_nearest_point_of_the_solid_in_the_wheel_plane(
-    yaw: float, camber: float, upper: str
-) -> None:
+def test_kerb_distance_is_that_of_the_nearest_point_of_the_solid_in_the_wheel_plane(yaw, camber, upper):
     road = KerbRoad(2.0, 0.08, 0.02, upper)  # type: ignore[arg-type]
     side, top = (1.0 if upper == "before" else -1.0), 0.10
     axis = axis_of(yaw, camber)
@@ -70,7 +68,7 @@ def test_kerb_distance_is_that_of_the_nearest_point_of_the_solid_in_the_wheel_pl
 
 
 @pytest.mark.parametrize(("yaw", "camber"), [(0.0, 0.0), (0.5, 0.1)])
-def test_kerb_penetration_has_a_continuous_gradient(yaw: float, camber: float) -> None:
+def test_kerb_penetration_has_a_continuous_gradient(yaw, camber):
     road = KerbRoad(0.0, 0.08)
     axis = axis_of(yaw, camber)
     step = 1e-6
@@ -96,14 +94,14 @@ def test_kerb_penetration_has_a_continuous_gradient(yaw: float, camber: float) -
 
 
 @pytest.mark.parametrize(("depth", "behind", "axis"), [(0.02, 0.01, 0), (0.01, 0.02, 2)])
-def test_a_wheel_within_the_step_leaves_it_by_the_nearest_side(depth: float, behind: float, axis: int) -> None:
+def test_a_wheel_within_the_step_leaves_it_by_the_nearest_side(depth, behind, axis):
     """Its centre is so far below the top and so far behind the face."""
     c = contacts(KerbRoad(0.0, 0.08), [-behind, 0.0, 0.08 - depth], [0.0, 1.0, 0.0], RADIUS)[0]
     assert c["penetration"] == pytest.approx(RADIUS + min(depth, behind), abs=ROUND_OFF)
     assert np.allclose(c["normal"], np.eye(3)[axis], atol=ROUND_OFF)
 
 
-def test_disc_rolls_over_the_edge_along_a_circle_about_it() -> None:
+def test_disc_rolls_over_the_edge_along_a_circle_about_it():
     road = KerbRoad(0.0, 0.08)
     for fall in (0.01, 0.05):
         x = np.sqrt(RADIUS**2 - (RADIUS - fall) ** 2)
@@ -112,7 +110,7 @@ def test_disc_rolls_over_the_edge_along_a_circle_about_it() -> None:
         assert np.allclose(c["point"], [0.0, 0.0, 0.08], atol=ROUND_OFF)
 
 
-def test_grid_of_a_plane_is_the_plane() -> None:
+def test_grid_of_a_plane_is_the_plane():
     x, y = np.meshgrid(np.arange(8) * 0.5 - 1.0, np.arange(6) * 0.4 - 1.0, indexing="ij")
     grid = GridRoad((-1.0, -1.0), (0.5, 0.4), 0.1 + 0.08 * x - 0.05 * y, 0.7)
     plane = PlaneRoad(0.1, 0.08, -0.05, 0.7)
@@ -122,7 +120,7 @@ def test_grid_of_a_plane_is_the_plane() -> None:
             assert np.allclose(value, b[key], atol=1e-12), key
 
 
-def test_grid_meets_its_points_and_is_c1_between_cells() -> None:
+def test_grid_meets_its_points_and_is_c1_between_cells():
     rng = np.random.default_rng(7)
     heights, frictions = 0.02 * rng.normal(size=(6, 5)), rng.uniform(0.3, 1.0, size=(6, 5))
     road = GridRoad((0.0, 0.0), (1.0, 1.0), heights, frictions, 0.5)
@@ -145,7 +143,7 @@ def test_grid_meets_its_points_and_is_c1_between_cells() -> None:
     )
 
 
-def test_grid_goes_on_level_outside() -> None:
+def test_grid_goes_on_level_outside():
     road = GridRoad((0.0, 0.0), (1.0, 1.0), [[0.0, 0.1], [0.2, 0.3]], 0.9)
     for x, y, z in ((-5.0, -5.0, 0.0), (9.0, 9.0, 0.3), (-5.0, 9.0, 0.1), (1e9, -1e9, 0.2)):
         (c,) = contacts(road, [x, y, 0.5], [0.0, 1.0, 0.0], RADIUS)
@@ -166,7 +164,7 @@ def test_grid_goes_on_level_outside() -> None:
         (lambda: GridRoad((0, 0), (1, 1), np.full((2, 2), np.nan)).real, "not finite"),
     ],
 )
-def test_bad_roads_are_refused_with_a_sentence(make: object, sentence: str) -> None:
+def test_bad_roads_are_refused_with_a_sentence(make, sentence):
     with pytest.raises(ValueError, match=re.escape(sentence)):
         make()  # type: ignore[operator]
 
@@ -189,12 +187,12 @@ def test_bad_roads_are_refused_with_a_sentence(make: object, sentence: str) -> N
         (7, [], "unknown"),
     ],
 )
-def test_kernel_checks_roads(kind: int, real: list[float], word: str | None) -> None:
+def test_kernel_checks_roads(kind, real, word):
     text = library().harness_road_check(kind, (ctypes.c_double * max(1, len(real)))(*real), len(real))
     assert text is None if word is None else word in text.decode()
 
 
-def test_parameter_that_spoils_a_grid_leaves_a_road_without_contact() -> None:
+def test_parameter_that_spoils_a_grid_leaves_a_road_without_contact():
     real = (ctypes.c_double * 15)(2.0, 1e6, 0.0, 0.0, 1.0, 1.0, 1.0, *[0.0] * 4, *[0.9] * 4)
     out = (ctypes.c_double * 24)()
     centre, axis = (ctypes.c_double * 3)(0.0, 0.0, 0.1), (ctypes.c_double * 3)(0.0, 1.0, 0.0)

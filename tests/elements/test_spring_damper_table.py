@@ -43,7 +43,7 @@ def reference(rows: Array, x: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("x", [-0.35, -0.15, -0.13, -0.1, -0.05, 0.0, 0.02, 0.0504, 0.051, 0.19, 0.2, 0.5])
-def test_force_and_energy_of_the_spring_are_those_of_scipy(x: float) -> None:
+def test_force_and_energy_of_the_spring_are_those_of_scipy(x):
     force, energy = reference(SPRING, x)
     r = element()(*along(FREE + x))
     assert r.out["force"] == pytest.approx(force, rel=ROUND_OFF, abs=1e-8)
@@ -51,7 +51,7 @@ def test_force_and_energy_of_the_spring_are_those_of_scipy(x: float) -> None:
 
 
 @pytest.mark.parametrize("v", [-3.0, -1.5, -0.7, -0.05, -0.01, 0.0, 0.05, 0.4, 1.0, 5.0])
-def test_the_force_of_the_damper_is_that_of_scipy_and_takes_energy(v: float) -> None:
+def test_the_force_of_the_damper_is_that_of_scipy_and_takes_energy(v):
     force, _ = reference(DAMPER, v)
     r = element(0.0, DAMPER)(*along(FREE, v))
     assert r.out["force"] == pytest.approx(force, rel=ROUND_OFF, abs=1e-9)
@@ -63,7 +63,7 @@ def test_the_force_of_the_damper_is_that_of_scipy_and_takes_energy(v: float) -> 
 @pytest.mark.parametrize(
     "rows", [SPRING + np.array([0.3, 5000.0]), SPRING - np.array([0.3, 0.0]), SPRING[:2], SPRING[-2:]]
 )
-def test_the_energy_counts_from_stretch_nought_wherever_the_table_lies(rows: Array) -> None:
+def test_the_energy_counts_from_stretch_nought_wherever_the_table_lies(rows):
     bench = element(rows)
     assert bench(*along(FREE)).potential == pytest.approx(0.0, abs=1e-8 * np.max(np.abs(rows[:, 1])))
     for x in (-0.3, 0.05, 0.3):
@@ -72,7 +72,7 @@ def test_the_energy_counts_from_stretch_nought_wherever_the_table_lies(rows: Arr
         assert (ahead - behind) / 2e-6 == pytest.approx(force, rel=1e-6, abs=1e-3)
 
 
-def test_a_straight_table_is_the_number() -> None:
+def test_a_straight_table_is_the_number():
     stops = EndStops(0.3, 8e4, 0.5, 5e4, bump_progression=0.03, metal_stiffness=1e6, bump_travel=0.05, bump_loss=0.2)
     straight = SpringDamperTable([(-0.1, -1000.0), (0.1, 1000.0)], [(-1.0, -300.0), (0.0, 0.0), (1.0, 300.0)], FREE)
     plain = Element(SpringDamper(1e4, 300.0, FREE, stops).record("s", vectors(3)[0]))
@@ -89,9 +89,7 @@ def test_a_straight_table_is_the_number() -> None:
 
 
 @pytest.mark.parametrize("ends", [(-0.2, 0.3), (-0.12, -0.11), (0.04, 0.06), (0.3, -0.3), (0.05, 0.05), (0.01, 0.0101)])
-def test_a_step_takes_the_change_of_the_energy_exactly_and_its_tangent_is_the_derivative(
-    ends: tuple[float, float],
-) -> None:
+def test_a_step_takes_the_change_of_the_energy_exactly_and_its_tangent_is_the_derivative(ends):
     h = 0.01
     bench = element(SPRING, 0.0, stiffness_factor=1.3)
     u0, u1 = (along(FREE + x)[0] for x in ends)
@@ -110,7 +108,7 @@ def test_a_step_takes_the_change_of_the_energy_exactly_and_its_tangent_is_the_de
     assert n @ S @ n == pytest.approx(2.0 * slope, rel=1e-5, abs=1.0)  # the tangent is by the middle
 
 
-def test_the_factors_scale_spring_and_damper_and_leave_the_stops() -> None:
+def test_the_factors_scale_spring_and_damper_and_leave_the_stops():
     stops = EndStops(0.3, 8e4, 0.5, 5e4)
     for length, rate in ((0.2, -0.4), (0.38, 0.2), (0.6, 1.0)):
         at = along(length, rate)
@@ -156,7 +154,7 @@ def slide(rows: object, speed: float = SPEED, gravity: float = 0.0) -> System:
     "method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum", "radau_5", "runge_kutta_8", "semi_recursive_4"]
 )
 @pytest.mark.parametrize("energy", [0.5, 2.0])
-def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method: str, energy: float) -> None:
+def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method, energy):
     """8 mm wide, in steps of 15 mm; of so much of the energy of the motion: it is passed, or throws the body back."""
     peak = energy * SPEED**2 / 0.004
     system = slide([(x, force and peak) for x, force in BARRIER])
@@ -176,7 +174,7 @@ def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method: str, ener
 
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha"])
-def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(method: str) -> None:
+def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(method):
     """It takes a quarter of the energy up to its middle; without it the body is 6 mm further at the end."""
     h, gravity = 0.02, 10.0  # 2 mm in the first step
     begin, middle, end = 1.0004, 1.0006, 1.0008
@@ -194,7 +192,7 @@ def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(metho
 
 
 @pytest.mark.parametrize(("limit", "divisions"), [(0, 2), (4, 1), (10, 2)])
-def test_parts_of_a_step_over_a_barrier_share_its_limit_of_iterations(limit: int, divisions: int) -> None:
+def test_parts_of_a_step_over_a_barrier_share_its_limit_of_iterations(limit, divisions):
     instance = Instance(LoadedSystem(slide(BARRIER).to_bytes()))
     instance.set_settings(step_iterations=limit)
     instance.initialise()
@@ -206,7 +204,7 @@ def test_parts_of_a_step_over_a_barrier_share_its_limit_of_iterations(limit: int
     assert instance.report()["divisions"] == divisions
 
 
-def test_a_jump_of_an_input_in_the_same_step_is_no_row_of_the_table() -> None:
+def test_a_jump_of_an_input_in_the_same_step_is_no_row_of_the_table():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)
         run = simulate(
@@ -216,7 +214,7 @@ def test_a_jump_of_an_input_in_the_same_step_is_no_row_of_the_table() -> None:
     assert (run.report.divisions, run.report.abrupt_steps) == (3, 2)
 
 
-def test_a_bent_table_that_its_ends_tell_divides_no_step() -> None:
+def test_a_bent_table_that_its_ends_tell_divides_no_step():
     """Steps over six of its rows."""
     x = np.linspace(-0.3, 0.3, 121)
     run = simulate(slide(np.c_[1.0 + x, 30.0 * (x + 40.0 * x**3)]), 2.0, 0.02, progress=False)
@@ -225,14 +223,14 @@ def test_a_bent_table_that_its_ends_tell_divides_no_step() -> None:
     assert run.report.divisions == run.report.abrupt_steps == run.report.halvings == 0
 
 
-def test_energy_is_kept_by_the_energy_momentum_method() -> None:
+def test_energy_is_kept_by_the_energy_momentum_method():
     m = oscillator()
     run = simulate(compile(m), 2.0, 0.001, settings=Settings(method="energy_momentum"))
     assert np.ptp(run["y"]) > 0.1
     assert np.ptp(run["energy"]) < 1e-7 * np.max(np.abs(run["energy"]))
 
 
-def test_a_spring_by_table_declares_whether_it_dissipates_energy() -> None:
+def test_a_spring_by_table_declares_whether_it_dissipates_energy():
     assert element(SPRING).conservative
     assert element(SPRING, DAMPER).conservative is False
     assert element(SPRING, DAMPER, damping_factor=0.0).conservative
@@ -241,7 +239,7 @@ def test_a_spring_by_table_declares_whether_it_dissipates_energy() -> None:
 
 
 @pytest.mark.parametrize("power", range(1, 6))
-def test_slopes_of_a_damper_that_is_flat_at_an_end_are_not_below_nought(power: int) -> None:
+def test_slopes_of_a_damper_that_is_flat_at_an_end_are_not_below_nought(power):
     rng = np.random.default_rng(power)
     for _ in range(40):
         rates = np.sort(rng.uniform(-2.0, 2.0, 8))
@@ -263,7 +261,7 @@ def test_slopes_of_a_damper_that_is_flat_at_an_end_are_not_below_nought(power: i
         ({"stops": EndStops(0.9, 1.0, 0.8, 1.0)}, "must be less than the rebound length"),
     ],
 )
-def test_bad_tables_are_refused_with_a_sentence(change: dict[str, object], sentence: str) -> None:
+def test_bad_tables_are_refused_with_a_sentence(change, sentence):
     with pytest.raises(ValueError, match="(?i)" + re.escape(sentence)):
         replace(SpringDamperTable(SPRING, DAMPER, FREE), **change).record("strut", vectors(3)[0])  # type: ignore[arg-type]
 
@@ -281,11 +279,11 @@ HEAD = 5 + 12  # reals before the tables
         (HEAD + 4 * len(SPRING) + 2 * len(DAMPER), -1.0, "must not fall"),
     ],
 )
-def test_the_kernel_checks_tables(place: int, value: float, message: str) -> None:
+def test_the_kernel_checks_tables(place, value, message):
     assert message in (element(SPRING, DAMPER).with_reals({place: value}).check() or "")
 
 
-def test_the_kernel_checks_the_energies_from_stretch_nought_and_the_count() -> None:
+def test_the_kernel_checks_the_energies_from_stretch_nought_and_the_count():
     bench = element(SPRING)
     real = np.array(bench.element.real)
     real[HEAD + 3 * len(SPRING) :] += 5.0

@@ -17,7 +17,7 @@ def bar(gain: float = 0.0, limit: float = 0.0) -> Element:
     return Element(TorsionBar(K, C, gain, limit).record("bar", *signals(2)))
 
 
-def test_it_turns_the_pinion_on_and_the_wheel_back() -> None:
+def test_it_turns_the_pinion_on_and_the_wheel_back():
     r = bar()(np.array([0.03, 0.01]), np.array([0.5, 0.2]), [], 0.01)
     torque = K * 0.02 + C * 0.3
     assert r.out == pytest.approx({"torque": torque, "assistance": 0.0})
@@ -25,7 +25,7 @@ def test_it_turns_the_pinion_on_and_the_wheel_back() -> None:
     assert r.potential == pytest.approx(0.5 * K * 0.02**2)
 
 
-def test_the_assistance_grows_with_the_torque_up_to_its_limit() -> None:
+def test_the_assistance_grows_with_the_torque_up_to_its_limit():
     assisted = bar(GAIN, LIMIT)
     for twist, expected in ((1e-6, GAIN * K * 1e-6), (5.0, LIMIT), (-5.0, -LIMIT)):
         r = assisted(np.array([twist, 0.0]), np.zeros(2), [], 0.01)
@@ -37,9 +37,7 @@ def test_the_assistance_grows_with_the_torque_up_to_its_limit() -> None:
 
 
 @pytest.mark.parametrize(("gain", "limit"), [(0.0, 0.0), (GAIN, LIMIT)])
-def test_the_tangent_is_that_of_the_force_but_for_what_the_wheel_does_through_the_motor(
-    gain: float, limit: float
-) -> None:
+def test_the_tangent_is_that_of_the_force_but_for_what_the_wheel_does_through_the_motor(gain, limit):
     element, u, ud, h = bar(gain, limit), np.array([0.04, -0.02]), np.array([0.3, 0.1]), 0.01
     r = element(u, ud, [], h, 0.5 * h, 0.25 * h * h)
     small, expected = 1e-6, np.zeros((2, 2))
@@ -58,7 +56,7 @@ def test_the_tangent_is_that_of_the_force_but_for_what_the_wheel_does_through_th
 
 
 @pytest.mark.slow
-def test_steps_converge_with_a_strong_assistance() -> None:
+def test_steps_converge_with_a_strong_assistance():
     """Wheel and pinion with a spring at the rack: the wheel ends where its torque has the spring in balance."""
     h = 0.02
     one, spring, hand = np.eye(2), 60.0, 2.0

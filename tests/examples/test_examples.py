@@ -40,9 +40,7 @@ PROOF = ("anti_lock_brakes",)
         *(pytest.param(name, marks=pytest.mark.proof) for name in PROOF),
     ],
 )
-def test_an_example_keeps_its_promise(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_example_keeps_its_promise(name, tmp_path, monkeypatch, capsys):
     example = module_of(FOLDER / f"{name}.py")
     monkeypatch.chdir(tmp_path)
     result = example.main()
@@ -54,7 +52,7 @@ def test_an_example_keeps_its_promise(
     assert drawn.std() > 0.02
 
 
-def test_every_example_is_short_and_shows_its_command() -> None:
+def test_every_example_is_short_and_shows_its_command():
     files = sorted(FOLDER.glob("*.py"))
     assert [file.stem for file in files] == sorted(PROMISED)
     for file in files:
@@ -63,7 +61,7 @@ def test_every_example_is_short_and_shows_its_command() -> None:
         assert f"python examples/{file.name} [PICTURE]" in text.splitlines()[0]
 
 
-def test_the_gallery_shows_every_example_with_its_picture() -> None:
+def test_the_gallery_shows_every_example_with_its_picture():
     text = GALLERY.read_text(encoding="utf-8")
     shown = re.findall(r"!\[[^\]]+\]\(images/examples/(\w+)\.png\)", text)
     linked = re.findall(r"\]\(\.\./examples/(\w+)\.py\)", text)

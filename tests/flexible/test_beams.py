@@ -30,7 +30,7 @@ def deflection(model: FiniteElementModel, load: dict[int, float], fixed: np.ndar
 
 @pytest.mark.parametrize("theory", ["euler_bernoulli", "timoshenko"])
 @pytest.mark.parametrize("elements", [1, 5])
-def test_clamped_beam_under_tip_loads_has_the_closed_form(theory: str, elements: int) -> None:
+def test_clamped_beam_under_tip_loads_has_the_closed_form(theory, elements):
     L, E, G = 1.5, STEEL.E, STEEL.G
     section = rectangle(0.03, 0.05)
     model = straight(elements, L, section, theory).finite_element_model()
@@ -48,7 +48,7 @@ def test_clamped_beam_under_tip_loads_has_the_closed_form(theory: str, elements:
     np.testing.assert_allclose(u, expected, rtol=ROUND_OFF)
 
 
-def test_a_beam_does_not_care_how_it_lies_in_space() -> None:
+def test_a_beam_does_not_care_how_it_lies_in_space():
     tip_loads = np.array([30.0, -20.0, 50.0])
     along = straight(3).finite_element_model()
     energy = deflection(along, dict(zip(range(18, 21), tip_loads, strict=True)))[18:21] @ tip_loads
@@ -63,9 +63,7 @@ def test_a_beam_does_not_care_how_it_lies_in_space() -> None:
 
 
 @pytest.mark.parametrize(("held", "roots", "rigid"), [((3,), FREE_FREE, 5), (CLAMPED, CANTILEVER, 0)])
-def test_tube_vibrates_at_the_frequencies_of_euler_and_bernoulli(
-    held: tuple[int, ...], roots: np.ndarray, rigid: int
-) -> None:
+def test_tube_vibrates_at_the_frequencies_of_euler_and_bernoulli(held, roots, rigid):
     L = 1.5  # without rotary inertia the twist of the free tube has no mass: it is held
     model = straight(20, L).finite_element_model("consistent", rotary=False)
     hertz, _ = natural_modes(model, rigid + 6, held)
@@ -76,7 +74,7 @@ def test_tube_vibrates_at_the_frequencies_of_euler_and_bernoulli(
     np.testing.assert_allclose(hertz[rigid + 1 :: 2], expected, rtol=FINE_MESH)
 
 
-def test_twist_of_a_clamped_rod_is_a_wave_of_the_shear_modulus() -> None:
+def test_twist_of_a_clamped_rod_is_a_wave_of_the_shear_modulus():
     L, n = 0.5, 40
     stubby = rectangle(0.05, 0.05)
     model = straight(n, L, stubby).finite_element_model()
@@ -87,7 +85,7 @@ def test_twist_of_a_clamped_rod_is_a_wave_of_the_shear_modulus() -> None:
     np.testing.assert_allclose(hertz, np.array([1.0, 3.0]) * wave / (4 * L), rtol=1e-3)
 
 
-def test_frequencies_of_a_stubby_simply_supported_beam_follow_timoshenko() -> None:
+def test_frequencies_of_a_stubby_simply_supported_beam_follow_timoshenko():
     L, n = 0.5, 48
     section = rectangle(0.08, 0.08)
     model = straight(n, L, section, "timoshenko").finite_element_model()
@@ -109,7 +107,7 @@ def test_frequencies_of_a_stubby_simply_supported_beam_follow_timoshenko() -> No
     assert (bernoulli / expected > 1.04).all(), "the case must tell the theories apart"
 
 
-def test_interpolation_solves_the_unloaded_beam() -> None:
+def test_interpolation_solves_the_unloaded_beam():
     L, phi = 0.7, 0.8
     for theory_phi in (0.0, phi):
         start, slope = bending_functions(0.0, L, theory_phi)
@@ -123,7 +121,7 @@ def test_interpolation_solves_the_unloaded_beam() -> None:
         assert rotation @ pure == pytest.approx(xi * L, rel=ROUND_OFF)
 
 
-def test_gauss_points_give_the_consistent_mass_matrix_of_the_textbook() -> None:
+def test_gauss_points_give_the_consistent_mass_matrix_of_the_textbook():
     L = 0.7
     _, masses, shapes = beam_mass_points(TUBE, STEEL, L, (0.0, 0.0), "consistent", rotary=False)
     M = np.einsum("k,kai,kaj->ij", masses, shapes, shapes)
@@ -141,7 +139,7 @@ def test_gauss_points_give_the_consistent_mass_matrix_of_the_textbook() -> None:
     np.testing.assert_array_equal(M[3], 0.0)
 
 
-def test_points_of_the_sections_give_the_rotary_inertia_of_rayleighs_beam() -> None:
+def test_points_of_the_sections_give_the_rotary_inertia_of_rayleighs_beam():
     L, section = 0.4, rectangle(0.03, 0.05)
     plain, rayleigh = (
         np.einsum("k,kai,kaj->ij", m, N, N)
@@ -169,7 +167,7 @@ def test_points_of_the_sections_give_the_rotary_inertia_of_rayleighs_beam() -> N
 
 @pytest.mark.parametrize("kind", ["lumped", "consistent"])
 @pytest.mark.parametrize("rotary", [False, True])
-def test_every_mass_model_has_the_mass_and_the_centre_of_the_beams(kind: str, rotary: bool) -> None:
+def test_every_mass_model_has_the_mass_and_the_centre_of_the_beams(kind, rotary):
     frame = portal()
     points = frame.finite_element_model(kind, rotary).mass
     total, moment = frame.masses.sum(), frame.masses @ frame.positions
@@ -180,7 +178,7 @@ def test_every_mass_model_has_the_mass_and_the_centre_of_the_beams(kind: str, ro
     np.testing.assert_allclose(points.masses @ points.positions, moment, rtol=1e-11, atol=1e-12)
 
 
-def test_lumping_costs_frequency_in_proportion_to_the_element_squared() -> None:
+def test_lumping_costs_frequency_in_proportion_to_the_element_squared():
     L = 1.5
     errors = []
     for n in (8, 16, 32):
@@ -192,7 +190,7 @@ def test_lumping_costs_frequency_in_proportion_to_the_element_squared() -> None:
     np.testing.assert_allclose(order, 2.0, atol=0.05)
 
 
-def test_energies_of_rigid_motions_and_constant_strains_are_exact() -> None:
+def test_energies_of_rigid_motions_and_constant_strains_are_exact():
     model = portal().finite_element_model()
     R = model.rigid_motions(model.positions.mean(axis=0))
     assert np.abs(model.K @ R).max() < 1e-9 * np.abs(model.K.data).max()

@@ -14,13 +14,13 @@ from mbs.simulation.march import march
 from tests.flexible_engine.bodies import ALUMINIUM, bar, chain, soft_pendulum
 
 
-def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs() -> None:
+def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs():
     with pytest.warns(BendingWarning, match=r"body 'part 0' bends by 0\.045 rad .* Divide it into 2 or more") as caught:
         simulate(soft_pendulum(1), 2.0, 0.0025, progress=False)
     assert len(caught) == 1
 
 
-def test_four_bodies_are_not_warned_of() -> None:
+def test_four_bodies_are_not_warned_of():
     with warnings.catch_warnings():
         warnings.simplefilter("error", BendingWarning)
         simulate(soft_pendulum(4), 2.0, 0.0025, progress=False, estimate_error=False)
@@ -45,9 +45,7 @@ def _column(parts: int, share: float) -> Simulation:
     ("parts", "share", "of_part", "error"),
     [(1, 0.5, 0.50, 0.42), (2, 0.5, 0.12, 0.093), (4, 0.5, 0.0, 0.024), (2, -0.5, 0.12, -0.035)],
 )
-def test_axial_forces_are_reported_where_they_change_a_frequency(
-    parts: int, share: float, of_part: float, error: float
-) -> None:
+def test_axial_forces_are_reported_where_they_change_a_frequency(parts, share, of_part, error):
     """Of a column, pi^2 sqrt(EI / (rho A)) sqrt(1 - share); one body has the same with and without a load."""
     simulation = _column(parts, share)
     section = round_bar(0.02)
@@ -62,7 +60,7 @@ def test_axial_forces_are_reported_where_they_change_a_frequency(
     assert all(f"axial forces of {of_part:.2g} times its buckling load" in text for text in texts)
 
 
-def test_a_tension_stiffens_a_beam_by_a_factor_of_six_columns() -> None:
+def test_a_tension_stiffens_a_beam_by_a_factor_of_six_columns():
     """Of the deflections y, z and rotations about z, y of its free end: Przemieniecki 1968, equation 15.24."""
     length = 0.7
     reduced = bar((0, 0, 0), (length, 0, 0), elements=1, dynamic=0)
@@ -74,7 +72,7 @@ def test_a_tension_stiffens_a_beam_by_a_factor_of_six_columns() -> None:
     np.testing.assert_allclose(root @ root.T, expected / (30 * length), atol=1e-9)
 
 
-def test_a_stepped_run_warns_once() -> None:
+def test_a_stepped_run_warns_once():
     simulation = Simulation(soft_pendulum(1))
     with pytest.warns(BendingWarning):
         simulation.run(1.8, 0.005, progress=False)
@@ -83,7 +81,7 @@ def test_a_stepped_run_warns_once() -> None:
         simulation.run(2.0, 0.005, progress=False)
 
 
-def test_a_run_with_flexible_bodies_is_watched_at_its_eighths_only() -> None:
+def test_a_run_with_flexible_bodies_is_watched_at_its_eighths_only():
     watched: list[int] = []
     march(
         Simulation(soft_pendulum(2)),

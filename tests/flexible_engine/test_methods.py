@@ -56,9 +56,7 @@ def end_of(system: System, h: float, settings: Settings) -> np.ndarray:
         ("energy_momentum_4", 0.0, 4, 10),
     ],
 )
-def test_all_methods_go_to_the_same_motion_at_their_order(
-    method: str, damping: float, order: int, coarsest: int
-) -> None:
+def test_all_methods_go_to_the_same_motion_at_their_order(method, damping, order, coarsest):
     system, steps = swinging(damping), END / (coarsest * 2.0 ** np.arange(3))
     reference = end_of(system, END / 200, Settings(method="runge_kutta_8", **TIGHT))
     settings = Settings(method=method, **TIGHT)
@@ -67,7 +65,7 @@ def test_all_methods_go_to_the_same_motion_at_their_order(
     assert errors[0] > 1e3 * 1e-13
 
 
-def test_the_energy_momentum_step_keeps_the_energy_of_bodies_that_deform() -> None:
+def test_the_energy_momentum_step_keeps_the_energy_of_bodies_that_deform():
     """Their mass matrix moves: M v is taken at both ends of the step, with the exact difference quotient of v' M v."""
     run = simulate(swinging(0.0), 2.0, 0.01, settings=Settings(method="energy_momentum"), progress=False)
     assert np.ptp(run["elastic"]) > 0.1 * np.ptp(run["kinetic"])
@@ -75,7 +73,7 @@ def test_the_energy_momentum_step_keeps_the_energy_of_bodies_that_deform() -> No
 
 
 @pytest.mark.slow
-def test_the_energy_momentum_step_carries_a_spinning_beam_to_its_deflection() -> None:
+def test_the_energy_momentum_step_carries_a_spinning_beam_to_its_deflection():
     """Coordinates without mass: what the velocity has off the rows there no energy bounds; it grew by 5 1/s."""
     system = compile(spinning_beam.build())
     settings = Settings(method="energy_momentum", max_halvings=0)
@@ -85,13 +83,13 @@ def test_the_energy_momentum_step_carries_a_spinning_beam_to_its_deflection() ->
     assert np.abs(np.interp(when, t.t, result) - expected).max() < DEFLECTION * np.abs(expected).max()
 
 
-def test_damped_bodies_cannot_step_backwards() -> None:
+def test_damped_bodies_cannot_step_backwards():
     with pytest.raises(SimulationError, match="no damping"):
         simulate(swinging(1.0), 0.1, 0.01, settings=Settings(method="energy_momentum_4"), progress=False)
 
 
 @pytest.mark.parametrize("method", ["energy_momentum", "ali3p_generalised_alpha"])
-def test_a_restored_state_continues_alike_after_a_change_of_method(method: str) -> None:
+def test_a_restored_state_continues_alike_after_a_change_of_method(method):
     loaded = binding.LoadedSystem(swinging(1.0).to_bytes())
     first, second = Instance(loaded), Instance(loaded)
     first.initialise()
@@ -105,7 +103,7 @@ def test_a_restored_state_continues_alike_after_a_change_of_method(method: str) 
     assert first.sensors()[:] == second.sensors()[:]
 
 
-def test_rates_of_energies() -> None:
+def test_rates_of_energies():
     system = swinging(1.0)
     instance = Instance(binding.LoadedSystem(system.to_bytes()))
     instance.initialise()
@@ -119,7 +117,7 @@ def test_rates_of_energies() -> None:
     assert np.max(np.abs(actual[chosen])) > 1.0
 
 
-def test_a_stiff_beam_takes_one_iteration_a_step() -> None:
+def test_a_stiff_beam_takes_one_iteration_a_step():
     """The penalty of its joint goes with the stiffness of its modes; that of rigid bodies takes 1.8 iterations."""
     run = simulate(compile(spinning_beam.build()), 0.5, 0.01, estimate_error=False)
     assert run.report.steps == 50

@@ -46,14 +46,14 @@ def file(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize(("function", "name"), [("swing", "swing"), ("compiled", "compiled"), ("", "own_scene")])
-def test_scene_of_a_file(file: Path, function: str, name: str) -> None:
+def test_scene_of_a_file(file, function, name):
     actual, system = load_scene(f"{file}:{function}" if function else str(file))
     assert actual == name
     assert [s["name"] for s in system.meta["sensors"]] == ["bob.x"]
 
 
 @pytest.mark.slow
-def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_builds_into_a_new_folder(file, tmp_path, capsys):
     out = tmp_path / "a" / "b"
     assert build_fmu.main(["--scene", f"{file}:swing", "--out", str(out), "--platforms", PLATFORM]) == 0
     printed = capsys.readouterr().out
@@ -64,7 +64,7 @@ def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: py
 
 
 @pytest.mark.slow
-def test_invalid_commands_are_refused_in_one_sentence(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_commands_are_refused_in_one_sentence(file, capsys):
     for scene, options, message in (
         ("x", (), "no scene 'x'. The scenes are: "),
         ("nowhere.py:f", (), "no file nowhere.py"),
@@ -80,9 +80,7 @@ def test_invalid_commands_are_refused_in_one_sentence(file: Path, capsys: pytest
 
 
 @pytest.mark.slow
-def test_what_this_machine_runs_is_built_first(
-    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_this_machine_runs_is_built_first(file, tmp_path, capsys, monkeypatch):
     built = []
 
     def build(self: FmuBuilder, kind: str, platforms: list[str], file: Path) -> Path:

@@ -48,7 +48,7 @@ def command(car: object, out: Path) -> list[str]:
 
 
 @pytest.mark.slow
-def test_a_folder_or_a_file_becomes_an_fmu(car: Path, tmp_path: Path) -> None:
+def test_a_folder_or_a_file_becomes_an_fmu(car, tmp_path):
     """One that differs in a comment has another token."""
     out = tmp_path / "out"
     assert build_fmu.main(command(car / "car.toml", out)) == 0
@@ -71,7 +71,7 @@ def test_a_folder_or_a_file_becomes_an_fmu(car: Path, tmp_path: Path) -> None:
     assert fmpy.read_model_description(str(tmp_path / "again" / "MyCar.fmu")).guid != description.guid
 
 
-def test_the_file_of_the_fmu_is_the_car_again(tmp_path: Path) -> None:
+def test_the_file_of_the_fmu_is_the_car_again(tmp_path):
     result = load("prototype")
     files = car_files(result)
     assert sorted(f.rpartition("/")[2] for f in files) == [
@@ -95,9 +95,7 @@ def test_the_file_of_the_fmu_is_the_car_again(tmp_path: Path) -> None:
         (lambda t: t + "[front\n", ["is not a TOML file"]),
     ],
 )
-def test_faults_are_sentences_and_nothing_is_built(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], edit: Callable[[str], str], message: list[str]
-) -> None:
+def test_faults_are_sentences_and_nothing_is_built(car, tmp_path, capsys, edit, message):
     change(car, edit)
     assert build_fmu.main(command(car, tmp_path / "out")) == 2
     errors = capsys.readouterr().err
@@ -109,9 +107,7 @@ def test_faults_are_sentences_and_nothing_is_built(
 
 
 @pytest.mark.slow
-def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_odd_is_a_warning_without_the_place_in_the_source(car, tmp_path, capsys, monkeypatch):
     def build(self: FmuBuilder, kind: str, platforms: list[str], file: Path) -> Path:
         file.parent.mkdir()
         file.write_bytes(b"")
@@ -128,7 +124,7 @@ def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
     assert "CarWarning" not in errors
 
 
-def test_unknown_cars_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_cars_are_refused(tmp_path, capsys):
     for car, message in (
         (tmp_path / "nowhere", "the cars of the package are"),
         ("protottype", "did you mean 'prototype'?"),
@@ -141,7 +137,7 @@ def test_unknown_cars_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert "not allowed with" in capsys.readouterr().err
 
 
-def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_car_that_cannot_be_compiled_is_named(car, monkeypatch):
     def refuse(model: object) -> None:
         raise ZeroDivisionError("division by zero")
 
@@ -150,13 +146,13 @@ def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.M
         build_car(str(car))
 
 
-def test_an_invalid_fidelity_is_refused_in_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_fidelity_is_refused_in_one_sentence(tmp_path, capsys):
     for word in ("nan", "-inf", "0.5"):
         assert build_fmu.main([*command("prototype", tmp_path / "out"), f"--fidelity={word}"]) == 2
         assert f"The fidelity of the car is {word}; it must be one of: 0 rigid" in capsys.readouterr().err
 
 
-def test_a_folder_of_the_name_of_a_car_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_of_the_name_of_a_car_is_reported(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert car_text("prototype") == "prototype of the package"
     shutil.copytree(CARS / "prototype", "prototype")

@@ -4,13 +4,12 @@ setting an input changes at a communication point.
 
 import random
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from mbs.vehicle.read_car import CARS
-from tests.fmu.calls import OK, WARNING, HostMaker
+from tests.fmu.calls import OK, WARNING
 from tests.in_process import build_fmu
 from tests.quick import quick
 
@@ -33,7 +32,7 @@ def slopes(driven: Any, names: list[str], known: str) -> dict[str, float]:
     return dict(zip(names, result, strict=True))
 
 
-def test_initial_derivatives(prototype_fmu: Path, host: HostMaker) -> None:
+def test_initial_derivatives(prototype_fmu, host):
     driven = host(prototype_fmu)
     outputs = [v.name for v in driven.description.modelVariables if v.causality == "output" and v.type == "Real"]
     variables = driven.description.modelVariables
@@ -121,17 +120,13 @@ def held_against(driven: Any, states: int, start: dict[str, float], steps: int =
 
 
 @pytest.mark.parametrize(("scene", "kind"), [("crane", "fmi3"), ("towed", "native"), ("gearstick", "native")])
-def test_what_an_input_changes_at_a_communication_point_is_declared(
-    build, host: HostMaker, scene: str, kind: str
-) -> None:
+def test_what_an_input_changes_at_a_communication_point_is_declared(build, host, scene, kind):
     held_against(host(build(scene, kind)), STATES // 2, {})
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("car", "ports", "kind"), quick(DRIVEN_FEW, DRIVEN, "proof"))
-def test_what_an_input_of_a_car_changes_is_declared(
-    host: HostMaker, tmp_path: Path, car: str, ports: str, kind: str
-) -> None:
+def test_what_an_input_of_a_car_changes_is_declared(host, tmp_path, car, ports, kind):
     options = ("--car", car, "--fidelity", "0", "--kind", kind, *(("--ports", ports) if ports else ()))
     driven = host(build_fmu(tmp_path, *options))
     held_against(driven, STATES, {"initial.speed": 10.0})

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 import mbs
@@ -15,7 +11,7 @@ from tests.fmu.scenes import loaded_beam
 
 
 @pytest.mark.slow
-def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[..., Path]) -> None:
+def test_every_parameter_is_as_if_the_model_were_built_with_it(build):
     system = mbs.compile(loaded_beam())
     actual = changes(
         system,
@@ -30,7 +26,7 @@ def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[.
     assert [c.name for c in actual if c.effect < 1e-4] == []
 
 
-def test_of_several_that_are_changed_the_wrong_one_is_named() -> None:
+def test_of_several_that_are_changed_the_wrong_one_is_named():
     system = mbs.compile(loaded_beam())
     actual = changes(
         system,
@@ -40,9 +36,7 @@ def test_of_several_that_are_changed_the_wrong_one_is_named() -> None:
     assert [c.name for c in actual if c.difference > SAME] == ["gain"]
 
 
-def test_a_start_is_the_equilibrium_of_its_parameters_or_names_the_one_that_has_none(
-    build: Callable[..., Path], host: Callable[..., Any]
-) -> None:
+def test_a_start_is_the_equilibrium_of_its_parameters_or_names_the_one_that_has_none(build, host):
     driven = host(build("hanging"))
     assert driven.set("stiffness", 0.0) == OK
     driven.slave.setupExperiment(startTime=0.0)

@@ -20,7 +20,7 @@ from mbs.vehicle import load
 from mbs.vehicle.read_car import CARS
 from tests import kinds
 from tests.fmu import scenes
-from tests.fmu.calls import ERROR, OK, HostMaker
+from tests.fmu.calls import ERROR, OK
 from tests.fmu.test_native_file import schema
 
 H = 0.01
@@ -39,9 +39,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 
 @pytest.mark.parametrize("kind", kinds.VERSIONS)
-def test_the_description_declares_constants_and_keeps_other_references(
-    files: dict[str, Path], build: Callable[..., Path], kind: str
-) -> None:
+def test_the_description_declares_constants_and_keeps_other_references(files, build, kind):
     assert validate_fmu(str(files[kind])) == []
     with_them, without = (
         {v.name: v for v in fmpy.read_model_description(str(f)).modelVariables}
@@ -54,7 +52,7 @@ def test_the_description_declares_constants_and_keeps_other_references(
     assert {n: v.valueReference for n, v in with_them.items()} == {n: v.valueReference for n, v in without.items()}
 
 
-def test_they_can_be_read_and_not_set(files: dict[str, Path], host: HostMaker) -> None:
+def test_they_can_be_read_and_not_set(files, host):
     driven = host(files["native"]).start()
     before = driven.outputs()
     for name, (value, _) in CONSTANTS.items():
@@ -70,7 +68,7 @@ def test_they_can_be_read_and_not_set(files: dict[str, Path], host: HostMaker) -
     assert driven.call("getRealOutputDerivatives", [reach], [1]) == ERROR
 
 
-def test_fmi_3_reads_them_beside_time_and_outputs(files: dict[str, Path], host: HostMaker) -> None:
+def test_fmi_3_reads_them_beside_time_and_outputs(files, host):
     driven = host(files["fmi3"]).start()
     slave, references = driven.slave, driven.references
     slave.doStep(0.0, H)
@@ -98,7 +96,7 @@ def tabled(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
 
 
 @pytest.mark.slow
-def test_a_table_of_constants_is_a_map_of_fmi_ls_struct(tabled: Callable[[str], Path], host: HostMaker) -> None:
+def test_a_table_of_constants_is_a_map_of_fmi_ls_struct(tabled, host):
     """Its terminal and manifest as the layered standard has them (modelica/fmi-ls-struct, 1.0.0-rc.1)."""
     fmu = tabled("fmi3")
     assert validate_fmu(str(fmu)) == []
@@ -125,7 +123,7 @@ def test_a_table_of_constants_is_a_map_of_fmi_ls_struct(tabled: Callable[[str], 
             driven.slave.setFloat64([v.valueReference], values)
 
 
-def test_without_arrays_there_are_the_numbers_and_no_map(tabled: Callable[[str], Path], host: HostMaker) -> None:
+def test_without_arrays_there_are_the_numbers_and_no_map(tabled, host):
     fmu = tabled("fmi3_scalar")
     with zipfile.ZipFile(fmu) as archive:
         assert not [name for name in archive.namelist() if LS_STRUCT in name]
@@ -134,7 +132,7 @@ def test_without_arrays_there_are_the_numbers_and_no_map(tabled: Callable[[str],
         assert tuple(driven.get(f"crane.damper.{column}_{k}") for k in range(1, 4)) == values
 
 
-def test_the_tables_of_a_car_are_constants() -> None:
+def test_the_tables_of_a_car_are_constants():
     stated = {entry["name"]: entry["value"] for entry in mbs.compile(load("hatchback").model()).meta["constants"]}
     content = tomllib.loads((CARS / "hatchback" / "car.toml").read_text(encoding="utf-8"))
     for axle in ("front", "rear"):

@@ -46,7 +46,7 @@ def commands(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     return begun
 
 
-def test_the_first_library_is_begun_at_both_ends(commands: list[list[str]]) -> None:
+def test_the_first_library_is_begun_at_both_ends(commands):
     with compiled_ahead([("fmi2", "linux64"), ("fmi3", "darwin64")]):
         pass
     assert len(commands) == 4  # darwin64 has two processors
@@ -57,7 +57,7 @@ def test_the_first_library_is_begun_at_both_ends(commands: list[list[str]]) -> N
     assert [c[c.index("-target") + 1] for c in commands[2:]] == ["x86_64-macos.10.13", "aarch64-macos.11.0"]
 
 
-def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_its_compilers_end_with_it(monkeypatch, tmp_path):
     started: list[subprocess.Popen[bytes]] = []
     popen = subprocess.Popen
 
@@ -84,9 +84,7 @@ def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
 
 
 @pytest.mark.slow
-def test_what_a_build_has_compiled_is_not_begun_again(
-    commands: list[list[str]], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_a_build_has_compiled_is_not_begun_again(commands, monkeypatch):
     """Until a source or an option changes; a build that fails leaves it to the next."""
 
     def count() -> int:
@@ -105,7 +103,7 @@ def test_what_a_build_has_compiled_is_not_begun_again(
 
 
 @pytest.mark.slow
-def test_folders_with_the_same_sources_share_their_objects(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_folders_with_the_same_sources_share_their_objects(monkeypatch, tmp_path):
     """A changed C file is another file for the compiler, a changed header makes all of them others."""
     monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "cache")
 
@@ -131,7 +129,7 @@ def test_folders_with_the_same_sources_share_their_objects(monkeypatch: pytest.M
 
 
 @pytest.mark.slow
-def test_kinds_share_the_objects_of_generated_code(tmp_path: Path) -> None:
+def test_kinds_share_the_objects_of_generated_code(tmp_path):
     """The compiler knows an object by the place of its source, its headers and its options."""
 
     def given(face: str, code: str) -> str:
@@ -147,7 +145,7 @@ def test_kinds_share_the_objects_of_generated_code(tmp_path: Path) -> None:
 
 @pytest.mark.proof  # the keys by which the compiler finds objects are those of the tests above
 @unoptimised()
-def test_a_second_model_compiles_its_table_and_its_code_only(tmp_path: Path, empty: Path) -> None:
+def test_a_second_model_compiles_its_table_and_its_code_only(tmp_path, empty):
     def objects() -> int:
         return len(list((empty / "o").rglob("*.o")))
 

@@ -1,13 +1,12 @@
 """A fixed parameter can be set until the end of the initialisation, a tunable one at any time."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import mbs
 from fmu_src.build.scene_registry import load_scene
-from tests.fmu.calls import ERROR, OK, HostMaker
+from tests.fmu.calls import ERROR, OK
 
 SCENES = Path(__file__).parent / "scenes.py"
 H = 0.01
@@ -22,9 +21,7 @@ def expected(parameters: dict[str, float] | None = None) -> list[float]:
 
 
 @pytest.mark.parametrize("phase", ["instantiated", "initialising", "initialising, asked"])
-def test_it_is_taken_until_the_initialisation_ends(
-    build: Callable[..., Path], host: HostMaker, kind: str, phase: str
-) -> None:
+def test_it_is_taken_until_the_initialisation_ends(build, host, kind, phase):
     driven = host(build("sprung_reach", kind))
     if phase == "instantiated":
         assert driven.set(LENGTH, 0.3) == OK
@@ -40,7 +37,7 @@ def test_it_is_taken_until_the_initialisation_ends(
     assert driven.outputs() == expected({LENGTH: 0.3}) != expected()
 
 
-def test_it_is_refused_afterwards_with_a_sentence(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
+def test_it_is_refused_afterwards_with_a_sentence(build, host, kind):
     driven, other = (host(build("sprung_reach", kind)).start() for _ in range(2))
     variables = {v.name: v for v in driven.description.modelVariables}
     assert (variables[LENGTH].variability, variables[STIFFNESS].variability) == ("fixed", "tunable")
@@ -59,7 +56,7 @@ def test_it_is_refused_afterwards_with_a_sentence(build: Callable[..., Path], ho
     assert driven.step(3 * H, H) == OK
 
 
-def test_it_is_free_again_after_a_reset(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
+def test_it_is_free_again_after_a_reset(build, host, kind):
     driven = host(build("sprung_reach", kind)).start()
     assert driven.step(0.0, H) == OK
     assert driven.call("reset") == OK

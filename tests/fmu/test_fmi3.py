@@ -30,7 +30,7 @@ def output(name: str, unit: str = "m") -> Variable:
     return Variable(name, "output", "continuous", unit, f"{name.rpartition('.')[2]} of it", "sensor", 0)
 
 
-def test_vectors_and_series_become_arrays() -> None:
+def test_vectors_and_series_become_arrays():
     table = [
         *(output(f"chassis.{c}") for c in "xyz"),
         *(output(f"chassis.q{c}", "1") for c in "wxyz"),
@@ -51,7 +51,7 @@ def test_vectors_and_series_become_arrays() -> None:
     assert [k for a in actual for k in a.items] == list(range(len(table)))
 
 
-def test_adjoint_is_the_transposed_directional_derivative(crane3: Any) -> None:
+def test_adjoint_is_the_transposed_directional_derivative(crane3):
     crane3.start().set("torque", 5.0)
     crane3.run(10, STEP)
     crane3.slave.doStep(10 * STEP, 5 * STEP)  # of several inner steps
@@ -64,7 +64,7 @@ def test_adjoint_is_the_transposed_directional_derivative(crane3: Any) -> None:
     assert abs(back) > 0.0
 
 
-def test_wrong_calls_are_errors_with_a_sentence(crane3: Any) -> None:
+def test_wrong_calls_are_errors_with_a_sentence(crane3):
     crane3.start()
     for call in (
         lambda: crane3.slave.getFloat64([crane3.references["rod.x"]], 3),
@@ -80,9 +80,7 @@ def test_wrong_calls_are_errors_with_a_sentence(crane3: Any) -> None:
 
 
 @pytest.mark.parametrize("scene", ["gearstick", "hopper"])
-def test_values_before_initialisation_are_start_values_or_set_values(
-    build: Callable[..., Path], host: HostMaker, scene: str
-) -> None:
+def test_values_before_initialisation_are_start_values_or_set_values(build, host, scene):
     """Those of modelDescription.xml, of every type; outputs have none and are refused; again after a reset."""
     one = host(build(scene, "fmi3"))
     read = {"Float64": one.slave.getFloat64, "Int32": one.slave.getInt32, "String": one.slave.getString}
@@ -110,13 +108,13 @@ def test_values_before_initialisation_are_start_values_or_set_values(
     assert [x.decode() if isinstance(x, bytes) else x for x in values()] == starts
 
 
-def test_model_exchange_and_events_are_refused(crane3: Any) -> None:
+def test_model_exchange_and_events_are_refused(crane3):
     with pytest.raises(Exception, match="nstantiate"):
         crane3.slave.instantiate(eventModeUsed=True, logMessage=lambda *a: crane3.messages.append(a[-1].decode()))
     assert "event mode" in crane3.messages[-1]
 
 
-def test_terminals_name_variables_that_are_there(build: Callable[..., Path]) -> None:
+def test_terminals_name_variables_that_are_there(build):
     fmu = build("crane", "fmi3")
     with zipfile.ZipFile(fmu) as archive:
         root = ElementTree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
@@ -127,7 +125,7 @@ def test_terminals_name_variables_that_are_there(build: Callable[..., Path]) -> 
 
 
 @pytest.mark.slow
-def test_a_dimension_is_the_first_thing_in_its_variable(build: Callable[..., Path]) -> None:
+def test_a_dimension_is_the_first_thing_in_its_variable(build):
     """FMI Library passes over one behind annotations; the names of elements stand in a file beside the description."""
     fmu = build("answered", "fmi3")
     with zipfile.ZipFile(fmu) as archive:
@@ -173,7 +171,7 @@ class Asked:
         return list(self.slave.getDirectionalDerivative(outputs, [self.reference], [1.0], len(outputs)))
 
 
-def test_inputs_are_asked_for_at_the_end_of_each_inner_step_before_it_is_made(build, host) -> None:
+def test_inputs_are_asked_for_at_the_end_of_each_inner_step_before_it_is_made(build, host):
     """Nothing given is held, to the bits; a line is that of derivatives in FMI 2.0, to round-off."""
     scalar, two = build("crane", "fmi3_scalar"), build("crane", "native")
     quiet = Asked(host(scalar), lambda time: None)
@@ -201,7 +199,7 @@ def test_inputs_are_asked_for_at_the_end_of_each_inner_step_before_it_is_made(bu
     assert line.slope() == pytest.approx(led.slave.getDirectionalDerivative(unknown, known, [1.0]), rel=1e-6)
 
 
-def test_what_was_given_within_a_step_is_kept_in_states(build, host) -> None:
+def test_what_was_given_within_a_step_is_kept_in_states(build, host):
     """Behind a state the run and its derivatives go on to the bit, in another instance too, whatever is asked next."""
     scalar = build("crane", "fmi3_scalar")
     curve = lambda time: 4.0 * math.cos(40.0 * time)  # noqa: E731
@@ -220,7 +218,7 @@ def test_what_was_given_within_a_step_is_kept_in_states(build, host) -> None:
         other.slave.deSerializeFMUstate(data[:-8])
 
 
-def test_a_derivative_is_over_all_that_was_given_within_the_step(build, host) -> None:
+def test_a_derivative_is_over_all_that_was_given_within_the_step(build, host):
     """Against differences: the same torque, a little higher all along."""
     scalar, part, ends = build("crane", "fmi3_scalar"), 1e-3, []
     for extra in (part, -part):
@@ -236,7 +234,7 @@ def test_a_derivative_is_over_all_that_was_given_within_the_step(build, host) ->
     assert exact.slope() == pytest.approx(differences, rel=1e-5)
 
 
-def test_in_an_intermediate_update_only_real_inputs_can_be_set(build, host) -> None:
+def test_in_an_intermediate_update_only_real_inputs_can_be_set(build, host):
     requested = Asked(host(build("crane", "fmi3_scalar")), lambda time: None)
     tried: list[str] = []
 

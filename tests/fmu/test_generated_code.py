@@ -1,7 +1,6 @@
 """FMUs with C that was generated for their Systems: it is called, and their bits are those of the engine's loops."""
 
 import zipfile
-from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,6 @@ from fmu_src.native.archive import write_zip
 from mbs.compiler.generated.library import named_code_of
 from mbs.compiler.generated.source import TABLE
 from tests.fmu import scenes
-from tests.fmu.calls import HostMaker
 from tests.fmu.conftest import PLATFORM
 from tests.in_process import run
 
@@ -55,9 +53,7 @@ def engine_rows(system: mbs.System, name: str, value: float) -> list[list[float]
 
 
 @pytest.mark.parametrize(("scene", "kind"), [*((scene, "native") for scene in PULLS), ("crane", "fmi3_scalar")])
-def test_an_fmu_runs_its_code_with_the_bits_of_the_engine(
-    build: Callable[..., Path], host: HostMaker, scene: str, kind: str
-) -> None:
+def test_an_fmu_runs_its_code_with_the_bits_of_the_engine(build, host, scene, kind):
     message, rows = driven_rows(host(build(scene, kind)), *PULLS[scene])
     assert message.endswith(CODE)
     system = mbs.compile(getattr(scenes, scene)())
@@ -66,7 +62,7 @@ def test_an_fmu_runs_its_code_with_the_bits_of_the_engine(
     assert rows[0] != rows[-1]
 
 
-def test_without_it_the_bits_are_the_same(build: Callable[..., Path], host: HostMaker, tmp_path: Path) -> None:
+def test_without_it_the_bits_are_the_same(build, host, tmp_path):
     plain = build_fmu(mbs.compile(scenes.crane()), "crane", tmp_path, [PLATFORM], plain=True)
     message, rows = driven_rows(host(plain), *PULLS["crane"])
     assert message.endswith(f"{LOOPS}, as no code was generated for it.")
@@ -74,9 +70,7 @@ def test_without_it_the_bits_are_the_same(build: Callable[..., Path], host: Host
     assert not [name for name in packed(plain) if TABLE in name]
 
 
-def test_another_system_in_the_file_takes_the_loops(
-    build: Callable[..., Path], host: HostMaker, tmp_path: Path
-) -> None:
+def test_another_system_in_the_file_takes_the_loops(build, host, tmp_path):
     """It has a coefficient where the code has none."""
     system = mbs.compile(scenes.reach())
     coefficients = system.arrays["row_lin"].copy()
@@ -91,7 +85,7 @@ def test_another_system_in_the_file_takes_the_loops(
     assert rows != engine_rows(system, *PULLS["reach"])
 
 
-def test_a_build_from_its_sources_has_its_bits(build: Callable[..., Path], host: HostMaker, tmp_path: Path) -> None:
+def test_a_build_from_its_sources_has_its_bits(build, host, tmp_path):
     """Sources that are not those of this package are compiled as they lie in the FMU."""
     fmu = build("crane")
     files = {name: data for name, data in packed(fmu).items() if not name.startswith("binaries/")}
@@ -104,14 +98,14 @@ def test_a_build_from_its_sources_has_its_bits(build: Callable[..., Path], host:
         assert driven_rows(host(file), *PULLS["crane"]) == expected
 
 
-def test_systems_of_one_structure_share_it_and_others_do_not() -> None:
+def test_systems_of_one_structure_share_it_and_others_do_not():
     named = [named_code_of(mbs.compile(make())) for make in (scenes.crane, scenes.heavy_crane, scenes.reach)]
     assert named[0] == named[1]
     assert named[0][0] != named[2][0]
     assert all(f"const ali3_generated {name} = {{" in text for name, text in named)
 
 
-def test_the_option_plain_needs_a_car_or_a_scene() -> None:
+def test_the_option_plain_needs_a_car_or_a_scene():
     done = run(main, "--plain", "--kernel")
     assert done.returncode == 2
     assert "--plain needs a car or a scene to build; " in done.stderr

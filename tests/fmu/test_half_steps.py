@@ -1,8 +1,7 @@
 """A contact or a stop that is too fast for the step: a second motion with a part of it warns, and changes no bit."""
 
 import re
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 
 import mbs
 from mbs.scenes import prototype_car
-from tests.fmu.calls import OK, HostMaker
+from tests.fmu.calls import OK
 
 WHEELS = ("FL", "FR", "RL", "RR")
 FORCES = [f"{name}_{w}.{what}" for w in WHEELS for name, what in (("wheel", "Fz"), ("spring", "force"))]
@@ -57,7 +56,7 @@ def drive(
 
 
 @pytest.mark.slow
-def test_the_reported_error_is_right_and_the_named_step_is_sufficient(prototype_fmu: Path, host: HostMaker) -> None:
+def test_the_reported_error_is_right_and_the_named_step_is_sufficient(prototype_fmu, host):
     """By the same motion with steps of 0.05 ms.
 
     Errors of order p fall by 8^-p, so that 64/63 of what both motions differ by is 64/63 (1 - 8^-p) of the error: eight
@@ -80,9 +79,7 @@ def test_the_reported_error_is_right_and_the_named_step_is_sufficient(prototype_
 
 
 @pytest.mark.parametrize(("height", "speed"), [(0.06, 24.0), (0.08, 30.0)])
-def test_a_long_step_is_reported_where_it_is_wrong_and_only_there(
-    height: float, speed: float, prototype_fmu: Path, host: HostMaker
-) -> None:
+def test_a_long_step_is_reported_where_it_is_wrong_and_only_there(height, speed, prototype_fmu, host):
     """Down a kerb in steps of 20 ms: half of one would make 6.8 % of the 4.5 % of the first."""
     kerb = {"initial.speed": speed, "road.kerb_x": 3.0, "road.kerb_height": height}
     fine, _ = drive(host(prototype_fmu), 2e-4, kerb, 0.02, 1.4)
@@ -102,8 +99,8 @@ def test_a_long_step_is_reported_where_it_is_wrong_and_only_there(
     ],
 )
 def test_a_start_with_a_pedal_down_is_reported_where_it_is_wrong_and_only_there(
-    speed: float, pedals: dict[str, float], span: float, prototype_fmu: Path, host: HostMaker
-) -> None:
+    speed, pedals, span, prototype_fmu, host
+):
     """Steps of 20 ms miss how tyres begin to slip, without an abrupt force: 17 %; at rest 7 %, by creep.
 
     With steered wheels too 2.8 %, which were 5.1 and taken for 4.9 when carcasses had no rate at a start. The wheels
@@ -118,7 +115,7 @@ def test_a_start_with_a_pedal_down_is_reported_where_it_is_wrong_and_only_there(
     assert [float(re.search(r"([\d.]+) %", m)[1]) for m in warnings] == pytest.approx([error] * len(warnings), rel=0.1)
 
 
-def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu: Path, host: HostMaker) -> None:
+def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu, host):
     found, warnings = drive(host(prototype_fmu), EVERY)
     assert warnings
     pose = mbs.Pose(z=FALL["initial.z"], speed=FALL["initial.speed"])
@@ -127,9 +124,7 @@ def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu: Path, h
     assert (found == np.array([motion[name] for name in FORCES]).T[1:]).all()
 
 
-def test_a_step_that_is_divided_at_an_abrupt_force_has_the_derivative_of_its_parts(
-    prototype_fmu: Path, host: HostMaker
-) -> None:
+def test_a_step_that_is_divided_at_an_abrupt_force_has_the_derivative_of_its_parts(prototype_fmu, host):
     """That of both sides to 1e-3, or a reason; one that is not divided has none that says so."""
     h, part = 0.01, 6e-4
     engine = mbs.Simulation(mbs.compile(prototype_car.build()), pose=mbs.Pose(z=0.18, speed=8.4))
@@ -154,7 +149,7 @@ def test_a_step_that_is_divided_at_an_abrupt_force_has_the_derivative_of_its_par
     assert min(results.values()) > 3
 
 
-def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu, host):
     for end in ("terminate", "reset", "freeInstance"):
         driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
         run(driven, EVERY, round(0.3 / EVERY))
@@ -163,7 +158,7 @@ def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: Ho
         assert warnings_of(driven)
 
 
-def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu, host):
     """Else all of them were made in that call, and what is told would say "about": the hand brake is not pulled."""
     runs = []
     for torques in ((450.0, 450.0), (450.0, 400.0)):
@@ -180,7 +175,7 @@ def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host
     assert "at least" in runs[0][1][0]
 
 
-def test_a_run_that_starts_before_0_is_reported_the_same(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_run_that_starts_before_0_is_reported_the_same(prototype_fmu, host):
     forces = []
     for start in (0.0, -10.0):
         driven = host(prototype_fmu).start(FALL | {"step_size": EVERY}, start)
@@ -191,7 +186,7 @@ def test_a_run_that_starts_before_0_is_reported_the_same(prototype_fmu: Path, ho
     assert forces[0] == forces[1]
 
 
-def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_state_from_before_is_judged_again(prototype_fmu, host):
     """Back in the fall after the other motion had begun: the same is told as without."""
     driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
     driven.step(0.0, EVERY)
@@ -203,7 +198,7 @@ def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMake
     assert warnings_of(driven) == drive(host(prototype_fmu), EVERY)[1]
 
 
-def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu, host):
     driven = host(prototype_fmu).start({"initial.speed": 1.408, "throttle": 0.565, "step_size": 0.02})
     state, warnings = driven.slave.getFMUstate(), []
     for _ in range(2):
@@ -217,7 +212,7 @@ def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu: Path, host: 
     assert warnings[0] == warnings[1]
 
 
-def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build, host):
     """Each hop is abrupt, so the two motions go apart until the second one ends; half a second later it is judged."""
     driven = host(build("hopper")).start({"step_size": 0.004})
     run(driven, 0.004, 850)
@@ -230,9 +225,7 @@ def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build: Callable
     ("h", "span", "scene"),
     [(0.02, 1.6, "double_pendulum_rates"), (0.01, 0.6, "double_pendulum"), (0.005, 2.0, "double_pendulum")],
 )
-def test_places_or_rates_are_compared_without_a_road_and_outputs_at_rest_judge_nothing(
-    h: float, span: float, scene: str, build: Callable[..., Path], host: HostMaker
-) -> None:
+def test_places_or_rates_are_compared_without_a_road_and_outputs_at_rest_judge_nothing(h, span, scene, build, host):
     """A double pendulum in long steps: its tip goes elsewhere, or is right; its pin is open by round-off."""
     ends = []
     for step in (2e-4, h):
@@ -250,7 +243,7 @@ def test_places_or_rates_are_compared_without_a_road_and_outputs_at_rest_judge_n
     assert len(messages) <= 2 * len(warnings)
 
 
-def test_a_step_that_is_halved_is_made_twice(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_step_that_is_halved_is_made_twice(build, host):
     """A state that is set ends the second motion of the start; the next step that the solver halves begins one."""
     driven = host(build("crank_slider")).start({"torque": 4.0, "step_size": 1e-3})
     run(driven, 1e-3, 300)
@@ -263,9 +256,7 @@ def test_a_step_that_is_halved_is_made_twice(build: Callable[..., Path], host: H
     assert warnings_of(driven)
 
 
-def test_steps_that_are_all_halved_are_compared_with_half_of_their_halves(
-    scene_fmu: Callable[..., Path], host: HostMaker
-) -> None:
+def test_steps_that_are_all_halved_are_compared_with_half_of_their_halves(scene_fmu, host):
     """Steps of 0.1 s are made as two of 0.05 s, and the slider is off by 24 % of its range."""
     driven = host(scene_fmu("flyball")).start({"step_size": 0.1})
     run(driven, 0.1, 100)
@@ -276,7 +267,7 @@ def test_steps_that_are_all_halved_are_compared_with_half_of_their_halves(
     assert float(re.search(r"([\d.]+) %", warning)[1]) == pytest.approx(24.0, abs=2.0)
 
 
-def test_steps_of_seconds_are_compared_as_often_as_short_ones(build: Callable[..., Path], host: HostMaker) -> None:
+def test_steps_of_seconds_are_compared_as_often_as_short_ones(build, host):
     """Of 600 steps of 6 s; stops are met from the 60th on."""
     (fine, nothing), (coarse, warnings) = (
         to_the_end(host(build("slow_stops")), step, 6.0, 600, ("y0", "y1")) for step in (0.1, 6.0)
@@ -285,7 +276,7 @@ def test_steps_of_seconds_are_compared_as_often_as_short_ones(build: Callable[..
     assert (len(nothing), len(warnings)) == (0, 1)
 
 
-def test_short_steps_of_a_motion_that_parts_late_are_reported(build: Callable[..., Path], host: HostMaker) -> None:
+def test_short_steps_of_a_motion_that_parts_late_are_reported(build, host):
     """The double pendulum is right for 2 s, and off by a quarter after 3 s."""
     fine, coarse = (host(build("double_pendulum")).start({"step_size": step}) for step in (5e-5, 1e-3))
     off = np.abs(run(fine, 0.02, 250, TIP) - run(coarse, 0.02, 250, TIP)).max(axis=1) / 0.4
@@ -301,9 +292,7 @@ def going(driven: Any, h: float, span: float) -> tuple[np.ndarray, list[str]]:
     return run(driven, 0.1, round(span / 0.1), TIP), driven.messages
 
 
-def test_a_growing_error_is_extrapolated_after_the_last_second_motion(
-    build: Callable[..., Path], host: HostMaker
-) -> None:
+def test_a_growing_error_is_extrapolated_after_the_last_second_motion(build, host):
     """A rod that goes round is late by a share of its turns, so that its error grows with the time; 5 % at 25 s."""
     fine, _ = going(host(build("pendulum")), 5e-4, 30.0)
     coarse, messages = going(host(build("pendulum")), 5e-3, 30.0)
@@ -317,7 +306,7 @@ def test_a_growing_error_is_extrapolated_after_the_last_second_motion(
     assert float(foretold.split(" s ")[0].split()[-1]) == pytest.approx(wrong, rel=0.2)
 
 
-def test_what_does_not_grow_is_not_foretold(build: Callable[..., Path], host: HostMaker) -> None:
+def test_what_does_not_grow_is_not_foretold(build, host):
     _, messages = going(host(build("damped_pendulum")), 0.01, 40.0)
     (ended,) = messages
     assert "no second motion is computed" in ended
@@ -325,9 +314,7 @@ def test_what_does_not_grow_is_not_foretold(build: Callable[..., Path], host: Ho
 
 
 @pytest.mark.parametrize(("scene", "times"), [("double_pendulum", 1), ("double_pendulum_accelerations", 0)])
-def test_nothing_is_made_twice_where_no_output_is_compared(
-    scene: str, times: int, build: Callable[..., Path], host: HostMaker
-) -> None:
+def test_nothing_is_made_twice_where_no_output_is_compared(scene, times, build, host):
     """Else a state that is set ends a second motion, which the log tells."""
     driven = host(build(scene)).start({"step_size": 0.02})
     driven.slave.setDebugLogging(True, ["logAll"])
@@ -336,9 +323,7 @@ def test_nothing_is_made_twice_where_no_output_is_compared(
     assert len([m for m in driven.messages if "second motion" in m]) == times
 
 
-def test_a_host_that_sets_a_state_before_each_step_is_informed_that_nothing_is_checked(
-    prototype_fmu: Path, host: HostMaker
-) -> None:
+def test_a_host_that_sets_a_state_before_each_step_is_informed_that_nothing_is_checked(prototype_fmu, host):
     """In its log, if it asks for all of it: no second motion lives long enough there."""
     driven = host(prototype_fmu).start(FALL | {"step_size": 0.01})
     driven.slave.setDebugLogging(True, ["logAll"])
@@ -350,9 +335,7 @@ def test_a_host_that_sets_a_state_before_each_step_is_informed_that_nothing_is_c
 
 
 @pytest.mark.parametrize(("scene", "h"), [("progressive_buffer", 0.01), ("buffer", 0.01), ("buffer", 0.002)])
-def test_a_stop_that_is_met_late_is_reported_where_it_is_wrong_and_only_there(
-    h: float, scene: str, build: Callable[..., Path], host: HostMaker
-) -> None:
+def test_a_stop_that_is_met_late_is_reported_where_it_is_wrong_and_only_there(h, scene, build, host):
     """Without a road too: what is made twice from the start on ends before the spring is met."""
     (fine, nothing), (coarse, warnings) = (
         to_the_end(host(build(scene)), step, 0.01, 1100, ("spring.force",)) for step in (2e-4, h)

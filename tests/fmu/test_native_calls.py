@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 from ctypes import CFUNCTYPE, c_size_t, c_void_p
-from pathlib import Path
 from typing import Any
 
 import fmpy
@@ -14,7 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule, run_state_machine_as_test
 
 from mbs.kernel.binding import Status
-from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
+from tests.fmu.calls import ERROR, OK, WARNING
 from tests.fmu.test_statuses import said
 
 INSTANTIATED, INITIALISING, STEPPING, TERMINATED = "instantiated", "initialising", "stepping", "terminated"
@@ -131,7 +130,7 @@ def machine(make: Callable[[], Any]) -> type[RuleBasedStateMachine]:
 
 
 @pytest.mark.slow
-def test_random_sequences(build: Callable[..., Path], host: HostMaker) -> None:
+def test_random_sequences(build, host):
     first = host(build("crane", "native"))
 
     def make() -> Any:
@@ -153,7 +152,7 @@ def test_random_sequences(build: Callable[..., Path], host: HostMaker) -> None:
     )
 
 
-def test_allocation_is_the_hosts(build: Callable[..., Path], host: HostMaker) -> None:
+def test_allocation_is_the_hosts(build, host):
     driven = host(build("crane", "native"))
     alive: set[int] = set()
     inner = fmpy.fmi2.defaultCallbacks
@@ -183,7 +182,7 @@ def test_allocation_is_the_hosts(build: Callable[..., Path], host: HostMaker) ->
     assert not alive
 
 
-def test_log_categories(build: Callable[..., Path], host: HostMaker) -> None:
+def test_log_categories(build, host):
     driven = host(build("crane", "native"))
 
     def logging(on: bool, *names: str) -> int:
@@ -208,9 +207,7 @@ def test_log_categories(build: Callable[..., Path], host: HostMaker) -> None:
     assert len(driven.messages) == count + 3
 
 
-def test_a_damaged_system_file_is_refused_with_a_reason(
-    build: Callable[..., Path], host: HostMaker, tmp_path: Path
-) -> None:
+def test_a_damaged_system_file_is_refused_with_a_reason(build, host, tmp_path):
     driven = host(build("crane", "native"), tmp_path / "fmu")
     file = driven.folder / "resources" / "system_0.ali3"
     good = file.read_bytes()
@@ -227,7 +224,7 @@ def test_a_damaged_system_file_is_refused_with_a_reason(
     assert "system_0.ali3" in driven.messages[-1]
 
 
-def test_the_system_of_another_fmu_is_refused(build: Callable[..., Path], host: HostMaker, tmp_path: Path) -> None:
+def test_the_system_of_another_fmu_is_refused(build, host, tmp_path):
     driven, other = host(build("crane", "native"), tmp_path / "a"), host(build("reach", "native"), tmp_path / "b")
     mine, theirs = (instance.folder / "resources" / "system_0.ali3" for instance in (driven, other))
     mine.write_bytes(theirs.read_bytes())

@@ -9,7 +9,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from tests.fmu.calls import ERROR, OK, HostMaker
+from tests.fmu.calls import ERROR, OK
 
 STEP = 0.1  # s
 INNER = 0.01  # s, of the steps within
@@ -45,7 +45,7 @@ def outputs(driven: Any) -> list[int]:
     return [v.valueReference for v in driven.description.modelVariables if v.causality == "output"]
 
 
-def test_a_ramp_is_followed_inside_the_step(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_ramp_is_followed_inside_the_step(build, host):
     fine, ramp, held = (host(build("crane", "native")).start({"torque": 1.0}) for _ in range(3))
     torque = [1.0 + 40.0 * (k * INNER) - 100.0 * (k * INNER) ** 2 for k in range(11)]
     for k in range(10):
@@ -67,7 +67,7 @@ def test_a_ramp_is_followed_inside_the_step(build: Callable[..., Path], host: Ho
     assert ramp.outputs() == spent
 
 
-def test_derivatives_set_are_part_of_the_state(build: Callable[..., Path], host: HostMaker) -> None:
+def test_derivatives_set_are_part_of_the_state(build, host):
     driven = host(build("crane", "native")).start()
     assert slope(driven, "torque", 1, 50.0) == OK
     data = driven.saved()
@@ -79,7 +79,7 @@ def test_derivatives_set_are_part_of_the_state(build: Callable[..., Path], host:
     assert other.outputs() == expected
 
 
-def test_rates_of_positions_angles_and_velocities(build: Callable[..., Path], host: HostMaker) -> None:
+def test_rates_of_positions_angles_and_velocities(build, host):
     for name, known in (
         ("crane", {"rod.x", "rod.angle"}),
         ("sled", {"chassis.x", "chassis.y", "chassis.yaw", "speed"}),
@@ -104,16 +104,14 @@ def test_rates_of_positions_angles_and_velocities(build: Callable[..., Path], ho
         assert np.max(np.abs(slopes)) > 0.01
 
 
-def test_rates_of_higher_order_are_refused(build: Callable[..., Path], host: HostMaker) -> None:
+def test_rates_of_higher_order_are_refused(build, host):
     driven = host(build("crane", "native")).start()
     assert driven.call("getRealOutputDerivatives", [driven.references["rod.x"]], [2]) == ERROR
     assert driven.call("getRealOutputDerivatives", [driven.references["torque"]], [1]) == ERROR
 
 
 @pytest.mark.parametrize(("inner_steps", "ramp"), [(2, 0.0), (5, 3.0)])
-def test_outputs_by_inputs_of_a_communication_step(
-    scene: tuple[Path, str, float, float], host: HostMaker, inner_steps: int, ramp: float
-) -> None:
+def test_outputs_by_inputs_of_a_communication_step(scene, host, inner_steps, ramp):
     """All of it, held inputs or such that follow derivatives; also after the state went to another instance."""
     fmu, name, value, size = scene
     driven, other = host(fmu).start(), host(fmu)
@@ -141,7 +139,7 @@ def test_outputs_by_inputs_of_a_communication_step(
     assert other.outputs() == driven.outputs()
 
 
-def test_a_step_that_was_halved_has_no_derivative(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_step_that_was_halved_has_no_derivative(build, host):
     driven = host(build("crank_slider", "native")).start({"torque": 4.0, "step_size": 1e-3})
     unknown, known = [driven.references["crank.angle"]], [driven.references["torque"]]
     refused, whole, halvings = 0, 0, 0.0
@@ -160,7 +158,7 @@ def test_a_step_that_was_halved_has_no_derivative(build: Callable[..., Path], ho
     assert whole > 10
 
 
-def test_a_contact_that_is_made_has_no_derivative(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_contact_that_is_made_has_no_derivative(prototype_fmu, host):
     """A dropped car: derivatives in the air and on the ground, none where a wheel meets the road or leaves it, or where
     its load changes so abruptly that the step is divided."""
     driven = host(prototype_fmu).start({"initial.z": 0.05, "initial.speed": 10.0})
@@ -182,7 +180,7 @@ def test_a_contact_that_is_made_has_no_derivative(prototype_fmu: Path, host: Hos
     assert seen.count((False, OK)) > 20
 
 
-def test_derivatives_of_outputs_by_variables_set_in_initialisation(build: Callable[..., Path], host: HostMaker) -> None:
+def test_derivatives_of_outputs_by_variables_set_in_initialisation(build, host):
     ends = []
     for torque in (2.0 + 1e-3, 2.0 - 1e-3):
         driven = host(build("crane", "native")).start({"torque": torque})
@@ -200,9 +198,7 @@ def test_derivatives_of_outputs_by_variables_set_in_initialisation(build: Callab
     assert driven.call("getDirectionalDerivative", [known], [unknown], [1.0]) == ERROR
 
 
-def test_a_derivative_before_the_first_step_is_refused_with_the_reason(
-    build: Callable[..., Path], host: HostMaker
-) -> None:
+def test_a_derivative_before_the_first_step_is_refused_with_the_reason(build, host):
     driven = host(build("crane", "native")).start()
     output = driven.references["rod.x"]
     assert driven.call("getDirectionalDerivative", [output], [0], [1.0]) == ERROR
@@ -212,7 +208,7 @@ def test_a_derivative_before_the_first_step_is_refused_with_the_reason(
     assert "not an input" in driven.messages[-1]
 
 
-def test_null_pointers_are_errors(build: Callable[..., Path], host: HostMaker) -> None:
+def test_null_pointers_are_errors(build, host):
     driven = host(build("crane", "native")).start()
     raw, c = driven.slave.dll, driven.slave.component
     for call in (

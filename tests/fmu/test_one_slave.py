@@ -81,7 +81,7 @@ def random_call(rng: random.Random, references: dict[str, int], time: float) -> 
     )
 
 
-def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
+def test_random_calls_are_answered_alike(pair):
     rng = random.Random(SEED)
     references = pair[0].references
     assert references == pair[1].references
@@ -100,9 +100,7 @@ def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
 
 
 @pytest.mark.parametrize("method", ["do_step", "get_real", "set_real", "terminate"])
-def test_an_exception_of_python_ends_the_instance_and_is_reported(
-    build: Callable[..., Path], host: HostMaker, method: str
-) -> None:
+def test_an_exception_of_python_ends_the_instance_and_is_reported(build, host, method):
     driven, other = host(build("crane", "python")).start(), host(build("crane", "python")).start()
     main = (driven.folder / "resources" / "slavemodule.txt").read_text()
     module = sys.modules[main.replace("main", "ali3") + ".slave"]

@@ -81,7 +81,7 @@ def heights(host: Any, steps: int = 300, time: float = 0.0) -> list[float]:
     return results
 
 
-def test_the_description_has_it_after_all_others(car: Path) -> None:
+def test_the_description_has_it_after_all_others(car):
     variables = fmpy.read_model_description(str(car)).modelVariables
     v = variables[-1]
     assert (v.name, v.type, v.causality, v.variability, v.initial) == (
@@ -95,7 +95,7 @@ def test_the_description_has_it_after_all_others(car: Path) -> None:
     assert "road.file" not in {w.name for w in unknowns["used.brake"].dependencies}
 
 
-def test_a_path_gives_the_same_bits_as_in_python(car: Path, host: Any, roads: Path) -> None:
+def test_a_path_gives_the_same_bits_as_in_python(car, host, roads):
     driven = on_road(host(car), roads / "rough.road", {"initial.speed": 12.0})
     assert get(driven) == str(roads / "rough.road")
     system = mbs.compile(prototype_car.build())
@@ -107,7 +107,7 @@ def test_a_path_gives_the_same_bits_as_in_python(car: Path, host: Any, roads: Pa
     assert heights(driven) == expected
 
 
-def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(car: Path, host: Any, tmp_path: Path) -> None:
+def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(car, host, tmp_path):
     road = tmp_path / "steep.road"
     write_road(PlaneRoad(0.0, np.tan(np.radians(30.0)), 0.0, 1.0), road)
     driven = on_road(host(car), road)
@@ -119,13 +119,13 @@ def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(car: Path, h
     assert re.search(r"raised by 0\.\d+ m .* Simulation.settle", notice)
 
 
-def test_the_roads_in_the_resources_are_found_by_name(car: Path, host: Any) -> None:
+def test_the_roads_in_the_resources_are_found_by_name(car, host):
     for path in sorted(FOLDER.glob("*.road")):
         driven = on_road(host(car), path.name, {"initial.speed": 10.0})
         assert np.all(np.isfinite(heights(driven, 20)))
 
 
-def test_a_road_can_be_put_into_the_resources_without_a_build(car: Path, host: Any, roads: Path) -> None:
+def test_a_road_can_be_put_into_the_resources_without_a_build(car, host, roads):
     driven = host(car)
     (driven.folder / "resources" / "roads" / "mine.road").write_bytes((roads / "high.road").read_bytes())
     assert text(driven, "mine.road") == OK
@@ -134,7 +134,7 @@ def test_a_road_can_be_put_into_the_resources_without_a_build(car: Path, host: A
     assert driven.get("chassis.z") == pytest.approx(own.get("chassis.z") + 2.0, abs=1e-9)
 
 
-def test_a_table_in_the_resources(car: Path, host: Any) -> None:
+def test_a_table_in_the_resources(car, host):
     driven, own = host(car), host(car).start()
     rows = "\n".join(f"{x},1.5,1.5,1.5" for x in range(-20, 80, 20))
     table = driven.folder / "resources" / "roads" / "mine.csv"
@@ -149,7 +149,7 @@ def test_a_table_in_the_resources(car: Path, host: Any) -> None:
     assert "it has 1 x 3 points" in driven.messages[-1]
 
 
-def test_a_uri_and_letters_of_any_language(car: Path, host: Any, roads: Path) -> None:
+def test_a_uri_and_letters_of_any_language(car, host, roads):
     place = roads / "straße путь 道.road"
     place.write_bytes((roads / "high.road").read_bytes())
     for value in (str(place), place.as_uri(), place.as_uri().replace("file:", "FILE:")):
@@ -157,7 +157,7 @@ def test_a_uri_and_letters_of_any_language(car: Path, host: Any, roads: Path) ->
         assert driven.get("chassis.z") > 2.0
 
 
-def test_a_refused_file_changes_nothing_and_is_reported(car: Path, host: Any, roads: Path) -> None:
+def test_a_refused_file_changes_nothing_and_is_reported(car, host, roads):
     driven = host(car)
     assert text(driven, str(roads / "high.road")) == OK
     data = (roads / "rough.road").read_bytes()
@@ -186,7 +186,7 @@ def test_a_refused_file_changes_nothing_and_is_reported(car: Path, host: Any, ro
     assert driven.get("chassis.z") > 2.0
 
 
-def test_in_initialisation_mode_and_empty_again(car: Path, host: Any, roads: Path) -> None:
+def test_in_initialisation_mode_and_empty_again(car, host, roads):
     driven, own = host(car), host(car).start()
     driven.slave.setupExperiment()
     driven.slave.enterInitializationMode()
@@ -199,7 +199,7 @@ def test_in_initialisation_mode_and_empty_again(car: Path, host: Any, roads: Pat
     assert heights(driven, 20) == heights(own, 20)
 
 
-def test_reset_takes_it_away(car: Path, host: Any, roads: Path) -> None:
+def test_reset_takes_it_away(car, host, roads):
     driven, own = host(car), host(car).start()
     text(driven, str(roads / "high.road"))
     driven.start()
@@ -209,7 +209,7 @@ def test_reset_takes_it_away(car: Path, host: Any, roads: Path) -> None:
     assert driven.get("chassis.z") == own.get("chassis.z")
 
 
-def test_a_state_brings_its_road_with_it(car: Path, host: Any, roads: Path) -> None:
+def test_a_state_brings_its_road_with_it(car, host, roads):
     driven = on_road(host(car), roads / "rough.road", {"initial.speed": 12.0})
     heights(driven, 50)
     state = driven.saved()
@@ -236,7 +236,7 @@ def test_a_state_brings_its_road_with_it(car: Path, host: Any, roads: Path) -> N
     assert third.outputs() == before
 
 
-def test_another_fidelity_has_the_road_too(car: Path, host: Any, roads: Path) -> None:
+def test_another_fidelity_has_the_road_too(car, host, roads):
     driven = host(car)
     text(driven, str(roads / "high.road"))
     assert driven.call("setInteger", [driven.references["fidelity"]], [1]) == OK
@@ -245,7 +245,7 @@ def test_another_fidelity_has_the_road_too(car: Path, host: Any, roads: Path) ->
     assert heights(driven, 20)[-1] > 2.0
 
 
-def test_a_road_that_is_cut_while_driving_is_a_refused_step(car: Path, host: Any, roads: Path) -> None:
+def test_a_road_that_is_cut_while_driving_is_a_refused_step(car, host, roads):
     driven = host(car)
     path = roads / "long.road"
     text(driven, str(path))
@@ -263,7 +263,7 @@ def test_a_road_that_is_cut_while_driving_is_a_refused_step(car: Path, host: Any
     assert driven.outputs() == before
 
 
-def test_starts_on_a_slope_and_parameters_without_effect_are_reported(car: Path, host: Any, roads: Path) -> None:
+def test_starts_on_a_slope_and_parameters_without_effect_are_reported(car, host, roads):
     driven = on_road(host(car), roads / "slope.road", {"road.friction": 0.5})
     messages = "\n".join(driven.messages)
     assert "The road is not level where this starts: the start is raised by 2 m" in messages
@@ -281,7 +281,7 @@ def test_starts_on_a_slope_and_parameters_without_effect_are_reported(car: Path,
 
 
 @pytest.mark.slow
-def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path: Path, host: Any) -> None:
+def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path, host):
     write_road(KerbRoad(1.0, 0.05, -0.05, "before", FRICTION), tmp_path / "step.road")
     system = mbs.compile(prototype_car.build(RoadFile(tmp_path / "step.road")))
     fmu = build_fmu(system, "prototype_car", tmp_path / "out", [fmpy.platform])
@@ -296,7 +296,7 @@ def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path: Path, ho
 
 
 @pytest.mark.slow
-def test_fmi_3_gives_the_same(built: Callable[[str], Path], host: Any, roads: Path) -> None:
+def test_fmi_3_gives_the_same(built, host, roads):
     third, driven = (host(built(kind)) for kind in ("fmi3", "native"))
     unknowns = {u.variable.name: u for u in third.description.initialUnknowns}
     assert unknowns["wheel_FL.travel"].dependencies is None  # all that there are
@@ -311,7 +311,7 @@ def test_fmi_3_gives_the_same(built: Callable[[str], Path], host: Any, roads: Pa
     assert third.get("speed") == driven.get("speed")
 
 
-def test_a_wheel_that_is_driven_into_a_wall_is_reported_once(car: Path, host: Any, tmp_path: Path) -> None:
+def test_a_wheel_that_is_driven_into_a_wall_is_reported_once(car, host, tmp_path):
     x = np.arange(-10.0, 30.0, 0.05)
     heights = np.repeat(0.35 * np.clip((x - 8.0) / 0.1, 0.0, 1.0)[:, None], 21, axis=1)  # below the body
     with pytest.warns(RoadWarning):
@@ -324,7 +324,7 @@ def test_a_wheel_that_is_driven_into_a_wall_is_reported_once(car: Path, host: An
     assert "was driven into a face of the road that is too high or too steep" in line
 
 
-def test_a_car_on_its_roof_is_reported_once(car: Path, host: Any) -> None:
+def test_a_car_on_its_roof_is_reported_once(car, host):
     driven = host(car).start({"initial.speed": 30.0, "front.tyre.grip": 3.0, "rear.tyre.grip": 3.0})
     assert driven.messages == []
     rolled = []
@@ -337,7 +337,7 @@ def test_a_car_on_its_roof_is_reported_once(car: Path, host: Any) -> None:
     assert sum("has rolled over" in line for line in driven.messages) == 1
 
 
-def test_values_with_which_no_car_works_are_reported_with_those_that_do(car: Path, host: Any) -> None:
+def test_values_with_which_no_car_works_are_reported_with_those_that_do(car, host):
     driven = host(car).start({})
     works = {}
     for name, bad in {
@@ -363,9 +363,7 @@ def test_values_with_which_no_car_works_are_reported_with_those_that_do(car: Pat
         assert driven.step(k * H, H) == OK
 
 
-def test_a_wheel_in_a_face_of_a_road_file_is_refused_with_place_radius_and_spacing(
-    car: Path, host: Any, tmp_path: Path
-) -> None:
+def test_a_wheel_in_a_face_of_a_road_file_is_refused_with_place_radius_and_spacing(car, host, tmp_path):
     heights = np.repeat(np.where(np.arange(-10.0, 40.0, 0.2) > 10.1, 0.6, 0.0)[:, None], 5, axis=1)
     with pytest.warns(mbs.RoadWarning, match="a face of 0.6 m"):
         write_road(GridRoad((-10.0, -10.0), (0.2, 5.0), heights, 0.9), tmp_path / "wall.road")

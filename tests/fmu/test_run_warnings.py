@@ -17,7 +17,7 @@ from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar
 from mbs.vehicle import load
-from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
+from tests.fmu.calls import ERROR, OK, WARNING
 from tests.fmu.scenes import contradicting_arm, driven_crank, piston_of
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -36,7 +36,7 @@ def run(driven: Any, h: float, end: float = 2.0) -> list[int]:
     return [driven.whole_status(k * h, h) for k in range(round(end / h))]
 
 
-def test_a_wrong_run_warns_once_and_shows_its_balance(slider: Path, host: HostMaker) -> None:
+def test_a_wrong_run_warns_once_and_shows_its_balance(slider, host):
     driven = host(slider)
     statuses = run(driven, 1e-3)
     messages = [m for m in driven.messages if "step_size" in m]
@@ -53,7 +53,7 @@ def test_a_wrong_run_warns_once_and_shows_its_balance(slider: Path, host: HostMa
     assert driven.get("solver.halvings") == trajectory.report.halvings > 100
 
 
-def test_a_right_run_is_silent(slider: Path, host: HostMaker) -> None:
+def test_a_right_run_is_silent(slider, host):
     driven = host(slider)
     assert set(run(driven, 1e-4, 0.4)) == {OK}
     assert driven.messages == []
@@ -61,9 +61,7 @@ def test_a_right_run_is_silent(slider: Path, host: HostMaker) -> None:
 
 
 @pytest.mark.parametrize(("steps", "wrong"), [(90, False), (60, True)])
-def test_an_fmu_and_python_agree_on_a_driven_motion_whose_balance_is_open(
-    build: Callable[..., Path], host: HostMaker, steps: int, wrong: bool
-) -> None:
+def test_an_fmu_and_python_agree_on_a_driven_motion_whose_balance_is_open(build, host, steps, wrong):
     """The drive takes up what the rows err: the balance says nothing, and a second motion decides."""
     driven, h = host(build("driven_crank")), 1.0 / steps
     driven.start({"step_size": h})
@@ -84,7 +82,7 @@ def test_an_fmu_and_python_agree_on_a_driven_motion_whose_balance_is_open(
     assert any("step_size" in message for message in driven.messages) == wrong
 
 
-def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None:
+def test_the_warning_is_part_of_the_state(slider, host):
     driven = host(slider)
     run(driven, 1e-3, 1.0)
     assert len(driven.messages) == 1
@@ -95,7 +93,7 @@ def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None
     assert other.messages == []
 
 
-def test_a_start_reports_contradicting_velocities_and_locked_parts(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_start_reports_contradicting_velocities_and_locked_parts(build, host):
     """With both numbers, as a run in Python does."""
     driven = host(build("contradicting_arm")).start()
     notices = mbs.simulate(mbs.compile(contradicting_arm()), 0.01, 0.01, progress=False).notices
@@ -110,7 +108,7 @@ def test_a_start_reports_contradicting_velocities_and_locked_parts(build: Callab
 @pytest.mark.filterwarnings(
     "ignore::mbs.simulation.large_bending.BendingWarning"
 )  # one body a bar bends by 0.05 rad, as warned
-def test_a_changed_assembly_mode_is_reported_once(tmp_path: Path, host: HostMaker) -> None:
+def test_a_changed_assembly_mode_is_reported_once(tmp_path, host):
     system = mbs.compile(assembly_defect_four_bar.build(1))
     driven, h = host(build_fmu(system, "defect", tmp_path, [fmpy.platform])), 0.05
     driven.start({"step_size": h})
@@ -127,9 +125,7 @@ def test_a_changed_assembly_mode_is_reported_once(tmp_path: Path, host: HostMake
 
 
 @pytest.mark.parametrize(("h", "reported"), [(0.01, True), (0.00125, False)])
-def test_driving_with_jumps_is_reported_where_forces_are_wrong(
-    prototype_fmu: Path, host: HostMaker, h: float, reported: bool
-) -> None:
+def test_driving_with_jumps_is_reported_where_forces_are_wrong(prototype_fmu, host, h, reported):
     """Pedals and steering that jump, and a wheel that lands from 5 cm: at 10 ms a force of a tyre is 9.4 % off."""
     driven = host(prototype_fmu).start({"initial.speed": 15.0, "initial.z": 0.05, "step_size": h})
     for k in range(300):
@@ -141,9 +137,7 @@ def test_driving_with_jumps_is_reported_where_forces_are_wrong(
 
 
 @pytest.mark.parametrize(("mass", "reported"), [(900.0, True), (225.0, False)])
-def test_a_vehicle_that_rests_on_its_body_at_the_start_is_reported(
-    prototype_fmu: Path, host: HostMaker, mass: float, reported: bool
-) -> None:
+def test_a_vehicle_that_rests_on_its_body_at_the_start_is_reported(prototype_fmu, host, mass, reported):
     """What is told is what the wheels do not bear of the weight."""
     driven = host(prototype_fmu).start({"payload.passenger.mass": mass})
     lines = [m for m in driven.messages if "At the start the vehicle rests on its body" in m]
@@ -156,7 +150,7 @@ def test_a_vehicle_that_rests_on_its_body_at_the_start_is_reported(
         assert f"chassis.ground_force is {driven.get('chassis.ground_force'):.4g} N" in lines[0]
 
 
-def test_a_wheel_that_falls_deep_into_the_road_is_reported_with_its_name(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_wheel_that_falls_deep_into_the_road_is_reported_with_its_name(prototype_fmu, host):
     driven = host(prototype_fmu).start({"initial.z": 30.0, "step_size": 0.002})
     deepest = 0.0
     for k in range(1400):
@@ -167,7 +161,7 @@ def test_a_wheel_that_falls_deep_into_the_road_is_reported_with_its_name(prototy
     assert deepest > 0.9 * load("prototype").front.tyre.radius
 
 
-def test_an_inertia_that_no_body_has_is_refused_by_its_name(prototype_fmu: Path, host: HostMaker) -> None:
+def test_an_inertia_that_no_body_has_is_refused_by_its_name(prototype_fmu, host):
     """Not by that of the payload, which is farther from its start value in parts of its range."""
     driven = host(prototype_fmu)
     for name, value in (("payload.luggage.mass", 200.0), ("chassis.inertia.x", 900.0)):

@@ -1,7 +1,5 @@
 """Statuses of the kernel in an FMU: message and remedy of each are in the log."""
 
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import fmpy
@@ -10,7 +8,7 @@ from fmpy.fmi2 import fmi2CallbackFunctions
 
 from mbs.kernel.binding import Status, load_library
 from mbs.kernel.binding.errors import status_remedy
-from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
+from tests.fmu.calls import DISCARD, ERROR, OK
 from tests.fmu.test_refused_steps import LONG, at_the_edge
 
 H = 0.01
@@ -50,12 +48,12 @@ def said(status: Status, text: str) -> None:
     assert text.count(status_remedy(status)) == 1
 
 
-def test_every_status_is_caused_or_cannot_be() -> None:
+def test_every_status_is_caused_or_cannot_be():
     assert HERE | {*ELSEWHERE} | {*NEVER} == {*Status} - {Status.OK}
     assert len(HERE) + len(ELSEWHERE) + len(NEVER) == len(Status) - 1
 
 
-def test_a_start_that_does_not_close(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_start_that_does_not_close(build, host):
     driven = host(build("led_crank"))
     assert driven.set("angle", 1.6) == OK
     driven.slave.setupExperiment(startTime=0.0)
@@ -65,7 +63,7 @@ def test_a_start_that_does_not_close(build: Callable[..., Path], host: HostMaker
     assert "Worst constraint: 'bar" in driven.messages[-1]
 
 
-def test_a_motion_that_becomes_infinite(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_motion_that_becomes_infinite(build, host):
     driven = host(build("led_crank")).start()
     assert driven.set("push", 1e300) == OK
     assert driven.step(0.0, H) == DISCARD
@@ -73,7 +71,7 @@ def test_a_motion_that_becomes_infinite(build: Callable[..., Path], host: HostMa
     assert "The step_size is 0.01 s" in driven.messages[-1]
 
 
-def test_what_is_pulled_beyond_its_reach(build: Callable[..., Path], host: HostMaker) -> None:
+def test_what_is_pulled_beyond_its_reach(build, host):
     driven = at_the_edge(build("reach"), host)
     assert driven.step(0.05, LONG) == DISCARD
     said(Status.NOT_CONVERGED, driven.messages[-1])
@@ -88,7 +86,7 @@ def refused_start(driven: Any, values: dict[str, float]) -> str:
     return str(driven.messages[-1])
 
 
-def test_a_start_in_the_road(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_start_in_the_road(build, host):
     fmu = build("before_a_wall")
     text = refused_start(host(fmu), {"initial.z": -5.0})
     said(Status.START_REFUSED, text)
@@ -96,7 +94,7 @@ def test_a_start_in_the_road(build: Callable[..., Path], host: HostMaker) -> Non
     assert host(fmu).start({"initial.z": clear}).step(0.0, H) == OK
 
 
-def test_a_car_that_drove_into_a_wall_continues_from_another_state(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_car_that_drove_into_a_wall_continues_from_another_state(build, host):
     fmu = build("before_a_wall")
     fast, slow = host(fmu).start({"initial.speed": 30.0}), host(fmu).start({"initial.speed": 3.0})
     begins = next(k * 0.002 for k in range(100) if fast.step(k * 0.002, 0.002) != OK)
@@ -107,7 +105,7 @@ def test_a_car_that_drove_into_a_wall_continues_from_another_state(build: Callab
     assert fast.get("block.x") == pytest.approx(3.0 * H, rel=1e-6)
 
 
-def test_an_inertia_that_no_body_has(build: Callable[..., Path], host: HostMaker) -> None:
+def test_an_inertia_that_no_body_has(build, host):
     fmu = build("thrown")
     text = refused_start(host(fmu), {"xx": 2.0})
     said(Status.BAD_INERTIA, text)
@@ -120,9 +118,7 @@ def test_an_inertia_that_no_body_has(build: Callable[..., Path], host: HostMaker
     ("scene", "status", "shorter"),
     [("fast_armature", Status.TURNS_TOO_FAR, 1e-3), ("fast_cart", Status.UNRESOLVED, 1e-5)],
 )
-def test_a_shorter_step_passes(
-    build: Callable[..., Path], host: HostMaker, scene: str, status: Status, shorter: float
-) -> None:
+def test_a_shorter_step_passes(build, host, scene, status, shorter):
     driven = host(build(scene)).start({"step_size": H})
     begins = next((k for k in range(60) if driven.step(k * H, H) != OK), None)
     assert begins is not None
@@ -131,7 +127,7 @@ def test_a_shorter_step_passes(
     again.run(begins + 1, H)
 
 
-def test_without_memory(build: Callable[..., Path], host: HostMaker) -> None:
+def test_without_memory(build, host):
     driven = host(build("crane"))
     inner, budget = fmpy.fmi2.defaultCallbacks, [10**6]
 

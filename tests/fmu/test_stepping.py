@@ -2,7 +2,6 @@
 
 import math
 import random
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 import mbs
 from fmu_src.build.scene_registry import load_scene
 from hosts.fmu.fmu import Fmu
-from tests.fmu.calls import ERROR, OK, HostMaker
+from tests.fmu.calls import ERROR, OK
 
 SCENES = Path(__file__).parent / "scenes.py"
 
@@ -28,9 +27,7 @@ def system(scene: str) -> mbs.System:
 
 
 @pytest.mark.parametrize(("inner", "length"), [(0.01, 0.01), (0.01, 0.1), (0.002, 0.01)])
-def test_steps_of_a_host_that_adds_up_its_time_are_those_of_the_engine(
-    crane: Path, host: HostMaker, inner: float, length: float
-) -> None:
+def test_steps_of_a_host_that_adds_up_its_time_are_those_of_the_engine(crane, host, inner, length):
     """Bit for bit: one inner step or several, of the FMU's size or another."""
     expected = mbs.simulate(system("crane"), t_end=2.0, h=inner)
     driven, time, rows = host(crane).start({"step_size": inner}), 0.0, []
@@ -44,7 +41,7 @@ def test_steps_of_a_host_that_adds_up_its_time_are_those_of_the_engine(
     assert np.ptp(expected["rod.x"]) > 0.1
 
 
-def test_inputs_and_parameters_reach_the_engine(crane: Path, host: HostMaker) -> None:
+def test_inputs_and_parameters_reach_the_engine(crane, host):
     simulation = mbs.Simulation(system("crane"), inputs={"torque": 3.0}, parameters={"spring.stiffness": 12.0})
     driven = host(crane).start({"torque": 3.0, "spring.stiffness": 12.0})
     for k in range(100):
@@ -57,7 +54,7 @@ def test_inputs_and_parameters_reach_the_engine(crane: Path, host: HostMaker) ->
     assert driven.outputs() == list(simulation.sensors.values())
 
 
-def test_a_communication_point_may_be_off_by_the_round_off_of_a_host(crane: Path, host: HostMaker) -> None:
+def test_a_communication_point_may_be_off_by_the_round_off_of_a_host(crane, host):
     """A host that adds up 0.01 s for hours errs by less than a microsecond; more is another point."""
     for off, status in ((5e-7, OK), (-5e-7, OK), (5e-6, ERROR), (-5e-6, ERROR), (1e-3, ERROR), (0.5, ERROR)):
         driven = host(crane).start()
@@ -68,7 +65,7 @@ def test_a_communication_point_may_be_off_by_the_round_off_of_a_host(crane: Path
 
 
 @pytest.mark.parametrize("length", [1e-300, 1e-16, 1e-12])
-def test_a_step_that_is_round_off_of_the_hosts_times_moves_nothing(crane: Path, host: HostMaker, length: float) -> None:
+def test_a_step_that_is_round_off_of_the_hosts_times_moves_nothing(crane, host, length):
     """The kernel would take the round-off of positions for motion; what was set counts from the next step on."""
     driven, plain = host(crane).start(), host(crane).start()
     assert driven.step(0.0, 0.01) == plain.step(0.0, 0.01) == OK
@@ -83,7 +80,7 @@ def test_a_step_that_is_round_off_of_the_hosts_times_moves_nothing(crane: Path, 
     assert not driven.messages
 
 
-def test_pose_moves_and_turns_the_start(build: Callable[..., Path], host: HostMaker) -> None:
+def test_pose_moves_and_turns_the_start(build, host):
     driven = host(build("sled")).start({"initial.x": 2.0, "initial.y": -1.0, "initial.yaw": 0.5, "initial.speed": 3.0})
     assert driven.get("chassis.x") == pytest.approx(2.0 + 0.3 * math.cos(0.5), abs=1e-12)
     assert driven.get("chassis.y") == pytest.approx(-1.0 + 0.3 * math.sin(0.5), abs=1e-12)
@@ -93,7 +90,7 @@ def test_pose_moves_and_turns_the_start(build: Callable[..., Path], host: HostMa
     assert driven.get("chassis.yaw") == pytest.approx(0.5, abs=1e-9)
 
 
-def test_communication_steps_of_any_size(build: Callable[..., Path], host: HostMaker) -> None:
+def test_communication_steps_of_any_size(build, host):
     rng = random.Random(4)
     driven = host(build("crane")).start()
     time, steps = 0.0, 0
@@ -107,9 +104,7 @@ def test_communication_steps_of_any_size(build: Callable[..., Path], host: HostM
     assert driven.get("rod.x") == pytest.approx(expected["rod.x"][-1], abs=SUBSTEP_ERROR)
 
 
-def test_steps_longer_than_the_tuned_one_are_reported_after_shorter_ones_too(
-    build: Callable[..., Path], host: HostMaker
-) -> None:
+def test_steps_longer_than_the_tuned_one_are_reported_after_shorter_ones_too(build, host):
     """With what they cost, and a step_size that has none: 14.9 ms are two steps of 7.45 ms."""
     driven, time = host(build("crane")).start(), 0.0
     for step in (0.005, 0.0149, 0.0149, 0.005, 0.0125):
@@ -125,7 +120,7 @@ def test_steps_longer_than_the_tuned_one_are_reported_after_shorter_ones_too(
     assert again.messages == []
 
 
-def test_outputs_do_not_depend_on_the_order_of_get_and_set(crane: Path, host: HostMaker) -> None:
+def test_outputs_do_not_depend_on_the_order_of_get_and_set(crane, host):
     driven = host(crane).start()
     driven.run(3, 0.01)
     before = driven.outputs()
@@ -150,7 +145,7 @@ def end_of_drive(path: Path, lengths: np.ndarray, h: float, step_size: float = 0
     return values
 
 
-def test_two_and_a_half_inner_steps_are_three_whatever_round_off_the_hosts_times_have(prototype_fmu: Path) -> None:
+def test_two_and_a_half_inner_steps_are_three_whatever_round_off_the_hosts_times_have(prototype_fmu):
     h, steps = 0.005, 400  # step_size is 0.002 s
     as_summed = end_of_drive(prototype_fmu, np.full(steps, h), h)
     as_differences = end_of_drive(prototype_fmu, np.diff(h * np.arange(steps + 1)), h)

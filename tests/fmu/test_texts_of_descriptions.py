@@ -33,9 +33,7 @@ def car(request: pytest.FixtureRequest) -> tuple[str, tuple[Variable, ...]]:
 
 
 @pytest.mark.slow
-def test_typical_sizes_are_those_of_common_drives_and_equal_on_both_sides(
-    car: tuple[str, tuple[Variable, ...]],
-) -> None:
+def test_typical_sizes_are_those_of_common_drives_and_equal_on_both_sides(car):
     name, table = car
     nominal = {v.name: v.nominal for v in table if v.causality == "output" and not v.name.startswith("solver.")}
     for wheel in ("FR", "RL", "RR"):
@@ -58,21 +56,21 @@ def test_typical_sizes_are_those_of_common_drives_and_equal_on_both_sides(
 
 
 @pytest.mark.slow
-def test_typical_accelerations_are_no_jumps_of_a_frame_that_drag_is_new_to() -> None:
+def test_typical_accelerations_are_no_jumps_of_a_frame_that_drag_is_new_to():
     systems = list(build_car("hatchback").systems.values())
     nominal = {v.name: v.nominal for v in with_typical_sizes(systems)}
     assert len(systems) == 4
     assert [nominal[f"chassis.{a}"] for a in ("ax", "ay", "az")] == [1.0, 1.0, 1.0]
 
 
-def test_types_have_names_without_numbers(car: tuple[str, tuple[Variable, ...]]) -> None:
+def test_types_have_names_without_numbers(car):
     types = declared_types(car[1])
     assert {"Angle", "Velocity", "Force", "Count"} <= set(types)
     assert not [n for n in types if any(c.isdigit() for c in n)]
     assert all(t["quantity"] != "Quantity" for t in types.values())
 
 
-def test_a_text_of_an_array_is_of_all_elements() -> None:
+def test_a_text_of_an_array_is_of_all_elements():
     for texts, message in (
         (("x of the centre", "y of the centre", "z of the centre"), "x, y, z of the centre"),
         (("at gauge 1", "at gauge 2", "at gauge 3"), "at gauge 1 to 3"),
@@ -83,7 +81,7 @@ def test_a_text_of_an_array_is_of_all_elements() -> None:
         assert common_text(texts) == message
 
 
-def test_inputs_of_a_car_are_the_terminal_of_its_driver(car: tuple[str, tuple[Variable, ...]]) -> None:
+def test_inputs_of_a_car_are_the_terminal_of_its_driver(car):
     root = ElementTree.fromstring(terminals(arrays(car[1])))
     members = {t.get("name"): [m.get("variableName") for m in t] for t in root.iter("Terminal")}
     assert {"steering", "throttle", "brake", "hand_brake", "selector"} <= set(members["driver"])

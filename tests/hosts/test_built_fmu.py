@@ -39,7 +39,7 @@ def car(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None:
+def test_a_car_is_built_once_for_each_content(car, tmp_path):
     messages: list[str] = []
     first = built_fmu.fmu_of_car(str(car), messages.append)
     assert first.read_text() == (car / "car.toml").read_text()
@@ -54,7 +54,7 @@ def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None
     assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(PREFIX)] == []
 
 
-def test_other_ports_or_another_program_build_again(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_other_ports_or_another_program_build_again(car, monkeypatch):
     first = built_fmu.fmu_of_car(str(car), print)
     assert built_fmu.fmu_of_car(str(car), print, "all") != first
     assert built_fmu.fmu_of_car(str(car), print) == first
@@ -62,7 +62,7 @@ def test_other_ports_or_another_program_build_again(car: Path, monkeypatch: pyte
     assert built_fmu.fmu_of_car(str(car), print) != first
 
 
-def test_a_command_with_many_cars_keeps_all_of_them(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_command_with_many_cars_keeps_all_of_them(car, monkeypatch):
     monkeypatch.setattr(built_fmu, "_MAX_FMUS", 1)
     result = [built_fmu.fmu_of_car(str(car), print, ports) for ports in ("1", "2", "3")]
     assert all(fmu.is_file() for fmu in result)
@@ -73,9 +73,7 @@ def test_a_command_with_many_cars_keeps_all_of_them(car: Path, monkeypatch: pyte
     assert [fmu.is_file() for fmu in result] == [True, False, False]
 
 
-def test_a_command_takes_an_fmu_or_a_car(
-    car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_command_takes_an_fmu_or_a_car(car, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     result = fmu_file(Path("car"))
     assert result.read_text() == (car / "car.toml").read_text()
@@ -94,14 +92,14 @@ def test_a_command_takes_an_fmu_or_a_car(
     assert fmu_file(None) == Path("dist", "PrototypeCar.fmu")
 
 
-def test_the_message_of_a_failed_build(car: Path) -> None:
+def test_the_message_of_a_failed_build(car):
     (car / "car.toml").write_text("wrong")
     with pytest.raises(HostError, match=r"The FMU of the car .* cannot be built: The car is wrong\."):
         built_fmu.fmu_of_car(str(car), print)
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a signal of a clock")
-def test_a_stopped_build_ends_its_process_and_is_reported(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stopped_build_ends_its_process_and_is_reported(car, monkeypatch):
     """A signal for the command alone: the process of the build is not waited for."""
     pid = car.parent / "pid"
     slow = f"import os, pathlib, time; pathlib.Path({str(pid)!r}).write_text(str(os.getpid())); time.sleep(600)"

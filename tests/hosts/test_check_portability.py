@@ -105,9 +105,7 @@ TEXTS: list[tuple[str, str, str, str, list[Change]]] = [
 
 
 @pytest.mark.parametrize(("kind", "check", "verdict", "message", "changes"), TEXTS)
-def test_documents(
-    fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, verdict: str, message: str, changes: list[Change]
-) -> None:
+def test_documents(fmus, tmp_path, kind, check, verdict, message, changes):
     actual, words = one_check(changed(fmus[kind], tmp_path / "copy.fmu", changes), check)
     assert actual == verdict
     assert message in words
@@ -152,9 +150,7 @@ CALLS: list[tuple[str, str, str, str, Change]] = [
 
 
 @pytest.mark.parametrize(("kind", "check", "verdict", "message", "change"), CALLS)
-def test_calls(
-    fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, verdict: str, message: str, change: Change
-) -> None:
+def test_calls(fmus, tmp_path, kind, check, verdict, message, change):
     copy = changed(fmus[kind], tmp_path / "copy.fmu", [change], face_name(kind))
     actual, words = one_check(copy, check, 5)
     assert actual == verdict, words

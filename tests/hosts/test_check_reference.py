@@ -50,7 +50,7 @@ def changed(file: Path, change: Callable[[list[str], list[list[str]]], None]) ->
     return file
 
 
-def test_a_result_is_a_reference_of_its_own_fmu(fmu: Path, result: Path) -> None:
+def test_a_result_is_a_reference_of_its_own_fmu(fmu, result):
     done = run(main, fmu, "--reference", result, "--bound", "*=1e-6")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "all within their bounds" in done.stdout
@@ -58,9 +58,7 @@ def test_a_result_is_a_reference_of_its_own_fmu(fmu: Path, result: Path) -> None
 
 
 @pytest.mark.parametrize(("error", "bound", "code"), [(0.005, None, 0), (0.005, 0.001, 1)])
-def test_a_signal_beyond_its_bound_is_named(
-    error: float, bound: float | None, code: int, fmu: Path, result: Path
-) -> None:
+def test_a_signal_beyond_its_bound_is_named(error, bound, code, fmu, result):
     def change(heading: list[str], rows: list[list[str]]) -> None:
         k = heading.index("bob.y")
         y = [float(row[k]) for row in rows]
@@ -76,7 +74,7 @@ def test_a_signal_beyond_its_bound_is_named(
     assert ("1 beyond their bounds" in done.stdout) == bool(code)
 
 
-def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(fmu: Path, tmp_path: Path) -> None:
+def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(fmu, tmp_path):
     """Rows are every 0.1 s, the step of their run was neither that nor the FMU's."""
     table = tmp_path / "given.csv"
     table.write_text('"time","pull"\n0,0\n0.4,30\n1,0\n')
@@ -87,9 +85,7 @@ def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(f
 
 
 @pytest.mark.slow
-def test_a_stopped_check_of_a_folder_resumes_with_the_other_tables(
-    fmu: Path, result: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_stopped_check_of_a_folder_resumes_with_the_other_tables(fmu, result, tmp_path, monkeypatch):
     folder = tmp_path / "tables"
     folder.mkdir()
     for name in "abc":
@@ -117,19 +113,19 @@ def test_a_stopped_check_of_a_folder_resumes_with_the_other_tables(
 
 
 @pytest.mark.parametrize("given", [("--again",), ("--out", "kept")])
-def test_of_one_table_nothing_is_kept(fmu: Path, result: Path, given: tuple[str, ...]) -> None:
+def test_of_one_table_nothing_is_kept(fmu, result, given):
     done = run(main, fmu, "--reference", result, *given)
     assert (done.returncode, done.stdout) == (2, "")
     assert f"{given[0]} needs a folder of tables" in done.stderr
     assert f"{result} is a single table." in done.stderr
 
 
-def test_tables_are_reported_in_their_order_whichever_is_done_first() -> None:
+def test_tables_are_reported_in_their_order_whichever_is_done_first():
     tables = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
     assert [next(tables), *tables] == ["a", "b", "c", "d"]
 
 
-def test_a_jump_inside_a_step_is_reported(fmu: Path, tmp_path: Path) -> None:
+def test_a_jump_inside_a_step_is_reported(fmu, tmp_path):
     table, reference = tmp_path / "given.csv", tmp_path / "reference.csv"
     table.write_text('"time","pull"\n0,0\n0.4,20\n0.4,10\n0.404,30\n0.404,-20\n1,0\n')
     reference.write_text('"time","bob.x"\n0,0\n1,0\n')
@@ -155,9 +151,7 @@ def test_a_jump_inside_a_step_is_reported(fmu: Path, tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_change_that_would_make_signals_agree_is_reported(
-    what: dict[str, Callable[[np.ndarray], np.ndarray]], messages: tuple[str, ...], fmu: Path, result: Path
-) -> None:
+def test_a_change_that_would_make_signals_agree_is_reported(what, messages, fmu, result):
     def change(heading: list[str], rows: list[list[str]]) -> None:
         for name, of in what.items():
             k = heading.index(name)
@@ -169,7 +163,7 @@ def test_a_change_that_would_make_signals_agree_is_reported(
     assert [message for message in messages if message not in done.stdout] == [], done.stdout
 
 
-def test_inputs_without_a_column_and_rows_far_apart_are_reported(fmu: Path, tmp_path: Path) -> None:
+def test_inputs_without_a_column_and_rows_far_apart_are_reported(fmu, tmp_path):
     (tmp_path / "few.csv").write_text('"time","pull","bob.x"\n0,0,0\n0.5,20,0\n1,0,0\n')
     (tmp_path / "none.csv").write_text('"time","bob.x"\n0,0\n0.5,0\n1,0\n')
     few, none = (run(main, fmu, "--reference", tmp_path / f"{name}.csv").stdout for name in ("few", "none"))
@@ -180,7 +174,7 @@ def test_inputs_without_a_column_and_rows_far_apart_are_reported(fmu: Path, tmp_
     assert "inputs go straight" not in none
 
 
-def test_an_angle_is_off_by_its_share_of_a_turn_where_whole_turns_are_left_out() -> None:
+def test_an_angle_is_off_by_its_share_of_a_turn_where_whole_turns_are_left_out():
     """Over many turns half of one is less than a hundredth, so that nothing would be beyond it."""
     time = np.linspace(0.0, 1.0, 101)
     angle = 600.0 * time
@@ -190,7 +184,7 @@ def test_an_angle_is_off_by_its_share_of_a_turn_where_whole_turns_are_left_out()
         assert found.share == pytest.approx(min(share, gap / 600.0, 1.0 - share), abs=1e-9)
 
 
-def test_bounds_of_0_ask_for_the_same_bits(fmu: Path, result: Path) -> None:
+def test_bounds_of_0_ask_for_the_same_bits(fmu, result):
     def change(heading: list[str], rows: list[list[str]]) -> None:
         rows[3][heading.index("bob.y")] = "7"
 
@@ -203,7 +197,7 @@ def test_bounds_of_0_ask_for_the_same_bits(fmu: Path, result: Path) -> None:
         assert f"bob.y is {share}; it must be a share of the range, 0 or more" in done.stderr
 
 
-def test_a_table_of_one_row_that_begins_later_is_compared_from_there(fmu: Path, tmp_path: Path) -> None:
+def test_a_table_of_one_row_that_begins_later_is_compared_from_there(fmu, tmp_path):
     (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n1,2,9\n')
     done = run(main, fmu, "--reference", tmp_path / "table.csv", "--step", 0.01)
     assert done.returncode == 1
@@ -212,7 +206,7 @@ def test_a_table_of_one_row_that_begins_later_is_compared_from_there(fmu: Path, 
     assert "begin of the table: at 1 s; before, its first row holds pull at 2\n" in done.stdout
 
 
-def test_variables_that_the_fmu_lacks_are_reported(fmu: Path, result: Path) -> None:
+def test_variables_that_the_fmu_lacks_are_reported(fmu, result):
     def change(heading: list[str], rows: list[list[str]]) -> None:
         heading[heading.index("bob.y")] = "bob.height"
 
@@ -232,9 +226,7 @@ def test_variables_that_the_fmu_lacks_are_reported(fmu: Path, result: Path) -> N
         ('"time","bob.x"\n0,0\n1,0\n', ("--show-parameters",), "--show-parameters cannot be combined with --reference"),
     ],
 )
-def test_an_invalid_reference_is_refused_in_one_sentence(
-    table: str, options: tuple[object, ...], message: str, fmu: Path, tmp_path: Path
-) -> None:
+def test_an_invalid_reference_is_refused_in_one_sentence(table, options, message, fmu, tmp_path):
     (tmp_path / "table.csv").write_text(table)
     done = run(main, fmu, "--reference", tmp_path / "table.csv", *options)
     assert done.returncode == 2
@@ -242,7 +234,7 @@ def test_an_invalid_reference_is_refused_in_one_sentence(
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_the_free_swing_is_that_of_a_pendulum_on_a_spring(fmu: Path, tmp_path: Path) -> None:
+def test_the_free_swing_is_that_of_a_pendulum_on_a_spring(fmu, tmp_path):
     """A reference from elsewhere: the equation of motion in polar coordinates, by an integrator of SciPy."""
     mass, k, c, free, g = 2.0, 100.0, 1.0, 0.8, 9.81
 

@@ -2,7 +2,7 @@
 
 import socket
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -95,7 +95,7 @@ def by_study(host: Host, out: Path, *options: str) -> set[float]:
 
 
 @pytest.mark.parametrize("reached", [by_run, by_simulator, by_replay, by_study])
-def test_an_fmu_reaches_nothing_of_the_host(host: Host, tmp_path: Path, reached: Callable[..., set[float]]) -> None:
+def test_an_fmu_reaches_nothing_of_the_host(host, tmp_path, reached):
     if reached == by_run:
         assert by_run(host, tmp_path / "free") == {_ALL}
         (host.home / "written").unlink()
@@ -104,7 +104,7 @@ def test_an_fmu_reaches_nothing_of_the_host(host: Host, tmp_path: Path, reached:
 
 
 @pytest.mark.parametrize("what", ["prototype", "faults"])
-def test_the_same_bits_come_out(what: str, prototype_fmu: Path, tmp_path: Path) -> None:
+def test_the_same_bits_come_out(what, prototype_fmu, tmp_path):
     options: tuple[object, ...] = ()
     if what == "prototype":
         fmu, options = prototype_fmu, ("-m", "double_lane_change", "--stop-time", 0.5)
@@ -119,9 +119,7 @@ def test_the_same_bits_come_out(what: str, prototype_fmu: Path, tmp_path: Path) 
     assert tables[0] == tables[1]
 
 
-def test_the_catalogue_drives_in_another_process(
-    prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_catalogue_drives_in_another_process(prototype_fmu, tmp_path, monkeypatch):
     def never(*_: object) -> None:
         raise AssertionError("the library of an FMU is loaded in the process of the command")
 
@@ -131,14 +129,14 @@ def test_the_catalogue_drives_in_another_process(
     assert len(list(tmp_path.glob("runs/*/*.csv"))) > 0
 
 
-def test_a_crash_is_reported_as_without_confinement(tmp_path: Path) -> None:
+def test_a_crash_is_reported_as_without_confinement(tmp_path):
     code, output, table = driven(odd_fmu("faults", tmp_path), tmp_path / "out", CRASH, "--confined")
     assert code == 1
     assert "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept." in output
     assert len(table) == 5
 
 
-def test_without_bubblewrap_nothing_is_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_bubblewrap_nothing_is_run(tmp_path, monkeypatch):
     fmu = odd_fmu("faults", tmp_path)
     _bubblewrap.cache_clear()
     monkeypatch.setenv("PATH", str(tmp_path))

@@ -39,7 +39,7 @@ def colours(picture: Path) -> int:
 
 
 @pytest.mark.slow
-def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+def test_car_page_table_and_summary(fmus, turn, tmp_path):
     command = [sys.executable, "-m", "ali3", "run", fmus["sledge"], "--manoeuvre", turn, "--step", "0.02"]
     utf8 = os.environ | {"PYTHONIOENCODING": "utf-8"}
     command = [*map(str, command), "--out", str(tmp_path / "out")]
@@ -71,9 +71,7 @@ def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("held", ["", "# held: steering, brake\n"])
-def test_a_result_is_a_manoeuvre_that_repeats_the_run(
-    fmus: dict[str, Path], turn: Path, tmp_path: Path, held: str
-) -> None:
+def test_a_result_is_a_manoeuvre_that_repeats_the_run(fmus, turn, tmp_path, held):
     turn.write_text(held + turn.read_text())
     result = tmp_path / "out" / "sledge_turn.csv"
     for table, step in ((turn, ("--step", "0.02")), (result, ())):  # the record knows the step
@@ -86,7 +84,7 @@ def test_a_result_is_a_manoeuvre_that_repeats_the_run(
 
 
 @pytest.mark.slow
-def test_a_result_that_began_with_a_state_repeats_the_run(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+def test_a_result_that_began_with_a_state_repeats_the_run(fmus, turn, tmp_path):
     with Fmu(fmus["sledge"]) as fmu:
         fmu.initialise({"steering": 0.2, "throttle": 0.5})
         for k in range(200):
@@ -103,7 +101,7 @@ def test_a_result_that_began_with_a_state_repeats_the_run(fmus: dict[str, Path],
 
 @pytest.mark.slow
 @pytest.mark.drawn
-def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_any_fmu_gets_a_page(fmus, tmp_path):
     (tmp_path / "swing.csv").write_text('"time","torque"\n0,0\n1,0\n1,4\n2,4\n')
     done = run(main, fmus["motor_pendulum"], "-m", tmp_path / "swing.csv", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
@@ -115,7 +113,7 @@ def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.drawn
-def test_a_car_that_stands_still_gets_a_page_without_a_warning(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_a_car_that_stands_still_gets_a_page_without_a_warning(fmus, tmp_path):
     (tmp_path / "rest.csv").write_text('"time","throttle"\n0,0\n1,0\n')
     done = run(main, fmus["sledge"], "-m", tmp_path / "rest.csv", "--out", tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
@@ -123,7 +121,7 @@ def test_a_car_that_stands_still_gets_a_page_without_a_warning(fmus: dict[str, P
 
 
 @pytest.mark.slow
-def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_messages_of_the_fmu_are_shown(fmus, tmp_path):
     """Beyond the range by rounding is driven, and the FMU speaks of it."""
     (tmp_path / "hard.csv").write_text('"time","torque"\n0,0\n1,20.00003\n1.1,20.00003\n')
     done = run(main, fmus["motor_pendulum"], "-m", tmp_path / "hard.csv", "--out", tmp_path)
@@ -131,14 +129,14 @@ def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) ->
     assert "FMU: 'torque' was set to" in done.stdout
 
 
-def test_a_missing_fmu_is_reported_with_the_command_that_builds_it(turn: Path, tmp_path: Path) -> None:
+def test_a_missing_fmu_is_reported_with_the_command_that_builds_it(turn, tmp_path):
     done = run(main, tmp_path / "dist" / "PrototypeCar.fmu", "-m", turn)
     assert done.returncode == 2
     assert "There is no file" in done.stderr
     assert "python build_fmu.py" in done.stderr
 
 
-def test_bad_files_are_named(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+def test_bad_files_are_named(fmus, turn, tmp_path):
     (tmp_path / "text.fmu").write_text("no zip")
     assert "is not an FMU" in run(main, tmp_path / "text.fmu", "-m", turn).stderr
     assert "is a folder; it must be a file" in run(main, tmp_path, "-m", turn).stderr
@@ -152,7 +150,7 @@ def test_bad_files_are_named(fmus: dict[str, Path], turn: Path, tmp_path: Path) 
     assert "driver needs variables" in run(main, fmus["motor_pendulum"], "-m", "double_lane_change").stderr
 
 
-def test_runs_that_no_memory_holds_are_refused(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+def test_runs_that_no_memory_holds_are_refused(fmus, turn, tmp_path):
     done = run(main, fmus["sledge"], "-m", turn, "--step", 1e-9, "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "3 s in steps of 1e-09 s are 3e+09 rows of" in done.stderr
@@ -165,9 +163,7 @@ def test_runs_that_no_memory_holds_are_refused(fmus: dict[str, Path], turn: Path
     assert not (tmp_path / "out").exists()
 
 
-def test_results_that_cannot_be_written_are_refused_before_the_drive(
-    fmus: dict[str, Path], turn: Path, tmp_path: Path
-) -> None:
+def test_results_that_cannot_be_written_are_refused_before_the_drive(fmus, turn, tmp_path):
     (tmp_path / "out" / "sledge_turn.csv").mkdir(parents=True)
     done = run(main, fmus["sledge"], "-m", turn, "--out", tmp_path / "out")
     assert done.returncode == 2
@@ -180,7 +176,7 @@ def test_results_that_cannot_be_written_are_refused_before_the_drive(
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
 @pytest.mark.slow
-def test_a_full_disk_leaves_no_table(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+def test_a_full_disk_leaves_no_table(fmus, turn, tmp_path):
     start = (
         "import resource, signal, sys; signal.signal(signal.SIGXFSZ, signal.SIG_IGN);"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (1_000_000, 1_000_000));"

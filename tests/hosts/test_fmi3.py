@@ -45,9 +45,7 @@ def fmu_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Pat
 
 
 @pytest.mark.parametrize("kind", kinds.VERSIONS)
-def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
-    kind: str, fmu_of: Callable[[str, str], Path], tmp_path: Path
-) -> None:
+def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(kind, fmu_of, tmp_path):
     """A message of FMI 2.0 is a format of printf, one of FMI 3.0 is the text."""
     messages: list[str] = []
     description = read_model_description(fmu_of("crane", kind))
@@ -57,7 +55,7 @@ def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
     assert "{100% of #r1#}" in messages[-1]
 
 
-def test_sources_and_documentation_are_not_unpacked(fmu_of: Callable[[str, str], Path], tmp_path: Path) -> None:
+def test_sources_and_documentation_are_not_unpacked(fmu_of, tmp_path):
     unpack(fmu_of("crane", "fmi3"), tmp_path)
     actual = {file.relative_to(tmp_path).as_posix() for file in tmp_path.rglob("*") if file.is_file()}
     with zipfile.ZipFile(fmu_of("crane", "fmi3")) as fmu:
@@ -76,9 +74,7 @@ def test_sources_and_documentation_are_not_unpacked(fmu_of: Callable[[str, str],
         ("switched", '# held: pull\n"time","pull","gear"\n0,0,1\n0.3,2,2\n0.7,-1,-1\n1,0,3\n'),
     ],
 )
-def test_with_held_inputs_results_are_the_same_bytes(
-    scene: str, rows: str, fmu_of: Callable[[str, str], Path], tmp_path: Path
-) -> None:
+def test_with_held_inputs_results_are_the_same_bytes(scene, rows, fmu_of, tmp_path):
     (tmp_path / "table.csv").write_text(rows)
     tables = []
     for kind in kinds.IN_C:
@@ -91,9 +87,7 @@ def test_with_held_inputs_results_are_the_same_bytes(
 
 
 @pytest.mark.slow
-def test_what_goes_straight_is_held_and_late_and_this_is_reported(
-    fmu_of: Callable[[str, str], Path], tmp_path: Path
-) -> None:
+def test_what_goes_straight_is_held_and_late_and_this_is_reported(fmu_of, tmp_path):
     """Without intermediate update half a step late: as the FMU of FMI 2.0 with a table that is late by that.
 
     With it, as our FMUs have it, nothing is late.
@@ -122,7 +116,7 @@ def test_what_goes_straight_is_held_and_late_and_this_is_reported(
 
 
 @pytest.mark.slow
-def test_states_and_start_values_are_those_of_fmi_2(fmu_of: Callable[[str, str], Path]) -> None:
+def test_states_and_start_values_are_those_of_fmi_2(fmu_of):
     for kind in kinds.IN_C:
         with Fmu(fmu_of("crane", kind)) as fmu, Fmu(fmu_of("crane", kind)) as other:
             fmu.initialise({"torque": 2.0}, 5.0)
@@ -139,7 +133,7 @@ def test_states_and_start_values_are_those_of_fmi_2(fmu_of: Callable[[str, str],
             assert read() == again() == end
 
 
-def test_elements_of_arrays_without_names_are_counted(fmu_of: Callable[[str, str], Path], tmp_path: Path) -> None:
+def test_elements_of_arrays_without_names_are_counted(fmu_of, tmp_path):
     named = fmu_of("crane", "fmi3")
     bare = changed_fmu(named, tmp_path / "bare.fmu", {ELEMENTS: None})
     assert [v.name for v in described(named).modelVariables if v.name != "time"] == [

@@ -51,8 +51,8 @@ def driven(fmu: Path, out: Path, fault: int, *options: object) -> tuple[int, str
     ],
 )
 def test_the_cause_of_an_early_end_is_reported_with_the_rows_until_then(
-    faults: Path, tmp_path: Path, temporary: Path, fault: int, message: str, rows: int
-) -> None:
+    faults, tmp_path, temporary, fault, message, rows
+):
     code, output, table = driven(faults, tmp_path / "out", fault)
     assert code == 1
     assert output.count(message) == 1
@@ -63,7 +63,7 @@ def test_the_cause_of_an_early_end_is_reported_with_the_rows_until_then(
     assert not list(temporary.iterdir())
 
 
-def test_processes_of_an_fmu_end_with_it_and_are_reported(faults: Path, tmp_path: Path, temporary: Path) -> None:
+def test_processes_of_an_fmu_end_with_it_and_are_reported(faults, tmp_path, temporary):
     done = run(main, faults, "--set", f"u={FORK}", "--out", tmp_path / "out")
     assert done.returncode == 0
     assert done.stderr == "note: 3 processes that an FMU had started were ended with it.\n"
@@ -72,9 +72,7 @@ def test_processes_of_an_fmu_end_with_it_and_are_reported(faults: Path, tmp_path
 
 
 @pytest.mark.parametrize("fault", [MOVE, WRITE])
-def test_another_folder_and_files_of_an_fmu_change_nothing_here(
-    faults: Path, tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch, fault: int
-) -> None:
+def test_another_folder_and_files_of_an_fmu_change_nothing_here(faults, tmp_path, temporary, monkeypatch, fault):
     monkeypatch.chdir(tmp_path)
     code, output, table = driven(Path(os.path.relpath(faults)), Path("out"), fault)
     assert code == 0
@@ -84,14 +82,14 @@ def test_another_folder_and_files_of_an_fmu_change_nothing_here(
     assert not list(temporary.iterdir())
 
 
-def test_one_that_prints_without_end_is_ended(faults: Path, tmp_path: Path) -> None:
+def test_one_that_prints_without_end_is_ended(faults, tmp_path):
     code, output, table = driven(faults, tmp_path / "out", PRINT)
     assert code == 1
     assert "was ended in fmi2DoStep at 0.04 s because it printed more than 200 MB; 5 rows were kept." in output
     assert len(table) == 5
 
 
-def test_memory_has_a_limit(faults: Path, tmp_path: Path) -> None:
+def test_memory_has_a_limit(faults, tmp_path):
     """What it cannot have is refused to the FMU, which says so."""
 
     def little() -> None:

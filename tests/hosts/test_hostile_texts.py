@@ -100,7 +100,7 @@ def check(shown: Any, *texts: str) -> None:
 
 
 @pytest.mark.slow
-def test_view_with_arrows(foreign: Path, tmp_path: Path, chromium: Any) -> None:
+def test_view_with_arrows(foreign, tmp_path, chromium):
     file = tmp_path / "Foreign.html"
     arguments = ["--arrows", "--stress", "--plot", SIGNAL, "--stop-time", "0.1", "--out", str(tmp_path), "--no-open"]
     assert main([str(foreign), *arguments]) == 0
@@ -129,9 +129,7 @@ KEYS = (
 
 
 @pytest.mark.parametrize("key", ["arrows[0].unit", "flexible[0].stress.limit_name"])
-def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_page(
-    key: str, tmp_path: Path, chromium: Any
-) -> None:
+def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_page(key, tmp_path, chromium):
     scene = with_text(key, MARKUP)
     assert all([e.partition(" is ")[0] for e in scene_errors(with_text(k, MARKUP))] == [k] for k in KEYS)
     recording = Recording(drawing(), np.array([0.0, 1.0]), {"bob.x": np.array([0.0, 1.0])})
@@ -146,7 +144,7 @@ def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_pa
 
 
 @pytest.mark.slow
-def test_the_page_that_runs_it(foreign: Path, tmp_path: Path, chromium: Any) -> None:
+def test_the_page_that_runs_it(foreign, tmp_path, chromium):
     arguments = ["--title", MARKUP, "--plot", SIGNAL, "--out", str(tmp_path)]
     assert main([str(foreign), "--live", "--no-open", *arguments]) == 0
     shown = opened(chromium, tmp_path / "Foreign_live.html")
@@ -158,7 +156,7 @@ def test_the_page_that_runs_it(foreign: Path, tmp_path: Path, chromium: Any) -> 
 
 
 @pytest.mark.slow
-def test_the_simulator(chromium: Any) -> None:
+def test_the_simulator(chromium):
     columns = {"speed": np.zeros(2), "bob.x": np.ones(2), SIGNAL: np.ones(2)}
     recording = Recording(drawing(), np.array([0.0, 1.0]), columns, {"speed": MARKUP, SIGNAL: MARKUP}, MARKUP)
     place = {"name": MARKUP, "x": 0.0, "y": 0.0, "yaw": 0.0}
@@ -178,7 +176,7 @@ def test_the_simulator(chromium: Any) -> None:
 
 
 @pytest.mark.slow
-def test_reports(foreign: Path, tmp_path: Path, chromium: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports(foreign, tmp_path, chromium, monkeypatch):
     monkeypatch.setattr(synthetic_records, "EVIL", MARKUP)
     write_report(tmp_path / "report.html", *synthetic_records.synthetic(tmp_path / "none.fmu", tests=2, points=50))
     shown = opened(chromium, tmp_path / "report.html")
@@ -192,14 +190,14 @@ def test_reports(foreign: Path, tmp_path: Path, chromium: Any, monkeypatch: pyte
     check(opened(chromium, tmp_path / "log.html"), SIGNAL)
 
 
-def test_the_documentation_in_an_fmu(tmp_path: Path, chromium: Any) -> None:
+def test_the_documentation_in_an_fmu(tmp_path, chromium):
     variable = Variable(MARKUP, "output", "continuous", MARKUP, MARKUP, "sensor", 0)
     text = documentation(MARKUP, MARKUP, MARKUP, 0.01, [variable], [MARKUP])
     (tmp_path / "index.html").write_text(text, encoding="utf-8")
     check(opened(chromium, tmp_path / "index.html"), MARKUP)
 
 
-def test_a_script_that_is_not_whole_is_refused() -> None:
+def test_a_script_that_is_not_whole_is_refused():
     for text in ("</script>", "</SCRIPT >", "<!--", "a\rb"):
         with pytest.raises(ValueError, match="holds </script"):
             html.page("title", "", scripts=[text])

@@ -28,9 +28,7 @@ def variable(unit: str, low: float, high: float) -> Variable:
         ("1", 0.0, math.inf, -1.0 - WAVE, "range"),
     ],
 )
-def test_another_unit_is_reported_with_its_row(
-    unit: str, low: float, high: float, values: np.ndarray, message: str
-) -> None:
+def test_another_unit_is_reported_with_its_row(unit, low, high, values, message):
     sentence = beyond_range(variable(unit, low, high), values)
     worst = int(np.argmax(np.maximum(low - values, values - high)))
     assert message in sentence
@@ -38,7 +36,7 @@ def test_another_unit_is_reported_with_its_row(
     assert f"{values[worst]:.6g}" in sentence
 
 
-def test_rounding_is_not_outside_of_the_range() -> None:
+def test_rounding_is_not_outside_of_the_range():
     one = variable("1", -1.0, 1.0)
     assert beyond_range(one, np.array([-1.0 - 1e-6, 1.0 + 1e-6])) == ""
     assert beyond_range(one, np.array([0.0, 1.0 + 1e-5])) != ""

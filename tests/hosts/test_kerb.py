@@ -27,7 +27,7 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.slow
 @pytest.mark.drawn
-def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_picture_and_the_table(fmu, tmp_path, capsys):
     assert main(["--kerb", str(fmu), "--fidelity", "1", "--out", str(tmp_path)]) == 0
     output = capsys.readouterr().out
     assert all(f"\n{g} " in output for g in kerb.GAUGES)
@@ -39,7 +39,7 @@ def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.Cap
 
 
 @pytest.mark.slow
-def test_invalid_values_are_refused(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_values_are_refused(fmu, tmp_path, capsys):
     for options, message in (
         (["--fidelity", "0.5"], "whole number"),
         (["--step", "0.1"], "below 0.05 s"),
@@ -51,9 +51,7 @@ def test_invalid_values_are_refused(fmu: Path, tmp_path: Path, capsys: pytest.Ca
 
 
 @pytest.mark.slow
-def test_without_an_fmu_that_of_the_scene_is_built_and_kept(
-    fmu: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_without_an_fmu_that_of_the_scene_is_built_and_kept(fmu, capsys, monkeypatch, tmp_path):
     """The build itself is tested elsewhere; here it takes the FMU that is there."""
     requested: list[tuple[str, ...]] = []
 
@@ -75,7 +73,7 @@ def test_without_an_fmu_that_of_the_scene_is_built_and_kept(
     assert "--manoeuvre cannot be combined with --kerb" in capsys.readouterr().err
 
 
-def test_the_filter_keeps_slow_and_removes_fast() -> None:
+def test_the_filter_keeps_slow_and_removes_fast():
     t = 0.01 * np.arange(1001)
     slow, fast = np.sin(2 * np.pi * 1.0 * t), np.sin(2 * np.pi * 40.0 * t)
     inner = (t > 1.0) & (t < 9.0)

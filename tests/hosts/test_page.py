@@ -7,7 +7,7 @@ import json
 import re
 import shutil
 import zipfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +46,7 @@ def refusal(fmu: Path, capsys: pytest.CaptureFixture[str], *more: str) -> str:
     return errors
 
 
-def test_the_page_holds_the_content_of_the_fmu_only(tuned: Path, tmp_path: Path) -> None:
+def test_the_page_holds_the_content_of_the_fmu_only(tuned, tmp_path):
     fmu = changed(tuned, tmp_path)
     arguments = [
         "--title",
@@ -80,9 +80,7 @@ def test_the_page_holds_the_content_of_the_fmu_only(tuned: Path, tmp_path: Path)
     assert "max" not in variables["bob.x"]
 
 
-def test_a_missing_binary_is_compiled_from_the_sources_or_the_command_is_named(
-    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_missing_binary_is_compiled_from_the_sources_or_the_command_is_named(tuned, tmp_path, capsys, monkeypatch):
     folder = tmp_path / "my FMUs"
     folder.mkdir()
     bare = changed(tuned, folder, changes={WASM: None})
@@ -100,15 +98,13 @@ def test_a_missing_binary_is_compiled_from_the_sources_or_the_command_is_named(
         (b'generationTool="ALi3 0.1.0, PythonFMU 0.7.0"', "is an FMU of the kind python, which needs a Python"),
     ],
 )
-def test_fmus_of_others(
-    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], tool: bytes, message: str
-) -> None:
+def test_fmus_of_others(tuned, tmp_path, capsys, tool, message):
     other = {DESCRIPTION: lambda data: re.sub(rb'generationTool="[^"]*"', tool, data)}
     assert message in refusal(changed(tuned, tmp_path, changes=other), capsys)
 
 
 @pytest.mark.slow
-def test_an_invalid_road_is_refused(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_road_is_refused(tuned, tmp_path, capsys):
     roads = {"roads": [{"kind": "file", "variable": "road.file", "path": "resources/roads/own.road"}]}
     fmu = changed(tuned, tmp_path, DRAWING | roads)
     text = tmp_path / "words"
@@ -116,7 +112,7 @@ def test_an_invalid_road_is_refused(tuned: Path, tmp_path: Path, capsys: pytest.
     assert f"The road {text} cannot be used: {text} is not read as a road" in refusal(fmu, capsys, "--road", str(text))
 
 
-def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> None:
+def test_a_road_is_drawn_as_slick_as_it_was_set(tuned, tmp_path):
     """That of the FMU, and one from a file, of which the factor alone is set."""
     variables = {name: f"road.{name}" for name in ("friction", "friction_factor", "file")}
     own = {"kind": "flat", "friction": 1.2, "friction_factor": 1.0, "variables": variables}
@@ -129,7 +125,7 @@ def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> 
         assert (drawn["friction"], drawn["friction_factor"]) == (1.27 if file else 0.8, 0.25)
 
 
-def test_a_result_with_a_deleted_world_names_the_command_that_makes_it(tuned: Path, tmp_path: Path) -> None:
+def test_a_result_with_a_deleted_world_names_the_command_that_makes_it(tuned, tmp_path):
     """On the terminal, and to the page; a world that is made again there is drawn."""
     fmu = changed(tuned, tmp_path, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
     gone, result = tmp_path / "my worlds" / "skidpad.road", tmp_path / "drive.csv"
@@ -146,7 +142,7 @@ def test_a_result_with_a_deleted_world_names_the_command_that_makes_it(tuned: Pa
 
 
 @pytest.mark.slow
-def test_a_result_with_deleted_scenery_reports_it(tuned: Path, tmp_path: Path) -> None:
+def test_a_result_with_deleted_scenery_reports_it(tuned, tmp_path):
     """Its ground is drawn from the road file; what stood on it was known to the record that has gone."""
     fmu = changed(tuned, tmp_path, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
     world, result = tmp_path / "line.toml", tmp_path / "drive.csv"
@@ -178,7 +174,7 @@ def test_a_result_with_deleted_scenery_reports_it(tuned: Path, tmp_path: Path) -
     assert f"{of_world} is the record of another line.road than the one beside it" in notes_of([recording])[0]
 
 
-def test_an_fmu_that_is_named_beside_a_record_is_drawn_where_the_run_was(tuned: Path, tmp_path: Path) -> None:
+def test_an_fmu_that_is_named_beside_a_record_is_drawn_where_the_run_was(tuned, tmp_path):
     """As the sentence about an FMU that has moved asks for; without a record the ground is not known, which is said."""
     level = {"kind": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0]}
     fmu = changed(tuned, tmp_path, DRAWING | {"up": [0, 0, 1], "planar": False, "roads": [level]})
@@ -204,7 +200,7 @@ def test_an_fmu_that_is_named_beside_a_record_is_drawn_where_the_run_was(tuned: 
     assert sentence.startswith(f"{result} has no record drive.json beside it that says where it ran: ")
 
 
-def test_runs_on_different_worlds_say_whose_ground_is_drawn(tuned: Path, tmp_path: Path) -> None:
+def test_runs_on_different_worlds_say_whose_ground_is_drawn(tuned, tmp_path):
     fmu = changed(tuned, tmp_path, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
     results = []
     for name, size in (("one", 20.0), ("two", 30.0)):
@@ -223,19 +219,19 @@ def test_runs_on_different_worlds_say_whose_ground_is_drawn(tuned: Path, tmp_pat
     assert notes_of(recordings) == ["two: It ran on another ground than one, whose ground is drawn."]
 
 
-def test_an_invalid_drawing_is_refused(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_drawing_is_refused(tuned, tmp_path, capsys):
     none = refusal(changed(tuned, tmp_path, None), capsys)
     assert "has no drawing of itself (resources/geometry.json)" in none
     assert "format is 'x'" in refusal(changed(tuned, tmp_path, {"format": "x"}), capsys)
 
 
-def test_an_fmu_of_fmi_3(scene_fmu: Callable[..., Path], capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_fmu_of_fmi_3(scene_fmu, capsys):
     message = refusal(scene_fmu(f"{SCENES}:tuned", "fmi3"), capsys)
     assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in message
     assert "--scene tuned --kind native --platforms this,wasm32" in message
 
 
-def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_wishes(tuned, tmp_path, capsys):
     fmu = changed(tuned, tmp_path)
     for more, message in (
         (("--set", "spring.damping=50"), "its range is 0 to 20 N·s/m"),

@@ -60,7 +60,7 @@ def bits(value: float) -> bytes:
     return struct.pack("<d", value)
 
 
-def test_what_a_build_writes_every_reader_reads(tuned: Path, file: Path) -> None:
+def test_what_a_build_writes_every_reader_reads(tuned, file):
     name, system = load_scene(f"{HERE / 'scenes.py'}:tuned")
     builder = FmuBuilder(system, name, 0, ("", "", ""), lambda *_: nullcontext())
     assert write_beside(builder.parameters, file)
@@ -82,7 +82,7 @@ def test_what_a_build_writes_every_reader_reads(tuned: Path, file: Path) -> None
     assert "Of the spring: free_length; 0.1 to 2 m; fixed" in text
 
 
-def test_values_come_back_to_the_last_bit(tuned: Path, file: Path) -> None:
+def test_values_come_back_to_the_last_bit(tuned, file):
     odd = {
         "spring.stiffness": 100.0 / 3.0,
         "spring.damping": 0.1 + 0.2,
@@ -112,9 +112,7 @@ def test_values_come_back_to_the_last_bit(tuned: Path, file: Path) -> None:
         ('<ssv:Parameter name="spring.stiffness"><ssv:Integer value="250"/></ssv:Parameter>', 250.0, "(set.ssv)"),
     ],
 )
-def test_units_are_converted_by_their_definitions(
-    variables: Variables, file: Path, entry: str, value: float, message: str
-) -> None:
+def test_units_are_converted_by_their_definitions(variables, file, entry, value, message):
     result = taken(variables, file, ssv(entry))
     (actual,) = result.start.values()
     assert actual == pytest.approx(value, rel=1e-15)
@@ -154,7 +152,7 @@ def test_units_are_converted_by_their_definitions(
         ('<!DOCTYPE a [<!ENTITY b "c">]>' + ssv("spring.damping=1"), "document type declaration"),
     ],
 )
-def test_unusable_values_are_refused_in_one_sentence(variables: Variables, file: Path, text: str, message: str) -> None:
+def test_unusable_values_are_refused_in_one_sentence(variables, file, text, message):
     file.write_text(text)
     settings = Settings(variables)
     with pytest.raises(UserError, match=message) as raised:
@@ -165,9 +163,7 @@ def test_unusable_values_are_refused_in_one_sentence(variables: Variables, file:
     assert settings.start == {}  # nothing of the file
 
 
-def test_version_2_is_read_and_comments_annotations_and_enumerations_are_passed_over(
-    variables: Variables, file: Path
-) -> None:
+def test_version_2_is_read_and_comments_annotations_and_enumerations_are_passed_over(variables, file):
     note = '<ssv:Annotations><ssc:Annotation type="org.test"><a b="1"/></ssc:Annotation></ssv:Annotations>'
     kinds_of = '<ssv:Enumerations><ssc:Enumeration name="g"><!-- g --><ssc:Item name="a" value="1"/></ssc:Enumeration>'
     text = ssv(
@@ -185,7 +181,7 @@ def test_version_2_is_read_and_comments_annotations_and_enumerations_are_passed_
     }
 
 
-def test_display_units_of_the_fmu_are_known(file: Path) -> None:
+def test_display_units_of_the_fmu_are_known(file):
     degree = DisplayUnit(name="deg", factor=57.29577951308232)
     celsius = DisplayUnit(name="degC", factor=1.0, offset=-273.15)
     units = [
@@ -210,9 +206,7 @@ def test_display_units_of_the_fmu_are_known(file: Path) -> None:
 
 @settings(max_examples=60, deadline=None)
 @given(places=st.lists(st.tuples(st.integers(0, 2000), st.integers(0, 255)), min_size=1, max_size=6))
-def test_altered_files_are_refused_or_read(
-    tmp_path_factory: pytest.TempPathFactory, places: list[tuple[int, int]]
-) -> None:
+def test_altered_files_are_refused_or_read(tmp_path_factory, places):
     data = bytearray(ssv("spring.damping=2[kN/m]", entry("n", 'Integer value="3"')).encode())
     for place, byte in places:
         data[place % len(data)] = byte
@@ -241,7 +235,7 @@ def kinds() -> Variables:
     return Variables(ModelDescription(modelVariables=variables))
 
 
-def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
+def test_every_kind_goes_out_and_comes_back(file):
     values = {"count": 7, "on": True, "road": "a b.npz", "gear": 2, "depth": -1.5}
     write_parameter_set(parameter_set_of(kinds(), "all", values), file, as_built=False)
     xmlschema.validate(str(file), str(ModelicaStandard.schemas["ssv"]))
@@ -267,18 +261,18 @@ def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
         ("depth", "5", "'depth' is 5; its range is up to 4"),
     ],
 )
-def test_values_of_the_command_line_are_of_their_kind(name: str, text: str, message: str) -> None:
+def test_values_of_the_command_line_are_of_their_kind(name, text, message):
     with pytest.raises(HostError, match=message):
         Settings(kinds()).add_texts([(name, text)], "--set")
 
 
 @pytest.mark.parametrize(("name", "kind"), [("depth", "a Real"), ("count", "an Integer"), ("gear", "an Enumeration")])
-def test_a_truth_value_is_no_number(name: str, kind: str) -> None:
+def test_a_truth_value_is_no_number(name, kind):
     with pytest.raises(HostError, match=f"'{name}' is true; it must be {kind}"):
         Settings(kinds()).add_numbers({name: True}, "start of drive")
 
 
-def test_units_with_an_offset() -> None:
+def test_units_with_an_offset():
     kelvin, celsius = UnitDefinition({"K": 1}), UnitDefinition({"K": 1}, 1.0, 273.15)
     assert kelvin.convert(293.15, celsius) == pytest.approx(20.0, rel=1e-12)
     fahrenheit = UnitDefinition({"K": 1}, 5 / 9, 459.67 * 5 / 9)
@@ -293,7 +287,7 @@ def test_units_with_an_offset() -> None:
         ('fileversion="', 'fileversion="x'),
     ],
 )
-def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path, old: str, new: str) -> None:
+def test_a_set_that_a_person_has_edited_is_kept(variables, file, old, new):
     assert write_beside(parameter_set_of(variables, "Tuned", {}), file)
     assert is_as_built(file)
     built = file.read_text()
@@ -304,7 +298,7 @@ def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path
     assert file.read_text() == built.replace(old, new)
 
 
-def test_a_picture_names_the_changed_values() -> None:
+def test_a_picture_names_the_changed_values():
     settings = Settings(kinds())
     settings.add_numbers({"depth": 2.0}, "start of rest")
     assert settings.title("car") == "car"
@@ -313,7 +307,7 @@ def test_a_picture_names_the_changed_values() -> None:
 
 
 @pytest.mark.slow
-def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tmp_path: Path) -> None:
+def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file, tmp_path):
     car = build_car("hatchback")
     fmu = build_fmu(car.systems[0], car.name, tmp_path, [fmpy.platform])
     system = car.systems[0]

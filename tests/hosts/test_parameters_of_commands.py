@@ -2,7 +2,6 @@
 
 import json
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -19,9 +18,7 @@ def file(tmp_path: Path) -> Path:
     return tmp_path / "set.ssv"
 
 
-def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
-    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(tuned, file, tmp_path, capsys):
     file.write_text(ssv("spring.stiffness=200", "spring.damping=3", "spring.free_length=0.8"))
     table = tmp_path / "pull.csv"
     table.write_text('# start: spring.damping=5,spring.stiffness=50\n"time","pull"\n0,0\n1,10\n')
@@ -41,9 +38,7 @@ def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
 
 
 @pytest.mark.slow
-def test_parameter_sets_without_effect_are_reported(
-    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_parameter_sets_without_effect_are_reported(tuned, file, tmp_path, capsys):
     file.write_text(ssv("spring.damping=1"))
     assert run([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
     assert "all 1 values are those of the FMU: it changes nothing" in capsys.readouterr().out
@@ -54,9 +49,7 @@ def test_parameter_sets_without_effect_are_reported(
     assert "--set: 'spring.damping' is given as 1 and as 2; give it once" in capsys.readouterr().err
 
 
-def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
-    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(tuned, tmp_path, capsys):
     table = tmp_path / "softer.csv"
     table.write_text('"time","pull","spring.stiffness"\n0,0,100\n1,0,100\n1,0,50\n2,0,50\n')
     assert run([str(tuned), "--input", str(table), "--out", str(tmp_path), "--step", "0.01"]) == 0
@@ -83,7 +76,7 @@ def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
     assert "range of the FMU's input is 10 to 900 N/m" in errors
 
 
-def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_differences_of_a_set(tuned, file, capsys):
     file.write_text(ssv("spring.stiffness=0.2[kN/m]", "spring.damping=1"))
     assert check([str(tuned), "--diff", str(file)]) == 0
     assert capsys.readouterr().out == "spring.stiffness  100 -> 200 N/m\n"
@@ -95,9 +88,7 @@ def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFix
     assert ["spring.free_length", "0.8", "m", "0.1 to 2", "fixed", "Of the spring: free_length"] in rows
 
 
-def test_hosts_refuse_an_invalid_set_with_the_same_message(
-    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_hosts_refuse_an_invalid_set_with_the_same_message(tuned, file, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     file.write_text(ssv("spring.damping=200"))
     for command, more in ((run, []), (check, ["--show-parameters"])):
@@ -111,9 +102,7 @@ def test_hosts_refuse_an_invalid_set_with_the_same_message(
     assert capsys.readouterr().err.startswith(f"error: {file}: 'spring.damping' is 200")
 
 
-def test_a_column_of_whole_numbers_is_held_between_its_rows(
-    scene_fmu: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_column_of_whole_numbers_is_held_between_its_rows(scene_fmu, tmp_path, capsys):
     fmu = scene_fmu(f"{Path(__file__).with_name('scenes.py')}:switched")
     table = tmp_path / "shift.csv"
     table.write_text('"time","pull","gear"\n0,0,1\n1,2,3\n2,2,-1\n')

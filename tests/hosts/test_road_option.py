@@ -85,9 +85,7 @@ STEEP = '[[courses]]\nname = "hill"\npoints = "hill.csv"\nsmoothing = 1.0\nwidth
 
 
 @pytest.mark.slow
-def test_a_description_has_its_own_name_and_warnings_of_the_command_are_reported(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_description_has_its_own_name_and_warnings_of_the_command_are_reported(tmp_path, monkeypatch):
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
     file = tmp_path / "other.toml"
     rows = "".join(f"{x},0,{0.6 * (x + 15):.3f}\n" for x in range(-15, 16, 3))

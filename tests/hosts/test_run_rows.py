@@ -44,7 +44,7 @@ def driven(
 
 @pytest.mark.parametrize("slopes", [True, False])
 @pytest.mark.parametrize("refused", [1000, 13])
-def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
+def test_the_last_step_has_a_row(slopes, refused):
     """Where the stop time is not a multiple of the interval too, but not behind a step that was refused."""
     requested: dict[str, Any] = {"time": (0.0, 0.17), "u": (1.0, 3.0), "slopes": slopes, "refused": refused}
     few, each = driven(every=5, **requested), driven(every=1, **requested)
@@ -69,12 +69,12 @@ def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
         (False, (0.0, 0.08, 0.08, 0.09, 0.09, 0.2), (1.0, 1.0, 2.0, 2.0, 1.0, 1.0), ["u"]),
     ],
 )
-def test_what_rows_do_not_tell_of_inputs(slopes: bool, time: tuple[float], u: tuple[float], lost: list[str]) -> None:
+def test_what_rows_do_not_tell_of_inputs(slopes, time, u, lost):
     assert driven(time, u, 5, slopes).lost == lost
     assert driven(time, u, 1, slopes).lost == []
 
 
-def test_a_summary_of_rows_at_an_interval_says_so() -> None:
+def test_a_summary_of_rows_at_an_interval_says_so():
     few, each = (driven((0.0, 0.17), (1.0, 3.0), every) for every in (5, 1))
     assert ("rows every 0.05 s", "largest values and means are of these rows") in summary(few, H)
     assert not any(what.startswith("rows every") for what, _ in summary(each, H))
@@ -102,9 +102,7 @@ def test_a_summary_of_rows_at_an_interval_says_so() -> None:
         (True, (0.0, 0.104, 0.2), (0.0, 1.0, 1.8), None, ""),
     ],
 )  # fmt: skip
-def test_what_is_inside_a_step_is_reported(
-    slopes: bool, time: tuple[float], u: tuple[float], what: str | None, message: str
-) -> None:
+def test_what_is_inside_a_step_is_reported(slopes, time, u, what, message):
     rows = {k: v for k, v in summary(driven(time, u, 1, slopes), H) if k.endswith("inside a communication step")}
     assert rows == ({f"{what} inside a communication step": message} if what else {})
     if "--step" in message:  # what helps does help: the integral is then that of the table, and nothing is told
@@ -116,7 +114,7 @@ def test_what_is_inside_a_step_is_reported(
         assert not fine.missed
 
 
-def test_manoeuvres_of_the_package_have_nothing_inside_steps_of_2_ms() -> None:
+def test_manoeuvres_of_the_package_have_nothing_inside_steps_of_2_ms():
     for name in manoeuvre_names():
         requested = load_manoeuvre(name)
         for straight in (list(requested.inputs), []):
@@ -125,7 +123,7 @@ def test_manoeuvres_of_the_package_have_nothing_inside_steps_of_2_ms() -> None:
 
 @pytest.mark.parametrize("held", [False, True])
 @pytest.mark.parametrize("before", [False, True])
-def test_many_values_of_a_table_are_those_one_by_one(held: bool, before: bool) -> None:
+def test_many_values_of_a_table_are_those_one_by_one(held, before):
     table = Manoeuvre("m", np.array([0.1, 0.2, 0.2, 0.5]), {"u": np.array([1.0, 2.0, 4.0, -3.0])}, 1.0)
     times = np.array([0.0, 0.1, 0.13, 0.2, 0.2 + 1e-12, 0.31, 0.5, 0.9])
     one_by_one = [table.at(t, ("u",) if held else (), before)["u"] for t in times.tolist()]
@@ -133,14 +131,14 @@ def test_many_values_of_a_table_are_those_one_by_one(held: bool, before: bool) -
 
 
 @pytest.mark.parametrize("held", [frozenset(), frozenset({"u"})])
-def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held: frozenset[str]) -> None:
+def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held):
     requested = Manoeuvre("m", np.array([0.0, 0.05, 0.104]), {"u": np.array([0.0, 1.0, 2.0])}, 0.2, held=held)
     rows = dict(summary(run(Integrator(True), requested, H), H))  # type: ignore[arg-type]
     assert ("jumps inside a communication step" in rows) == bool(held)
 
 
 @pytest.mark.parametrize(("stop", "end"), [(1.0, 0.8), (0.8, None)])
-def test_a_run_that_ends_at_another_time_is_reported(stop: float, end: float | None) -> None:
+def test_a_run_that_ends_at_another_time_is_reported(stop, end):
     requested = Manoeuvre("m", np.array([0.0]), {"u": np.array([1.0])}, stop)
     result = run(Integrator(True), requested, 0.4)  # type: ignore[arg-type]
     row = dict(summary(result, 0.4)).get("end of the run")
@@ -151,14 +149,14 @@ def test_a_run_that_ends_at_another_time_is_reported(stop: float, end: float | N
         assert run(Integrator(True), requested, shorter).time[-1] == pytest.approx(stop, abs=1e-8)  # type: ignore[arg-type]
 
 
-def test_time_in_the_air_ends_with_the_run() -> None:
+def test_time_in_the_air_ends_with_the_run():
     """0.17 s in rows of 0.05 s."""
     few = driven((0.0, 0.17), (0.0, 0.0), 5)
     air = replace(few, names=["u", "wheel_FL.Fz"])
     assert ("wheels in the air", "FL 170  ms") in summary(air, H)
 
 
-def test_there_need_be_no_outputs() -> None:
+def test_there_need_be_no_outputs():
     for names in ((), ("stress.a",)):
         result = driven((0.0, 0.17), (1.0, 1.0), 5, outputs=names)
         assert result.values[-1].tolist() == [1.0, pytest.approx(0.17)][: 1 + len(names)]

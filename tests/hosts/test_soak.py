@@ -44,9 +44,7 @@ def task(car: Path, out: Path, **other: Any) -> Task:
 
 
 @pytest.mark.slow
-def test_a_short_soak_test_is_good_and_goes_on_to_more(
-    prototype_fmu: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_short_soak_test_is_good_and_goes_on_to_more(prototype_fmu, tmp_path, capfd):
     """Two drives of 5 s in processes of their own, on ramps, kerbs and rough roads; then one more, and a lost one."""
     numbers = tmp_path / "soak.json"
     command = [str(prototype_fmu), "--soak", "--stop-time", "5", "--jobs", "1", "--seed", "3"]
@@ -76,7 +74,7 @@ def test_a_short_soak_test_is_good_and_goes_on_to_more(
     assert kept[0]["counts"] != kept[1]["counts"] != kept[4]["counts"]
 
 
-def test_what_is_set_wins_over_the_start_by_chance(prototype_fmu: Path, ground: Ground, tmp_path: Path) -> None:
+def test_what_is_set_wins_over_the_start_by_chance(prototype_fmu, ground, tmp_path):
     """A start at 25 m/s and 1 m above the road, which the car reaches after 0.45 s."""
     start = {"initial.x": 5e4, "initial.y": 0.0, "initial.z": 1.0, "initial.speed": 25.0}
     counts = drive(task(prototype_fmu, tmp_path, seconds=1.0, start=start)).counts
@@ -94,9 +92,7 @@ def test_what_is_set_wins_over_the_start_by_chance(prototype_fmu: Path, ground: 
 
 
 @pytest.mark.slow
-def test_a_failing_stretch_is_saved_and_repeated(
-    prototype_fmu: Path, ground: Ground, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failing_stretch_is_saved_and_repeated(prototype_fmu, ground, tmp_path, monkeypatch):
     """The limit of the energy is set so low that the drive fails; the drive of its manoeuvre ends in the same bits."""
     monkeypatch.setattr(drive_module, "_MOST_STRETCHES", 1)
     outcome = drive(task(prototype_fmu, tmp_path, seconds=5.0, grounds=(ground,), largest_balance=1e-6))
@@ -123,9 +119,7 @@ def test_a_failing_stretch_is_saved_and_repeated(
 
 
 @pytest.mark.slow
-def test_a_refused_step_is_saved_with_its_inputs(
-    prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_refused_step_is_saved_with_its_inputs(prototype_fmu, tmp_path, monkeypatch):
     real, tried = Fmu.step, []
 
     def refuse(self: Fmu, time: float, step: float) -> None:
@@ -151,9 +145,7 @@ def test_a_refused_step_is_saved_with_its_inputs(
 
 
 @pytest.mark.slow
-def test_a_state_that_is_not_restored_is_seen(
-    prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_state_that_is_not_restored_is_seen(prototype_fmu, tmp_path, monkeypatch):
     assert drive(task(prototype_fmu, tmp_path, seconds=2.0)).rewinds >= 1
     real = Fmu.restore
 
@@ -178,7 +170,7 @@ def row(**values: float) -> list[float]:
     return list(known_names.values())
 
 
-def test_the_checks_detect_each_fault() -> None:
+def test_the_checks_detect_each_fault():
     def kind(steps: int = 1, **values: float) -> str:
         watch = Watch(OUTPUTS, 0.01)
         try:
@@ -197,7 +189,7 @@ def test_the_checks_detect_each_fault() -> None:
     assert kind(100, solver_energy_balance=0.049) == ""
 
 
-def test_the_watch_counts() -> None:
+def test_the_watch_counts():
     watch = Watch(OUTPUTS, 0.01)
     watch.begin(row())
     for k in range(40):
@@ -213,7 +205,7 @@ def test_the_watch_counts() -> None:
     assert (counts.top_speed, counts.farthest, counts.halvings, counts.capped) == (29.0, 390.0, 5.0, 1.0)
 
 
-def test_growing_memory_is_seen() -> None:
+def test_growing_memory_is_seen():
     memory = Memory()
     pages = []
     for _ in range(40):
@@ -246,7 +238,7 @@ def is_worker(process: psutil.Process) -> bool:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a signal")
 @pytest.mark.slow
-def test_a_terminated_soak_test_reports_the_finished_drives(prototype_fmu: Path, tmp_path: Path) -> None:
+def test_a_terminated_soak_test_reports_the_finished_drives(prototype_fmu, tmp_path):
     out = tmp_path / "numbers.json"
     message = ["--soak", "--stop-time", "300", "--drives", "1", "--jobs", "1", "--json", str(out)]
     command = [sys.executable, "-m", "ali3", "check", str(prototype_fmu), *message, "--out", str(tmp_path)]
@@ -266,9 +258,7 @@ def test_a_terminated_soak_test_reports_the_finished_drives(prototype_fmu: Path,
 
 
 @pytest.mark.slow
-def test_a_process_that_dies_is_a_failure(
-    prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_process_that_dies_is_a_failure(prototype_fmu, tmp_path, monkeypatch, capfd):
     monkeypatch.setattr("hosts.soak.soak.drive", dying)
     drives = ["--stop-time", "5", "--drives", "1", "--seed", "9"]
     assert main([str(prototype_fmu), "--soak", *drives, "--out", str(tmp_path)]) == 1
@@ -279,9 +269,7 @@ def test_a_process_that_dies_is_a_failure(
     assert "1 failures" in output
 
 
-def test_a_failed_drive_is_repeated_with_all_that_it_was_given(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failed_drive_is_repeated_with_all_that_it_was_given(tmp_path, capfd, monkeypatch):
     """Step, worlds and values too, in words that a shell reads as they were."""
     start: dict[str, Any] = {"initial.speed": 12.5, "tyre.fast": True, "initial.note": "two words"}
     failed_task = task(tmp_path / "my car.fmu", tmp_path, seed=7, fidelity=2, step=1.0 / 300.0, start=start)
@@ -302,7 +290,7 @@ def test_a_failed_drive_is_repeated_with_all_that_it_was_given(
     assert options.set == [("initial.speed", "12.5"), ("tyre.fast", "true"), ("initial.note", "two words")]
 
 
-def test_bad_wishes_are_refused(prototype_fmu: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_bad_wishes_are_refused(prototype_fmu, tmp_path, capfd):
     def refused(*arguments: str) -> str:
         assert main([str(prototype_fmu), "--soak", "--out", str(tmp_path), *arguments]) == 2
         return capfd.readouterr().err
@@ -313,7 +301,7 @@ def test_bad_wishes_are_refused(prototype_fmu: Path, tmp_path: Path, capfd: pyte
     assert "no parameter or input 'initial.sped'" in refused("--set", "initial.sped=1")
 
 
-def test_the_road_with_ramps() -> None:
+def test_the_road_with_ramps():
     heights, targets = jump_heights()
     assert heights.max() == pytest.approx(3.0)  # the hill
     assert heights.min() == pytest.approx(-0.03, abs=1e-3)

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -74,7 +73,7 @@ def asked(speed: float, steering: float = 0.0, stop: float = 6.0) -> Manoeuvre:
 
 
 @pytest.mark.parametrize("speed", [3.0, 50.0])
-def test_the_throttle_is_that_of_the_resistance(speed: float) -> None:
+def test_the_throttle_is_that_of_the_resistance(speed):
     fmu = Slider()
     result = run(fmu, asked(speed), H)  # type: ignore[arg-type]
     assert (fmu.starts, fmu.resets) == (2, 1)
@@ -85,7 +84,7 @@ def test_the_throttle_is_that_of_the_resistance(speed: float) -> None:
     assert "more than" not in rows["throttle"]
 
 
-def test_a_start_backwards_holds_no_speed() -> None:
+def test_a_start_backwards_holds_no_speed():
     assert "throttle" in dict(run(Unsigned(), asked(1.0), H).notes)  # type: ignore[arg-type]
     with pytest.raises(
         HostError, match=r"from 1 m/s the car slows down to 0\.0.* start forwards, as --set initial\.sp"
@@ -94,7 +93,7 @@ def test_a_start_backwards_holds_no_speed() -> None:
 
 
 @pytest.mark.parametrize(("steering", "reported"), [(0.02, False), (-0.1, True)])
-def test_a_change_above_3_per_cent_is_reported_with_a_time_that_helps(steering: float, reported: bool) -> None:
+def test_a_change_above_3_per_cent_is_reported_with_a_time_that_helps(steering, reported):
     result = run(Slider(), asked(22.22, steering), H)  # type: ignore[arg-type]
     change = result["speed"] / 22.22 - 1.0
     assert (np.abs(change).max() > 0.03) == reported == (dict(result.missed).get("throttle") is not None)
@@ -107,7 +106,7 @@ def test_a_change_above_3_per_cent_is_reported_with_a_time_that_helps(steering: 
         assert run(Slider(), asked(22.22, steering, until + 2 * H), H).missed  # type: ignore[arg-type]
 
 
-def test_an_input_that_cannot_be_held_is_refused_with_those_that_can() -> None:
+def test_an_input_that_cannot_be_held_is_refused_with_those_that_can():
     with pytest.raises(HostError, match=r"which is 0 m/s; give one above 0, as --set initial\.speed"):
         run(Slider(), asked(0.0), H)  # type: ignore[arg-type]
     with pytest.raises(HostError, match=r"does not hold 80 m/s: after 30 s it is at [67]\d\.\d+ m/s with") as error:
@@ -122,7 +121,7 @@ def test_an_input_that_cannot_be_held_is_refused_with_those_that_can() -> None:
         run(bare, asked(20.0), H)  # type: ignore[arg-type]
 
 
-def test_find_throttle_is_read_from_and_written_to_a_file(tmp_path: Path) -> None:
+def test_find_throttle_is_read_from_and_written_to_a_file(tmp_path):
     result = read_manoeuvre("step_steer")
     assert result.find_throttle
     assert "throttle" not in result.inputs
@@ -143,7 +142,7 @@ def test_find_throttle_is_read_from_and_written_to_a_file(tmp_path: Path) -> Non
             read_manoeuvre(str(tmp_path / "m.toml"))
 
 
-def test_the_simulator_refuses_a_manoeuvre_that_finds_its_throttle() -> None:
+def test_the_simulator_refuses_a_manoeuvre_that_finds_its_throttle():
     car: Any = SimpleNamespace(inputs=["steering", "throttle", "brake"])
     with pytest.raises(HostError, match=r"'step_steer' finds its throttle in a run before"):
         ManoeuvreDriver(read_manoeuvre("step_steer"), car)
@@ -151,9 +150,7 @@ def test_the_simulator_refuses_a_manoeuvre_that_finds_its_throttle() -> None:
 
 
 @pytest.mark.slow
-def test_step_steer_keeps_its_speed_and_its_table_repeats_it(
-    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_step_steer_keeps_its_speed_and_its_table_repeats_it(prototype_fmu, tmp_path, capsys):
     speed = 15.0
 
     def drive(*more: str) -> tuple[Any, str]:

@@ -106,7 +106,7 @@ def shown(page: Path) -> list[dict[str, Any]]:
     return list(data["runs"])
 
 
-def test_a_result_is_shown_with_the_scene_of_its_fmu(result: Path, said: Said) -> None:
+def test_a_result_is_shown_with_the_scene_of_its_fmu(result, said):
     status, text = said(result)
     assert status == 0
     assert "written: out/motor_pendulum.html" in text
@@ -119,16 +119,14 @@ def test_a_result_is_shown_with_the_scene_of_its_fmu(result: Path, said: Said) -
     assert run["units"]["rod.angle"] == "rad"
 
 
-def test_a_result_is_found_from_another_folder(
-    result: Path, said: Said, work: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_result_is_found_from_another_folder(result, said, work, monkeypatch):
     (work / "elsewhere").mkdir()
     monkeypatch.chdir(work / "elsewhere")
     assert said((work / result).with_suffix(".json"), "--no-open")[0] == 0  # the record stands for its table
     assert shown(work / "out" / "motor_pendulum.html")[0]["scene"] is not None
 
 
-def test_an_fmu_is_run_and_shown(pendulum: Path, said: Said) -> None:
+def test_an_fmu_is_run_and_shown(pendulum, said):
     status, text = said(pendulum, "--stop-time", "0.5", "--set", "torque=2", "--no-open")
     assert status == 0
     assert "browser" not in text
@@ -138,7 +136,7 @@ def test_an_fmu_is_run_and_shown(pendulum: Path, said: Said) -> None:
     assert "torque 2" in run["name"]
 
 
-def test_two_are_shown_over_each_other_with_names_that_differ(result: Path, said: Said) -> None:
+def test_two_are_shown_over_each_other_with_names_that_differ(result, said):
     shutil.copytree("out", "other")
     assert said(result, "other/motor_pendulum.csv", "--no-open", "--plot", "rod.angle")[0] == 0
     runs = shown(Path("out/motor_pendulum_compared.html"))
@@ -148,7 +146,7 @@ def test_two_are_shown_over_each_other_with_names_that_differ(result: Path, said
     assert len(page["scenes"]) == 1
 
 
-def test_a_part_of_the_time_and_fewer_times(result: Path, said: Said) -> None:
+def test_a_part_of_the_time_and_fewer_times(result, said):
     status, text = said(result, "--from", "0.2", "--to", "0.6", "--most", "5", "--no-open", "--out", "part")
     assert status == 0
     assert "5 of " in text
@@ -156,7 +154,7 @@ def test_a_part_of_the_time_and_fewer_times(result: Path, said: Said) -> None:
     assert run["columns"]["time"][[0, -1]] == pytest.approx([0.2, 0.6])
 
 
-def test_a_run_of_mbs_is_shown_by_the_geometry_of_an_fmu(pendulum: Path, said: Said) -> None:
+def test_a_run_of_mbs_is_shown_by_the_geometry_of_an_fmu(pendulum, said):
     _, system = load_scene(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
     mbs.simulate(system, 0.5, 0.01, progress=False).to_csv("run.csv")
     status, text = said("run.csv", "--no-open")
@@ -172,7 +170,7 @@ def test_a_run_of_mbs_is_shown_by_the_geometry_of_an_fmu(pendulum: Path, said: S
     assert list(shown(Path("run.html"))[0]["scene"]["frames"]) == ["rod"]
 
 
-def test_a_run_of_mbs_with_poses_is_shown_by_its_own_scene_beside_it(work: Path, said: Said) -> None:
+def test_a_run_of_mbs_with_poses_is_shown_by_its_own_scene_beside_it(work, said):
     _, system = load_scene(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
     run = mbs.simulate(system, 0.5, 0.01, progress=False)
     run.to_csv("run.csv", poses=True)
@@ -188,7 +186,7 @@ def test_a_run_of_mbs_with_poses_is_shown_by_its_own_scene_beside_it(work: Path,
     assert "run.json is neither an FMU nor a scene: run.json: format is missing" in text
 
 
-def test_an_fmu_that_was_built_is_drawn_where_it_moves(built: Path, work: Path, said: Said) -> None:
+def test_an_fmu_that_was_built_is_drawn_where_it_moves(built, work, said):
     status, text = said(built, "--stop-time", "1", "--set", "torque=4", "--no-open")
     assert status == 0, text
     (run,) = shown(Path("out/MotorPendulum.html"))
@@ -200,7 +198,7 @@ def test_an_fmu_that_was_built_is_drawn_where_it_moves(built: Path, work: Path, 
     np.testing.assert_allclose(y, -0.5 * np.cos(angle), atol=1e-6)
 
 
-def test_an_fmu_that_has_moved_or_is_another_build(result: Path, said: Said, pendulum: Path) -> None:
+def test_an_fmu_that_has_moved_or_is_another_build(result, said, pendulum):
     pendulum.rename("Moved.fmu")
     status, text = said(result)
     assert status == 2
@@ -214,7 +212,7 @@ def test_an_fmu_that_has_moved_or_is_another_build(result: Path, said: Said, pen
     assert "is another FMU than that of motor_pendulum, or was built again since" in text
 
 
-def test_an_fmu_of_another_program_has_its_diagrams(pendulum: Path, built: Path, said: Said) -> None:
+def test_an_fmu_of_another_program_has_its_diagrams(pendulum, built, said):
     with_resources(built, pendulum, None)
     status, text = said(pendulum, "--stop-time", "0.2", "--no-open")
     assert status == 0
@@ -224,7 +222,7 @@ def test_an_fmu_of_another_program_has_its_diagrams(pendulum: Path, built: Path,
     assert len(page["options"]["plots"]) == 3
 
 
-def test_an_invalid_geometry_is_refused(pendulum: Path, built: Path, said: Said) -> None:
+def test_an_invalid_geometry_is_refused(pendulum, built, said):
     for geometry, sentence in (
         ("{", "resources/geometry.json of dist/MotorPendulum.fmu is not a JSON file"),
         (json.dumps(SCENE | {"extent": -1}), "geometry.json of dist/MotorPendulum.fmu: extent is -1; it must be above"),
@@ -235,7 +233,7 @@ def test_an_invalid_geometry_is_refused(pendulum: Path, built: Path, said: Said)
         assert sentence in text
 
 
-def test_a_result_without_poses_is_reported(result: Path, said: Said) -> None:
+def test_a_result_without_poses_is_reported(result, said):
     lines = result.read_text().splitlines()
     result.write_text("\n".join([lines[0].replace("rod.angle", "angle"), *lines[1:]]) + "\n")
     status, text = said(result, "--no-open")
@@ -244,7 +242,7 @@ def test_a_result_without_poses_is_reported(result: Path, said: Said) -> None:
     assert text.count("not drawn") == 1
 
 
-def test_one_time_and_values_that_are_no_numbers(result: Path, said: Said) -> None:
+def test_one_time_and_values_that_are_no_numbers(result, said):
     lines = result.read_text().splitlines()
     result.write_text("\n".join(lines[:2]) + "\n")
     assert said(result, "--no-open")[0] == 0
@@ -258,9 +256,7 @@ def test_one_time_and_values_that_are_no_numbers(result: Path, said: Said) -> No
     assert "The column 'rod.angle' has 1 of 101 values that are not numbers" in text
 
 
-def test_a_table_that_would_fill_the_memory_is_read_in_part(
-    result: Path, said: Said, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_table_that_would_fill_the_memory_is_read_in_part(result, said, monkeypatch):
     monkeypatch.setattr(recorded, "_FEWEST_ROWS", 11)
     monkeypatch.setattr(recorded, "_MOST_VALUES", 0)
     status, text = said(result, "--no-open")
@@ -286,9 +282,7 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
         ("a.fmu", "x", "is not an FMU (not a zip archive)"),
     ],
 )
-def test_files_that_cannot_be_shown_are_refused(
-    work: Path, said: Said, name: str, content: str | bytes, sentence: str
-) -> None:
+def test_files_that_cannot_be_shown_are_refused(work, said, name, content, sentence):
     Path(name).write_bytes(content if isinstance(content, bytes) else content.encode())
     status, text = said(name, "--no-open")
     assert status == 2
@@ -297,7 +291,7 @@ def test_files_that_cannot_be_shown_are_refused(
     assert not Path("a.html").exists()
 
 
-def test_lines_of_comment_are_left_out(work: Path, said: Said) -> None:
+def test_lines_of_comment_are_left_out(work, said):
     Path("a.csv").write_text("# first\ntime,x\n0,1\n# between\n1,2\n# outputs from: x\n")
     assert said("a.csv", "--no-open")[0] == 0
     np.testing.assert_array_equal(shown(Path("a.html"))[0]["columns"]["x"], [1.0, 2.0])
@@ -316,7 +310,7 @@ UNMET = [
 ]
 
 
-def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
+def test_options_that_cannot_be_met(result, said):
     wrong = []
     for arguments, sentence in UNMET:
         status, text = said(result, "--no-open", *arguments)
@@ -325,18 +319,14 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
     assert wrong == []
 
 
-def test_a_file_in_place_of_the_output_folder_is_refused(
-    result: Path, said: Said, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_file_in_place_of_the_output_folder_is_refused(result, said, capsys):
     with pytest.raises(SystemExit) as end:
         said(result, "--out", "x.GLB")
     assert end.value.code == 2
     assert "x.GLB is the name of a file; --out names the output folder" in capsys.readouterr().err
 
 
-def test_without_a_browser_for_pictures_there_is_one_sentence(
-    result: Path, said: Said, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_a_browser_for_pictures_there_is_one_sentence(result, said, monkeypatch):
     monkeypatch.setenv("ALI3_BROWSER", "none-such-browser")
     status, text = said(result, "--png", "p.png")
     assert status == 2
@@ -345,7 +335,7 @@ def test_without_a_browser_for_pictures_there_is_one_sentence(
 
 
 @pytest.mark.slow
-def test_pictures_and_animations_are_written_without_a_page(result: Path, said: Said) -> None:
+def test_pictures_and_animations_are_written_without_a_page(result, said):
     pytest.importorskip("playwright")
     chromium_or_skip()
     status, text = said(result, "--png", "p.png", "--at", "0.5", "--size", 320, 240, "--gltf", "p.glb")

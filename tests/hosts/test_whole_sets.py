@@ -31,7 +31,7 @@ def whole_set(variables: Variables, file: Path, values: Mapping[str, Value] | No
     return file
 
 
-def test_it_keeps_the_values_of_a_manoeuvre_or_a_world(variables: Variables, tmp_path: Path) -> None:
+def test_it_keeps_the_values_of_a_manoeuvre_or_a_world(variables, tmp_path):
     whole = whole_set(variables, tmp_path / "whole.ssv", {"front.tyre.grip": 0.9})
     settings = Settings(variables)
     settings.add_numbers({"road.friction": 0.5, "initial.x": 7.0}, "the world")
@@ -45,7 +45,7 @@ def test_it_keeps_the_values_of_a_manoeuvre_or_a_world(variables: Variables, tmp
 
 
 @pytest.mark.slow
-def test_a_manoeuvre_is_driven_as_without_it(variables: Variables, prototype_fmu: Path, tmp_path: Path) -> None:
+def test_a_manoeuvre_is_driven_as_without_it(variables, prototype_fmu, tmp_path):
     whole = whole_set(variables, tmp_path / "whole.ssv")
     results = []
     for name, more in (("without", []), ("with", ["--parameters", str(whole)])):
@@ -56,9 +56,7 @@ def test_a_manoeuvre_is_driven_as_without_it(variables: Variables, prototype_fmu
     assert all(np.array_equal(results[0][name], results[1][name]) for name in results[0].dtype.names)
 
 
-def test_the_catalogue_takes_it_and_refuses_another_start(
-    variables: Variables, prototype_fmu: Path, tmp_path: Path
-) -> None:
+def test_the_catalogue_takes_it_and_refuses_another_start(variables, prototype_fmu, tmp_path):
     whole = whole_set(variables, tmp_path / "whole.ssv", {"front.tyre.grip": 0.9})
     (car,) = cars_of([prototype_fmu], [], [whole], [], None)
     assert car.start == {"front.tyre.grip": 0.9}
@@ -68,7 +66,7 @@ def test_the_catalogue_takes_it_and_refuses_another_start(
 
 
 @pytest.mark.slow
-def test_the_simulator_keeps_its_world_and_place(variables: Variables, prototype_fmu: Path, tmp_path: Path) -> None:
+def test_the_simulator_keeps_its_world_and_place(variables, prototype_fmu, tmp_path):
     whole = whole_set(variables, tmp_path / "whole.ssv")
     results = []
     for more in ([], ["--parameters", str(whole)]):
@@ -80,7 +78,7 @@ def test_the_simulator_keeps_its_world_and_place(variables: Variables, prototype
     assert any(entry["name"] == "road.file" for entry in results[1])
 
 
-def test_a_ratio_that_is_set_is_reported_beside_the_constants_of_the_file(variables: Variables) -> None:
+def test_a_ratio_that_is_set_is_reported_beside_the_constants_of_the_file(variables):
     """Half the travel per turn: twice the angle to full lock and the ratio; without it nothing is told."""
     settings = Settings(variables)
     assert not settings.rows()

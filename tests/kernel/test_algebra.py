@@ -1,7 +1,5 @@
 """Rows, tangent and factorization against dense NumPy and finite differences."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -38,7 +36,7 @@ def dense_jacobian(builder: SystemBuilder, values: np.ndarray) -> np.ndarray:
     return J
 
 
-def test_rows_are_the_polynomials_they_were_made_of() -> None:
+def test_rows_are_the_polynomials_they_were_made_of():
     b = everything()
     instance = initialised(b)
     scale = np.array(b.arrays()["row_scale"])
@@ -50,7 +48,7 @@ def test_rows_are_the_polynomials_they_were_made_of() -> None:
         np.testing.assert_allclose(phi, scale * [b.value(row, q, s) for row in b.rows], rtol=1e-12, atol=1e-13)
 
 
-def test_jacobian_and_rates_agree_with_differences() -> None:
+def test_jacobian_and_rates_agree_with_differences():
     b = everything()
     instance = initialised(b)
     rng = np.random.default_rng(SEED + 1)
@@ -85,9 +83,7 @@ def crossed() -> SystemBuilder:
 @pytest.mark.parametrize("scene", [everything, crossed])
 @pytest.mark.parametrize("groups", [[5], [2, 1, 2]])
 @pytest.mark.parametrize("geometric", [0, 1])
-def test_the_tangent_is_the_derivative_of_the_residual(
-    scene: Callable[[], SystemBuilder], groups: list[int], geometric: int
-) -> None:
+def test_the_tangent_is_the_derivative_of_the_residual(scene, groups, geometric):
     """df/dq of (22) at fixed multipliers: M + c alpha Phi_q' Phi_q + c sum lam_k H_k - c dQ/dq - h/2 dQ/dqd."""
     b = scene()
     b.groups = groups
@@ -114,7 +110,7 @@ def test_the_tangent_is_the_derivative_of_the_residual(
     np.testing.assert_allclose(tangent - penalty, expected - penalty, atol=1e-6)
 
 
-def test_a_row_of_nearly_all_coordinates_of_a_front_is_in_its_tangent() -> None:
+def test_a_row_of_nearly_all_coordinates_of_a_front_is_in_its_tangent():
     """M + c alpha J' J, of linear rows: two with nine and ten of ten coordinates, one with two."""
     rng, n, h = np.random.default_rng(SEED + 5), 10, 0.01
     rows = [Row(0.0, {int(i): float(rng.normal()) for i in which}) for which in (range(n), range(1, n), (2, 7))]
@@ -136,7 +132,7 @@ def turning_pair() -> SystemBuilder:
     return b
 
 
-def test_an_angle_between_two_moving_vectors_has_all_its_derivatives() -> None:
+def test_an_angle_between_two_moving_vectors_has_all_its_derivatives():
     b = turning_pair()
     instance = initialised(b)
     rng = np.random.default_rng(SEED + 2)
@@ -191,9 +187,7 @@ def woven(n: int, groups: list[int]) -> SystemBuilder:
 
 @pytest.mark.parametrize("scene", [chain, woven])
 @pytest.mark.parametrize("groups", [[4, 4, 4], [1] * 12, [3, 1, 5, 3]], ids=str)
-def test_fronts_solve_as_one_dense_front_does(
-    scene: Callable[[int, list[int]], SystemBuilder], groups: list[int]
-) -> None:
+def test_fronts_solve_as_one_dense_front_does(scene, groups):
     """Thirty steps do not depend on how the coordinates are cut into fronts; the tangent is positive definite."""
     b = scene(6, groups)
     instance = initialised(b)
@@ -246,7 +240,7 @@ def net(order: np.ndarray, groups: list[int]) -> SystemBuilder:
 
 
 @pytest.mark.parametrize("groups", [[19], [3, 3, 13]], ids=str)
-def test_components_of_points_in_turn_give_what_they_give_in_any_order(groups: list[int]) -> None:
+def test_components_of_points_in_turn_give_what_they_give_in_any_order(groups):
     """Mass matrix, signals, forces, their tangent and rows take x, y and z together where they follow each other."""
     turned = np.array([18, *(np.arange(18).reshape(6, 3)[:, ::-1].T.ravel())])
     ends, tangents = [], []
@@ -265,7 +259,7 @@ def test_components_of_points_in_turn_give_what_they_give_in_any_order(groups: l
 
 @pytest.mark.parametrize("method", ["energy_momentum", "radau_5"])
 @pytest.mark.parametrize("groups", [[4, 4, 4], [3, 1, 5, 3]], ids=str)
-def test_fronts_without_symmetry_solve_as_one_dense_front_does(groups: list[int], method: str) -> None:
+def test_fronts_without_symmetry_solve_as_one_dense_front_does(groups, method):
     ends = []
     for cut in (groups, [12]):
         instance = initialised(chain(6, cut))
@@ -280,7 +274,7 @@ def test_fronts_without_symmetry_solve_as_one_dense_front_does(groups: list[int]
     assert ends[0][2] == ends[1][2] == 0
 
 
-def test_accelerations_and_multipliers_at_the_start_solve_the_index_one_equations() -> None:
+def test_accelerations_and_multipliers_at_the_start_solve_the_index_one_equations():
     b = chain(6, [4, 4, 4])
     b.qd0 = np.random.default_rng(SEED + 2).normal(size=12)
     instance = initialised(b)
@@ -301,7 +295,7 @@ def test_accelerations_and_multipliers_at_the_start_solve_the_index_one_equation
         *((signals, [0, 1, 2, 3]) for signals in ([0, 3, 2], [2, 1, 0], [0, 1, 3])),
     ],
 )
-def test_a_spring_acts_on_its_own_signals_in_any_order(signals: list[int], columns: list[int]) -> None:
+def test_a_spring_acts_on_its_own_signals_in_any_order(signals, columns):
     """Three signals go together where their numbers and columns follow each other, and only there."""
     q, stiffness, free = np.array([1.0, 2.0, 3.0, 5.0]), 10.0, 1.0
     b = SystemBuilder(np.eye(4), q)
@@ -323,7 +317,7 @@ def test_a_spring_acts_on_its_own_signals_in_any_order(signals: list[int], colum
     np.testing.assert_allclose(tangent, np.eye(4) + 0.25 * h**2 * hessian, rtol=1e-13, atol=1e-15)
 
 
-def test_accelerations_exist_on_the_singular_position() -> None:
+def test_accelerations_exist_on_the_singular_position():
     """Cranks horizontal: five rows of rank three; the start must still find M qdd + Phi_q' lam = Q."""
     b = four_bar()
     b.q0 = np.array([1.0, 0.0, 2.0, 0.0, 3.0, 0.0])

@@ -60,9 +60,7 @@ def distance(value: float, expected: float) -> float:
         ("asin", -1.0, 1.0, INVERSE_ERROR),
     ],
 )
-def test_of_one_argument(
-    functions: dict[str, Callable[..., float]], name: str, low: float, high: float, error: float
-) -> None:
+def test_of_one_argument(functions, name, low, high, error):
     rng = random.Random(7)
     worst = 0.0
     for _ in range(SAMPLES):
@@ -72,14 +70,14 @@ def test_of_one_argument(
 
 
 @pytest.mark.parametrize("name", ["sin", "cos"])
-def test_nearly_all_sines_are_the_nearest_numbers(functions: dict[str, Callable[..., float]], name: str) -> None:
+def test_nearly_all_sines_are_the_nearest_numbers(functions, name):
     """The rest of the reduced argument counts, though it is below the last place of it."""
     rng = random.Random(9)
     places = [rng.uniform(-1000.0, 1000.0) for _ in range(SAMPLES)]
     assert sum(distance(functions[name](x), getattr(math, name)(x)) for x in places) < 0.06 * SAMPLES
 
 
-def test_atan2_in_all_quadrants(functions: dict[str, Callable[..., float]]) -> None:
+def test_atan2_in_all_quadrants(functions):
     rng = random.Random(8)
     worst = 0.0
     for _ in range(SAMPLES):
@@ -88,7 +86,7 @@ def test_atan2_in_all_quadrants(functions: dict[str, Callable[..., float]]) -> N
     assert worst <= INVERSE_ERROR
 
 
-def test_exact_values_and_signs(functions: dict[str, Callable[..., float]]) -> None:
+def test_exact_values_and_signs(functions):
     for y, x in ((0.0, 1.0), (-0.0, 1.0), (0.0, -1.0), (-0.0, -1.0), (1.0, 0.0), (-1.0, -0.0), (0.0, 0.0), (1.0, 1.0)):
         value = functions["atan2"](y, x)
         assert value == math.atan2(y, x)

@@ -41,9 +41,7 @@ def started(car: mbs.System, settling: float, *pose: float, **inputs: float) -> 
     return instance
 
 
-def test_it_is_the_steady_turn_that_driving_reaches(
-    car: mbs.System, of: Callable[[Instance], dict[str, float]]
-) -> None:
+def test_it_is_the_steady_turn_that_driving_reaches(car, of):
     """Driven round at constant speed: roll, loads, tyre forces and wheels stand as they then do."""
     turn = started(car, 0.0, 0.0, 0.0, 0.0, 0.0, SPEED, steering=STEERING)
     at_rest = of(turn)["chassis.x"]  # the reference point from the origin
@@ -67,7 +65,7 @@ def test_it_is_the_steady_turn_that_driving_reaches(
     assert abs(drawn["chassis.roll"]) < 0.05 * abs(driven["chassis.roll"])
 
 
-def test_place_heading_and_velocity_are_held(car: mbs.System, of: Callable[[Instance], dict[str, float]]) -> None:
+def test_place_heading_and_velocity_are_held(car, of):
     pose = (30.0, -20.0, 0.0, 2.5, SPEED, 0.4, 0.5)
     drawn, settled = (of(started(car, t, *pose, steering=STEERING, brake=0.2)) for t in (0.0, 2.0))
     # The reference point lies off the axis of roll and pitch; velocities are told along axes that roll and pitch.
@@ -79,7 +77,7 @@ def test_place_heading_and_velocity_are_held(car: mbs.System, of: Callable[[Inst
     assert settled["chassis.pitch"] > 0.01
 
 
-def test_it_is_the_same_wherever_the_car_stands(car: mbs.System, of: Callable[[Instance], dict[str, float]]) -> None:
+def test_it_is_the_same_wherever_the_car_stands(car, of):
     here, present = (
         of(started(car, 1.0, *place, SPEED, 0.4, 0.5, steering=STEERING, brake=0.2))
         for place in ((0.0, 0.0, 0.0, 0.0), (300.0, -200.0, 0.0, 2.5))
@@ -88,7 +86,7 @@ def test_it_is_the_same_wherever_the_car_stands(car: mbs.System, of: Callable[[I
         assert present[name] == pytest.approx(here[name], rel=1e-6, abs=1e-8), name
 
 
-def test_the_run_begins_behind_it(car: mbs.System, of: Callable[[Instance], dict[str, float]]) -> None:
+def test_the_run_begins_behind_it(car, of):
     instance = started(car, 1.0, 0.0, 0.0, 0.0, 0.0, SPEED, 0.4, 0.5, steering=STEERING, brake=0.3)
     assert instance.time == 2.0
     assert instance.report()["halvings"] == 0

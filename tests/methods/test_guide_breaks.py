@@ -62,7 +62,7 @@ def exact(motion: PPoly, t: Array) -> Array:
         (next(iter(JUMPS)), "ali3p_generalised_alpha"),
     ],
 )
-def test_order_two_is_kept_through_a_jump(jump: str, method: str) -> None:
+def test_order_two_is_kept_through_a_jump(jump, method):
     system, errors = carried(JUMPS[jump]), []
     for h in STEPS:
         run = mbs.simulate(
@@ -74,13 +74,13 @@ def test_order_two_is_kept_through_a_jump(jump: str, method: str) -> None:
 
 
 @pytest.mark.parametrize("method", ["radau_5", "runge_kutta_8"])
-def test_methods_of_higher_order_do_not_see_the_jump(method: str) -> None:
+def test_methods_of_higher_order_do_not_see_the_jump(method):
     motion = JUMPS["rate, within a step"]
     run = mbs.simulate(carried(motion), SPAN, 0.02, method=method, estimate_error=False, progress=False)
     assert np.abs(run["x"] - exact(motion, run.t)).max() < 1e-5
 
 
-def test_a_jump_within_a_step_parts_it_and_one_at_its_end_does_not() -> None:
+def test_a_jump_within_a_step_parts_it_and_one_at_its_end_does_not():
     parts = []
     for jump in JUMPS:
         report = mbs.simulate(carried(JUMPS[jump]), SPAN, 0.01, estimate_error=False, progress=False).report
@@ -113,9 +113,7 @@ def one_piece(degree: int) -> Callable[[float, float, float], PPoly]:
 )
 @pytest.mark.parametrize("h", [0.01, 0.005, 0.0025])
 @pytest.mark.parametrize(("pulse", "mean"), [(quintics, 0.5), (one_piece(2), 2.0 / 3.0), (one_piece(4), 8.0 / 15.0)])
-def test_a_pulse_within_a_step_is_met(
-    method: str, off: float, h: float, pulse: Callable[[float, float, float], PPoly], mean: float
-) -> None:
+def test_a_pulse_within_a_step_is_met(method, off, h, pulse, mean):
     """The mass gets its impulse, W^2 times the integral of the way, and swings by it over W."""
     length, height = 0.002, 0.2
     system = carried(pulse(0.3032, length, height))
@@ -126,7 +124,7 @@ def test_a_pulse_within_a_step_is_met(
 
 
 @pytest.mark.parametrize("limit", [0, 5, 20])
-def test_parts_of_a_step_over_a_pulse_share_its_limit_of_iterations(limit: int) -> None:
+def test_parts_of_a_step_over_a_pulse_share_its_limit_of_iterations(limit):
     """The first and the last piece of the pulse are no jumps."""
     run = mbs.Simulation(carried(quintics(0.3032, 0.002, 0.2)), settings=mbs.Settings(step_iterations=limit))
     iterations = [0]
@@ -137,7 +135,7 @@ def test_parts_of_a_step_over_a_pulse_share_its_limit_of_iterations(limit: int) 
     assert (run.report.divisions > 0) == (limit != 5)
 
 
-def test_under_a_tolerance_a_step_and_its_halves_share_no_part() -> None:
+def test_under_a_tolerance_a_step_and_its_halves_share_no_part():
     """The motion begins after a rest, in which steps have grown."""
     ends = np.array([0.0, 0.5, 0.9, 2.0])
     motion = BPoly.from_derivatives(ends, [[value, 0.0, 0.0] for value in (0.0, 0.0, 0.2, 0.2)])
@@ -150,7 +148,7 @@ def test_under_a_tolerance_a_step_and_its_halves_share_no_part() -> None:
     assert run.report.divisions == 0
 
 
-def test_a_motion_of_pieces_that_rest_at_their_ends_divides_no_step() -> None:
+def test_a_motion_of_pieces_that_rest_at_their_ends_divides_no_step():
     """Their accelerations are 0 at both ends and in the middle."""
     ends = np.linspace(0.0, 2.0, 12)
     motion = BPoly.from_derivatives(ends, [[0.1 * (k % 2), 0.0, 0.0] for k in range(12)])
@@ -159,7 +157,7 @@ def test_a_motion_of_pieces_that_rest_at_their_ends_divides_no_step() -> None:
     assert run.report.divisions == 0
 
 
-def test_a_spline_through_samples_is_no_jump_at_each() -> None:
+def test_a_spline_through_samples_is_no_jump_at_each():
     """Its acceleration is continuous, also through noise; with straight lines between the samples each is a jump."""
     t = np.linspace(0.0, 2.0, 401)
     samples = 0.1 * np.sin(3.0 * t) ** 2 + 1e-4 * np.random.default_rng(1).normal(size=len(t))
@@ -171,7 +169,7 @@ def test_a_spline_through_samples_is_no_jump_at_each() -> None:
         assert (run.report.divisions > 0) == jumps
 
 
-def test_lanes_and_steps_by_hand_end_there_too() -> None:
+def test_lanes_and_steps_by_hand_end_there_too():
     system, (n, h) = carried(JUMPS["rate, within a step"]), (120, 0.01)
     run = mbs.simulate(system, n * h, h, estimate_error=False, progress=False)
     many = mbs.simulate_many(system, [mbs.Variant(), mbs.Variant()], n * h, h, estimate_error=False, progress=False)

@@ -39,7 +39,7 @@ def hills(x: Array, y: Array) -> Array:
     return 0.3 * np.sin(0.3 * x) * np.cos(0.4 * y)
 
 
-def test_heights_of_random_triangles_are_those_of_an_independent_interpolation() -> None:
+def test_heights_of_random_triangles_are_those_of_an_independent_interpolation():
     """Of 4000 triangles, also with slivers, at points that lie on corners and edges too; to round-off."""
     rng = np.random.default_rng(1)
     flat = np.concatenate([np.round(rng.uniform(0.0, 20.0, (1500, 2)), 1), rng.uniform(0.0, 20.0, (500, 2))])
@@ -56,7 +56,7 @@ def test_heights_of_random_triangles_are_those_of_an_independent_interpolation()
 
 
 @pytest.mark.parametrize("suffix", ["stl", "ply", "obj", "off", "glb"])
-def test_every_kind_of_file(tmp_path: Path, suffix: str) -> None:
+def test_every_kind_of_file(tmp_path, suffix):
     """A smooth surface within what its triangles and the grid are off; glTF has its y axis up."""
     points, triangles = sheet(40.0, 8.0, hills)
     if suffix == "glb":
@@ -71,7 +71,7 @@ def test_every_kind_of_file(tmp_path: Path, suffix: str) -> None:
     assert road.frictions == 0.6
 
 
-def test_the_difference_falls_with_the_spacing(tmp_path: Path) -> None:
+def test_the_difference_falls_with_the_spacing(tmp_path):
     """A ramp with an edge: by the first power, down to that of the file's own numbers."""
     file = saved(tmp_path / "a.ply", *sheet(20.0, 4.0, lambda x, y: 0.2 * np.clip(x - 7.03, 0.0, 3.1), 0.1))
     worst = [read_road(file, spacing=(h, h)).largest for h in (0.4, 0.2, 0.1, 0.05)]
@@ -83,7 +83,7 @@ def test_the_difference_falls_with_the_spacing(tmp_path: Path) -> None:
     assert level.spacing == pytest.approx((20.0 / 67, 4.0 / 14))  # both borders are met
 
 
-def test_an_upright_face_is_no_overhang_and_is_reported(tmp_path: Path) -> None:
+def test_an_upright_face_is_no_overhang_and_is_reported(tmp_path):
     """A kerb drawn with its upright face, on which points of the grid lie."""
     low, high = sheet(5.0, 4.0, lambda x, y: 0.0), sheet(5.0, 4.0, lambda x, y: 0.12)
     points = np.concatenate([low[0], high[0] + [5.0, 0.0, 0.0]])
@@ -97,7 +97,7 @@ def test_an_upright_face_is_no_overhang_and_is_reported(tmp_path: Path) -> None:
     assert set(np.round(np.unique(road.heights), 6)) == {0.0, 0.12}
 
 
-def test_beside_the_mesh_the_heights_of_its_border_continue(tmp_path: Path) -> None:
+def test_beside_the_mesh_the_heights_of_its_border_continue(tmp_path):
     """A ring of 20 m, banked: outside and in the middle, which a warning tells of, the nearest height."""
     points, triangles = sheet(2.0 * np.pi, 5.0, lambda x, y: 0.0, 0.05)
     radius = 20.0 + points[:, 1]
@@ -114,7 +114,7 @@ def test_beside_the_mesh_the_heights_of_its_border_continue(tmp_path: Path) -> N
     assert road.rms < 2e-3
 
 
-def test_pieces_that_lie_apart_are_reported(tmp_path: Path) -> None:
+def test_pieces_that_lie_apart_are_reported(tmp_path):
     """A step within a road of one piece is not."""
     points, triangles = sheet(20.0, 6.0, hills)
     both = np.concatenate([points, points[:, :] * [0.5, 0.5, 1.0] + [40.0, 1.0, 0.0]])
@@ -152,16 +152,14 @@ def changed(scale: float = 1.0, order: tuple[int, ...] = (0, 1, 2)) -> tuple[Arr
         ((np.full((3, 3), np.nan), np.array([[0, 1, 2]])), "coordinates that are not finite numbers"),
     ],
 )
-def test_a_mesh_that_is_no_road_is_refused(tmp_path: Path, mesh: tuple[Array, Array], sentence: str) -> None:
+def test_a_mesh_that_is_no_road_is_refused(tmp_path, mesh, sentence):
     with pytest.raises(RoadFileError, match=sentence) as refused:
         read_road(saved(tmp_path / "a.ply", *mesh))
     assert "a.ply" in str(refused.value)
     assert "\n" not in str(refused.value)
 
 
-def test_many_surfaces_above_one_another_are_refused_before_they_are_scanned(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_many_surfaces_above_one_another_are_refused_before_they_are_scanned(tmp_path, monkeypatch):
     """Eight squares of 400 m, 0.1 mm apart: no two that follow each other are an overhang."""
     monkeypatch.setattr("mbs.roads.mesh_road.triangle_heights", lambda *_: pytest.fail("they were scanned"))
     points, triangles = sheet(400.0, 400.0, lambda x, y: 0.0, 400.0)
@@ -176,7 +174,7 @@ def test_many_surfaces_above_one_another_are_refused_before_they_are_scanned(
         read_road(file)
 
 
-def test_a_mesh_between_the_points_of_a_grid_is_refused_with_a_spacing_that_meets_it(tmp_path: Path) -> None:
+def test_a_mesh_between_the_points_of_a_grid_is_refused_with_a_spacing_that_meets_it(tmp_path):
     """Three strips of 20 mm between the middles of the sides of a square of 3 m."""
     middles, across = np.array([[0.0, 1.5], [1.5, 0.0], [3.0, 1.5], [1.5, 3.0]]), np.array([[1, 1], [1, -1], [1, 1]])
     points = [m + s * 0.0071 * w for k, w in enumerate(across) for m in middles[k : k + 2] for s in (-1.0, 1.0)]
@@ -188,7 +186,7 @@ def test_a_mesh_between_the_points_of_a_grid_is_refused_with_a_spacing_that_meet
     assert np.isfinite(read_road(file, spacing=(fits, fits)).heights).all()
 
 
-def test_the_place_of_the_largest_difference_moves_with_the_grid(tmp_path: Path) -> None:
+def test_the_place_of_the_largest_difference_moves_with_the_grid(tmp_path):
     """Also in the warning."""
     file = saved(tmp_path / "a.ply", *sheet(20.0, 4.0, lambda x, y: 0.5 * np.clip(x - 7.03, 0.0, 3.1), 0.1))
     with pytest.warns(RoadWarning, match=r"at most, at x = 7 m, y"):
@@ -200,7 +198,7 @@ def test_the_place_of_the_largest_difference_moves_with_the_grid(tmp_path: Path)
 
 
 @pytest.mark.parametrize(("scale", "up", "order"), [(0.001, "z", (0, 1, 2)), (1.0, "y", (0, 2, 1))])
-def test_a_description_gives_unit_and_axis(tmp_path: Path, scale: float, up: str, order: tuple[int, ...]) -> None:
+def test_a_description_gives_unit_and_axis(tmp_path, scale, up, order):
     points, triangles = changed(1.0 / scale, order)
     if up == "y":
         points[:, 2] *= -1.0
@@ -220,7 +218,7 @@ def test_a_description_gives_unit_and_axis(tmp_path: Path, scale: float, up: str
 
 
 @pytest.mark.parametrize("suffix", ["stl", "ply", "obj", "off", "glb", "gltf"])
-def test_a_file_that_is_no_mesh_is_refused(tmp_path: Path, suffix: str) -> None:
+def test_a_file_that_is_no_mesh_is_refused(tmp_path, suffix):
     for content in (b"", b"solid nothing", b"\0" * 5000, b"ply\nformat ascii 1.0\nelement vertex 4000000000\n"):
         (tmp_path / f"a.{suffix}").write_bytes(content)
         with pytest.raises(ValueError, match=rf"a\.{suffix}") as refused:

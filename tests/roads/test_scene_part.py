@@ -3,7 +3,6 @@
 import base64
 import json
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -33,7 +32,7 @@ def under(road: object, x: float, y: float) -> float:
     return z
 
 
-def test_level_and_inclined_planes() -> None:
+def test_level_and_inclined_planes():
     assert valid(scene_part(PlaneRoad(0.3))) == {"kind": "flat", "height": 0.3, "friction": 0.9}
     road = PlaneRoad(0.3, 0.08, -0.05)
     part = valid(scene_part(road))
@@ -52,9 +51,7 @@ def test_level_and_inclined_planes() -> None:
         GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((3, 3)), 0.1),
     ],
 )
-def test_a_uniform_road_reports_its_friction_and_factor(
-    road: PlaneRoad | KerbRoad | GridRoad,
-) -> None:
+def test_a_uniform_road_reports_its_friction_and_factor(road):
     assert valid(scene_part(road))["friction"] == 0.1
     dry = replace(road, frictions=1.2) if isinstance(road, GridRoad) else replace(road, friction=1.2)
     halved = valid(scene_part(replace(dry, friction_factor=0.5)))
@@ -62,14 +59,14 @@ def test_a_uniform_road_reports_its_friction_and_factor(
 
 
 @pytest.mark.parametrize(("upper", "heights"), [("before", [0.0, -0.08]), ("after", [-0.08, 0.0])])
-def test_a_kerb_is_a_step_where_it_is(upper: str, heights: list[float]) -> None:
+def test_a_kerb_is_a_step_where_it_is(upper, heights):
     part = valid(scene_part(KerbRoad(7.5, 0.08, -0.08, upper)))  # type: ignore[arg-type]
     assert part["heights"] == heights
     assert part["origin"] == [7.5, 0.0, 0.0]
     assert part["stations"][0] < 0.0 < part["stations"][1]
 
 
-def test_two_frictions_are_drawn_as_far_as_a_car_is_wide_and_farther() -> None:
+def test_two_frictions_are_drawn_as_far_as_a_car_is_wide_and_farther():
     """The values of the border go on in the physics; the strip in which they change is 0.3 m wide."""
     road = GridRoad((-20.0, -0.15), (400.0, 0.1), np.zeros((2, 4)), np.tile([0.2, 0.2, 1.0, 1.0], (2, 1)))
     part = valid(scene_part(road))
@@ -86,7 +83,7 @@ def grid(nx: int, ny: int) -> GridRoad:
     return GridRoad((-3.0, 2.0), (0.5, 0.25), 0.01 * x + 0.02 * y + 0.001 * x * y, 0.5 + 0.001 * x)
 
 
-def test_a_grid_keeps_its_points() -> None:
+def test_a_grid_keeps_its_points():
     road = grid(7, 9)
     part = valid(scene_part(road))
     assert part["shape"] == [7, 9]
@@ -99,7 +96,7 @@ def test_a_grid_keeps_its_points() -> None:
     assert np.allclose(frictions.reshape(7, 9), road.frictions)
 
 
-def test_a_large_grid_is_thinned_and_reported() -> None:
+def test_a_large_grid_is_thinned_and_reported():
     road = grid(1001, 90)
     part = valid(scene_part(road))
     assert part["shape"] == [334, 90]
@@ -109,7 +106,7 @@ def test_a_large_grid_is_thinned_and_reported() -> None:
     assert np.allclose(heights, np.asarray(road.heights)[::3], atol=1e-6)
 
 
-def test_the_command_writes_the_result_of_the_function(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_writes_the_result_of_the_function(tmp_path, capsys):
     road, file, out = grid(20, 30), tmp_path / "a.road", tmp_path / "a.json"
     write_road(road, file)
     assert main([str(file), "--part", str(out)]) == 0

@@ -29,7 +29,7 @@ def face(height: float, spacing: float) -> GridRoad:
 @pytest.mark.parametrize(("height", "reported"), [(0.28, False), (0.32, True), (100.0, True)])
 @pytest.mark.parametrize("spacing", [0.02, 0.2])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_face_that_is_higher_than_the_radius(spacing: float, height: float, reported: bool, sign: float) -> None:
+def test_a_face_that_is_higher_than_the_radius(spacing, height, reported, sign):
     sentence = steep_face(face(sign * height, spacing), "face.road")
     assert bool(sentence) == reported
     if reported:
@@ -42,24 +42,24 @@ def test_a_face_that_is_higher_than_the_radius(spacing: float, height: float, re
         assert "0.3 m radius" in sentence
 
 
-def test_a_ramp_is_no_face() -> None:
+def test_a_ramp_is_no_face():
     for spacing in (0.02, 0.05, 0.1):
         z = np.clip(np.arange(0.0, 8.0, spacing) - 4.0, 0.0, 2.0)  # 45 degrees
         assert not steep_face(GridRoad((0.0, 0.0), (spacing, 1.0), np.repeat(z[:, None], 3, axis=1)), "")
 
 
-def test_a_face_across_is_reported_too() -> None:
+def test_a_face_across_is_reported_too():
     across = face(0.5, 0.2)
     turned = GridRoad(across.origin[::-1], across.spacing[::-1], np.asarray(across.heights).T)
     assert "at x = -1 m, y = 5 m" in steep_face(turned, "")
 
 
-def test_a_larger_wheel_is_reported_later() -> None:
+def test_a_larger_wheel_is_reported_later():
     assert "0.3 m radius" in steep_face(face(0.35, 0.2), "", 0.3)
     assert not steep_face(face(0.35, 0.2), "", 0.4)
 
 
-def test_a_long_road_is_looked_at_as_a_whole() -> None:
+def test_a_long_road_is_looked_at_as_a_whole():
     heights = np.zeros((10_000, 3))
     for row in (4096, 4097, 4098, 9000):
         heights[:] = 0.0
@@ -68,7 +68,7 @@ def test_a_long_road_is_looked_at_as_a_whole() -> None:
 
 
 @pytest.mark.parametrize("spacing", [0.02, 0.05, 0.1, 0.25])
-def test_smooth_roads_are_not(spacing: float) -> None:
+def test_smooth_roads_are_not(spacing):
     x = np.arange(0.0, 20.0, spacing)
     for amplitude, wave in ((0.05, 2.0), (0.5, 10.0), (0.0075, 0.5)):
         z = amplitude * np.sin(2.0 * np.pi * x / wave)
@@ -78,7 +78,7 @@ def test_smooth_roads_are_not(spacing: float) -> None:
 
 
 @pytest.mark.parametrize("file", sorted(ROADS.glob("*.road")), ids=lambda file: file.stem)
-def test_the_roads_of_the_package_are_not(file: Path) -> None:
+def test_the_roads_of_the_package_are_not(file):
     road = RoadFile(file).read()
     assert not isinstance(road, GridRoad) or steep_face(road, file) == ""
 
@@ -88,7 +88,7 @@ def without_ground_contact(name: str) -> Car:
     return car.model_copy(update={"chassis": car.chassis.model_copy(update={"ground_contact": None})})
 
 
-def test_a_car_that_drives_into_a_wall_is_refused_with_the_position() -> None:
+def test_a_car_that_drives_into_a_wall_is_refused_with_the_position():
     """A car that stands beside it, or stops at it, is not. Its body touches nothing: it would meet the wall first."""
     x = np.arange(-10.0, 40.0, 0.2)
     wall = GridRoad((-10.0, -10.0), (0.2, 5.0), np.repeat(np.where(x > 10.1, 1.0, 0.0)[:, None], 5, axis=1), 0.9)
@@ -109,9 +109,7 @@ def test_a_car_that_drives_into_a_wall_is_refused_with_the_position() -> None:
 
 
 @pytest.mark.slow
-def test_reported_where_the_road_is_made_and_where_a_car_is_built(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_reported_where_the_road_is_made_and_where_a_car_is_built(tmp_path, capsys):
     road, file = face(0.5, 0.2), tmp_path / "face.road"
     with pytest.warns(RoadWarning, match=r"face\.road: at x = 5 m, .* of 0\.3 m radius"):
         write_road(road, file)

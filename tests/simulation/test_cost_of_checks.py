@@ -1,6 +1,5 @@
 """Cost of the check of a run: no refined run whose outcome is known, and none omitted that would detect an error."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -32,7 +31,7 @@ def swing() -> mbs.System:
         pytest.param(3, 96, 100, "runge_kutta_8", id="15 % off, twice the step agrees within 5 %"),
     ],
 )
-def test_chains_that_were_silent_are_reported(seed: int, number: int, steps: int, method: str) -> None:
+def test_chains_that_were_silent_are_reported(seed, number, steps, method):
     system, span = drawn("chain", seed, number)
     with pytest.warns(mbs.AccuracyWarning, match="off by"):
         mbs.simulate(system, span, span / steps, every=steps // 50, method=method, progress=False)
@@ -45,14 +44,14 @@ def test_chains_that_were_silent_are_reported(seed: int, number: int, steps: int
         ("semi_recursive", 0.125),
     ],
 )
-def test_a_right_tree_of_high_order_is_compared_with_eight_times_its_step(method: str, cost: float) -> None:
+def test_a_right_tree_of_high_order_is_compared_with_eight_times_its_step(method, cost):
     run = mbs.simulate(swing(), 20.0, 0.2, method=method, progress=False)
     assert run.accuracy is not None
     assert run.accuracy.check_cost == pytest.approx(cost, abs=0.01)
     assert np.abs(run["x"] - 0.02 * np.sin(run.t)).max() < 0.005 * 0.02
 
 
-def test_a_half_that_surely_is_coarse_is_not_made() -> None:
+def test_a_half_that_surely_is_coarse_is_not_made():
     """An impact of h w = 1.6 is resolved by a quarter of the step: at 4 times the cost of the run, which was 6."""
     h, w, gap = 0.01, 160.0, 0.4033
     run = mbs.simulate(ball(w * w, gap, wall=1e3), 80 * h, h, method="radau_5", progress=False)
@@ -64,7 +63,7 @@ def test_a_half_that_surely_is_coarse_is_not_made() -> None:
     assert not run.accuracy.message
 
 
-def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth() -> None:
+def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth():
     """At 0.78 s, after an impact from 0.5 to 0.6 s, of 1.25 s."""
     run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.0025, every=4, progress=False)
     assert run.accuracy is not None
@@ -86,9 +85,7 @@ def never(*_: Any) -> Any:
         pytest.param(lambda t: 4e-3 + 0.0 * t, False, id="more than a tenth of what it may be"),
     ],
 )
-def test_a_coarser_run_continues_where_a_difference_grows(
-    grown: Callable[[np.ndarray], np.ndarray], ends: bool
-) -> None:
+def test_a_coarser_run_continues_where_a_difference_grows(grown, ends):
     system, t = ball(1e3, 0.9), np.linspace(0.0, 1.0, 101)
     run = mbs.simulate(system, 1.0, 0.01, estimate_error=False, progress=False)
     look = CoarserRuns(RefinedRuns(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 40)
@@ -107,7 +104,7 @@ def machine(number: int) -> tuple[mbs.System, float]:
     return mbs.compile(random_machines.model_of(machine)), machine.span
 
 
-def test_no_16th_of_the_step_follows_where_an_eighth_decides() -> None:
+def test_no_16th_of_the_step_follows_where_an_eighth_decides():
     """The larger error counted: 15 runs in place of 31, and the same verdict on 5.1 %."""
     system, span = machine(56)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.1 %"):
@@ -116,7 +113,7 @@ def test_no_16th_of_the_step_follows_where_an_eighth_decides() -> None:
     assert run.accuracy.check_cost == 14.0
 
 
-def test_the_budget_of_refined_runs_is_kept_and_unchecked_runs_are_reported() -> None:
+def test_the_budget_of_refined_runs_is_kept_and_unchecked_runs_are_reported():
     system, span = machine(97)
 
     def judged(most: float | None) -> mbs.Trajectory:
@@ -136,7 +133,7 @@ def test_the_budget_of_refined_runs_is_kept_and_unchecked_runs_are_reported() ->
     assert "at most 64 unless estimate_error=N" in str(run.accuracy)
 
 
-def test_coordinates_are_compared_at_the_same_instants_in_all_runs() -> None:
+def test_coordinates_are_compared_at_the_same_instants_in_all_runs():
     """Of a System that senses a force alone they are kept, at some instants."""
     system = ball(1e3, 0.5, loads=True, motion=False)
     run = mbs.simulate(system, 1.25, 1.25 / 302, progress=False)

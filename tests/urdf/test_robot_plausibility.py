@@ -85,7 +85,7 @@ SIDES = {
 
 
 @pytest.mark.parametrize("case", SIDES)
-def test_a_side_is_the_image_of_the_other(case: str, tmp_path: Path) -> None:
+def test_a_side_is_the_image_of_the_other(case, tmp_path):
     change, message = SIDES[case]
     text = '<robot name="r"><link name="base"/>'
     for k, side in enumerate(("FL", "FR", "left_mid", "right_mid", "RL", "RR")):
@@ -123,9 +123,7 @@ OWN = """<link name="{name}"><inertial><origin xyz="0 0 {centre}"/><mass value="
         ("fixed", False, (1.0, 1.0, 1.0), ["outside too: link 'bob'"]),  # one sentence for all
     ],
 )
-def test_inertias_are_judged_where_they_have_an_effect(
-    rail: str, floating: bool, inertias: tuple[float, ...], message: list[str], tmp_path: Path
-) -> None:
+def test_inertias_are_judged_where_they_have_an_effect(rail, floating, inertias, message, tmp_path):
     links = {
         f"link_{name}": OWN.format(name=name, centre=centre, i=inertia, last=inertia)
         for name, centre, inertia in zip(("base", "bar", "bob"), (0.0, -0.5, -0.5), inertias, strict=True)
@@ -140,7 +138,7 @@ def test_inertias_are_judged_where_they_have_an_effect(
     assert all(word in line for word, line in zip(message, lines, strict=True)), lines
 
 
-def test_corrected_inertias_are_one_sentence(tmp_path: Path) -> None:
+def test_corrected_inertias_are_one_sentence(tmp_path):
     links = {f"link_{name}": OWN.format(name=name, centre=-0.1, i=0.01, last=0.0202) for name in ("base", "bar", "bob")}
     file = tmp_path / "pendulum.urdf"
     file.write_text(PENDULUM.format(rail="continuous", **links), encoding="utf-8")
@@ -150,12 +148,12 @@ def test_corrected_inertias_are_one_sentence(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_public_robots_have_nothing_odd(name: str, tmp_path: Path) -> None:
+def test_public_robots_have_nothing_odd(name, tmp_path):
     assert told(name, lambda text: text, tmp_path) == []
 
 
 @pytest.mark.parametrize("case", ODD)
-def test_implausible_values_are_reported(case: str, tmp_path: Path) -> None:
+def test_implausible_values_are_reported(case, tmp_path):
     change, message = ODD[case]
     lines = told("panda", change, tmp_path)
     assert any(message in line for line in lines), lines
@@ -172,7 +170,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_a_malformed_line_is_an_error_with_its_number(case: str, tmp_path: Path) -> None:
+def test_a_malformed_line_is_an_error_with_its_number(case, tmp_path):
     change, message = WRONG[case]
     with pytest.raises(ModelError, match=r"robot\.urdf, line \d+: .*") as error:
         told("ur5", change, tmp_path)

@@ -29,7 +29,7 @@ JOINT = (
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_torques_are_those_of_the_inverse_dynamics_of_pinocchio(name: str, tmp_path: Path) -> None:
+def test_torques_are_those_of_the_inverse_dynamics_of_pinocchio(name, tmp_path):
     """Three states of eight, angles up to 2.5 rad, rates up to 2 rad/s, accelerations up to 8 rad/s2."""
     file = write_urdf(ROBOTS[name], tmp_path / f"{name}.urdf")
     expected = np.loadtxt(DATA / f"{name}_rnea.csv", delimiter=",")
@@ -47,7 +47,7 @@ def test_torques_are_those_of_the_inverse_dynamics_of_pinocchio(name: str, tmp_p
         assert [now[f"{joint}.rate"] for joint in guides] == pytest.approx(state[1])
 
 
-def test_links_that_are_fixed_are_one_body_with_mass_and_inertia_of_both(tmp_path: Path) -> None:
+def test_links_that_are_fixed_are_one_body_with_mass_and_inertia_of_both(tmp_path):
     """A second rod beyond the tool: I + m l2 of both, by Steiner."""
     extra = LINK.format("load", 0.5) + (
         '<joint name="grip" type="fixed"><parent link="tool"/><child link="load"/><origin xyz="0.4 0 -0.1"/></joint>'
@@ -61,7 +61,7 @@ def test_links_that_are_fixed_are_one_body_with_mass_and_inertia_of_both(tmp_pat
     assert s.sensors["joint_1.rate"] == pytest.approx(0.001 * 9.81 * (2.0 * 0.3 + 0.5 * 0.4) / inertia, rel=1e-5)
 
 
-def test_a_slide_moves_by_its_force_with_its_reaction(tmp_path: Path) -> None:
+def test_a_slide_moves_by_its_force_with_its_reaction(tmp_path):
     """Free, without gravity: two masses part with F (1/m1 + 1/m2), and their centre stays."""
     text = LINK.format("a", 2.0) + LINK.format("b", 3.0) + JOINT.format("slide", "prismatic", "a", "b", "")
     file = tmp_path / "slide.urdf"
@@ -82,7 +82,7 @@ def test_a_slide_moves_by_its_force_with_its_reaction(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("leader", "follower"), [("revolute", "prismatic"), ("prismatic", "revolute")])
-def test_a_joint_that_follows_another_moves_and_loads_it(leader: str, follower: str, tmp_path: Path) -> None:
+def test_a_joint_that_follows_another_moves_and_loads_it(leader, follower, tmp_path):
     """Both on a body that turns, without gravity, from rest: a = F / (m1 + k2 m2), with 1 kg m2 for a turning one."""
     k, offset, push = -1.5, 0.2, 3.0
     mimic = f'<mimic joint="lead" multiplier="{k}" offset="{offset}"/>'
@@ -106,7 +106,7 @@ def test_a_joint_that_follows_another_moves_and_loads_it(leader: str, follower: 
         read_urdf(file, at={"follow": 0.0})
 
 
-def test_damping_acts_and_omitted_elements_are_reported(tmp_path: Path) -> None:
+def test_damping_acts_and_omitted_elements_are_reported(tmp_path):
     """A rod about its vertical axis loses its rate as exp(-c t / I)."""
     dynamics = '<dynamics damping="0.5" friction="0.1"/>'
     text = '<link name="a"/>' + LINK.format("b", 1.0) + JOINT.format("turn", "continuous", "a", "b", dynamics)
@@ -157,7 +157,7 @@ def test_damping_acts_and_omitted_elements_are_reported(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_an_invalid_robot_is_refused_in_one_sentence(text: str, message: str, tmp_path: Path) -> None:
+def test_an_invalid_robot_is_refused_in_one_sentence(text, message, tmp_path):
     file = tmp_path / "robot.urdf"
     file.write_text(f'<robot name="r"><link name="a"/>{text}</robot>', encoding="utf-8")
     with pytest.raises(ModelError, match=message):
@@ -165,14 +165,14 @@ def test_an_invalid_robot_is_refused_in_one_sentence(text: str, message: str, tm
 
 
 @pytest.mark.parametrize("text", ["", "no robot", "<robot name='r'></robot>", "<a/>"])
-def test_an_invalid_urdf_file_is_refused_in_one_sentence(text: str, tmp_path: Path) -> None:
+def test_an_invalid_urdf_file_is_refused_in_one_sentence(text, tmp_path):
     file = tmp_path / "robot.urdf"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(ModelError, match=r"robot\.urdf"):
         read_urdf(file)
 
 
-def test_a_file_that_is_cut_is_no_smaller_robot(tmp_path: Path) -> None:
+def test_a_file_that_is_cut_is_no_smaller_robot(tmp_path):
     """Between two elements, too, where all that is left is whole; marks of other programs need no namespace."""
     file = write_urdf(ROBOTS["ur5"], tmp_path / "ur5.urdf", '<gazebo:mark value="1"/>')
     assert len(read_urdf(file).angles) == 6
@@ -193,14 +193,14 @@ def test_a_file_that_is_cut_is_no_smaller_robot(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_an_invalid_value_is_refused_in_one_sentence(old: str, new: str, message: str, tmp_path: Path) -> None:
+def test_an_invalid_value_is_refused_in_one_sentence(old, new, message, tmp_path):
     file = write_urdf([ROD], tmp_path / "rod.urdf")
     file.write_text(re.sub(old, new, file.read_text(encoding="utf-8")), encoding="utf-8")
     with pytest.raises(ModelError, match=message):
         read_urdf(file)
 
 
-def test_invalid_names_and_a_missing_library_are_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_invalid_names_and_a_missing_library_are_reported(tmp_path, monkeypatch):
     file = write_urdf([ROD], tmp_path / "rod.urdf")
     with pytest.raises(ModelError, match="there is no joint 'joint_2'; did you mean 'joint_1'"):
         read_urdf(file, at={"joint_2": 1.0})
@@ -258,9 +258,7 @@ def hinge(name: str, parent: str, child: str, axis: str, xyz: str = "0 0 0") -> 
         ),
     ],
 )
-def test_hinges_that_meet_with_links_without_mass_are_one_joint(
-    text: str, kind: str, hinges: int, wanted: tuple[float, ...], tmp_path: Path
-) -> None:
+def test_hinges_that_meet_with_links_without_mass_are_one_joint(text, kind, hinges, wanted, tmp_path):
     """Where MuJoCo 4.0.0 has the arm (Runge-Kutta, 0.1 ms, 1e-9 kg in place of no mass)."""
     file = tmp_path / "crossed.urdf"
     file.write_text(f'<robot name="crossed"><link name="base"/>{BAR}{text}</robot>', encoding="utf-8")
@@ -282,7 +280,7 @@ def test_hinges_that_meet_with_links_without_mass_are_one_joint(
         (hinge("b", "l1", "arm", "0 1 0").replace("</joint>", '<mimic joint="a"/></joint>'), "'b' follows another one"),
     ],
 )
-def test_other_links_without_mass_are_refused_with_the_reason(text: str, message: str, tmp_path: Path) -> None:
+def test_other_links_without_mass_are_refused_with_the_reason(text, message, tmp_path):
     file = tmp_path / "crossed.urdf"
     text = '<link name="base"/><link name="l1"/>' + BAR + hinge("a", "base", "l1", "0 0 1") + text
     file.write_text(f'<robot name="crossed">{text}</robot>', encoding="utf-8")
@@ -290,7 +288,7 @@ def test_other_links_without_mass_are_refused_with_the_reason(text: str, message
         read_urdf(file)
 
 
-def test_an_inertia_that_moves_without_a_mass_is_not_left_out(tmp_path: Path) -> None:
+def test_an_inertia_that_moves_without_a_mass_is_not_left_out(tmp_path):
     """Between hinges that meet it would turn with the first; without it they are a universal joint."""
     file, mass = tmp_path / "gimbal.urdf", 0.0
     text = '<link name="base"/>' + LINK.format("l1", mass) + BAR
@@ -300,7 +298,7 @@ def test_an_inertia_that_moves_without_a_mass_is_not_left_out(tmp_path: Path) ->
         read_urdf(file)
 
 
-def test_a_rotor_that_is_fixed_and_has_an_inertia_alone_is_carried(tmp_path: Path) -> None:
+def test_a_rotor_that_is_fixed_and_has_an_inertia_alone_is_carried(tmp_path):
     """Two rotors of 1 kg m2 on a link of 1 kg m2: 15 N m give 5 rad/s2, wherever they sit."""
     extra = LINK.format("rotor", 0.0) + LINK.format("other", 0.0).replace(
         "<inertial>", '<inertial><origin xyz="9 0 0"/>'
@@ -321,9 +319,7 @@ def test_a_rotor_that_is_fixed_and_has_an_inertia_alone_is_carried(tmp_path: Pat
     ("principal", "change"),
     [((0.01, 0.05, 0.0606), "0.5"), ((-1e-9, 0.06, 0.06), "0.0002")],
 )
-def test_an_impossible_inertia_is_corrected_with_a_warning(
-    principal: tuple[float, ...], change: str, tmp_path: Path
-) -> None:
+def test_an_impossible_inertia_is_corrected_with_a_warning(principal, change, tmp_path):
     """A thin rod swings as m g l says: its largest principal value stays, or nearly."""
     xx, zz, yy = principal
     rod = ROD._replace(inertia=(xx, 0.0, 0.0, yy, 0.0, zz))
@@ -337,7 +333,7 @@ def test_an_impossible_inertia_is_corrected_with_a_warning(
     assert 0.5 * (yy + 2.0 * 0.3**2) * rate**2 == pytest.approx(energy, rel=1e-3 + 0.01 * float(change))
 
 
-def test_an_inertia_far_from_any_is_refused_with_the_nearest(tmp_path: Path) -> None:
+def test_an_inertia_far_from_any_is_refused_with_the_nearest(tmp_path):
     file = write_urdf([ROD._replace(inertia=(0.01, 0.0, 0.0, 0.06, 0.0, 0.04))], tmp_path / "rod.urdf")
     with pytest.raises(
         ModelError, match=r"rod\.urdf: the inertia of the link 'link_1'.*the nearest .* Correct the file"
@@ -345,7 +341,7 @@ def test_an_inertia_far_from_any_is_refused_with_the_nearest(tmp_path: Path) -> 
         read_urdf(file)
 
 
-def test_robots_that_need_a_free_root_are_refused_with_the_option(tmp_path: Path) -> None:
+def test_robots_that_need_a_free_root_are_refused_with_the_option(tmp_path):
     """A single link, links that are fixed to each other, and a floating joint on a root without mass."""
     file = tmp_path / "free.urdf"
     floating = '<link name="world"/>' + LINK.format("a", 2.0) + JOINT.format("j", "floating", "world", "a", "")

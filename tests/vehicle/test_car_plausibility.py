@@ -4,7 +4,6 @@ import json
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -67,21 +66,21 @@ PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
 
 
 @pytest.mark.parametrize("case", quick(("no final drive", "share of the rear", "lock to lock"), PLANTED))
-def test_a_mistake_of_a_car_is_reported(case: str) -> None:
+def test_a_mistake_of_a_car_is_reported(case):
     name, changes, message = PLANTED[case]
     lines = problems_of(changes(), name)
     assert any(message in line for line in lines), lines
 
 
 @pytest.mark.parametrize("name", car_names())
-def test_cars_of_the_package_lie_inside(name: str) -> None:
+def test_cars_of_the_package_lie_inside(name):
     for kind in ("", "racing_car" if name in ("prototype", "ferrari_250_lm") else "passenger_car"):
         for plausibility in load(name).plausibility(name):
             assert replace(plausibility, kind=kind).warnings() == []
 
 
 @pytest.mark.slow
-def test_the_kind_of_a_car_narrows_its_ranges() -> None:
+def test_the_kind_of_a_car_narrows_its_ranges():
     changes = {"front.wheel.centre.1": 0.97, "rear.wheel.centre.1": 0.97, "vehicle.width": 2.1}
     lines = {
         kind: problems_of(changes | {"vehicle.category": kind}, "hatchback") for kind in ("passenger_car", "truck")
@@ -90,7 +89,7 @@ def test_the_kind_of_a_car_narrows_its_ranges() -> None:
     assert not any("track is" in line for line in lines["truck"])
 
 
-def test_the_command_shows_and_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_shows_and_writes_the_table(tmp_path, capsys):
     assert main(["saloon", "--json", str(tmp_path / "saloon.json")]) == 0
     shown = capsys.readouterr().out
     table = json.loads((tmp_path / "saloon.json").read_text(encoding="utf-8"))
@@ -102,9 +101,7 @@ def test_the_command_shows_and_writes_the_table(tmp_path: Path, capsys: pytest.C
 
 
 @pytest.mark.slow
-def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(monkeypatch):
     results: list[CarContent] = []
 
     def counted(model: Model, car: CarContent) -> Rest:
@@ -134,7 +131,7 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
         ("lateral", "max_force", 0.2, "lateral.max_force = "),
     ],
 )
-def test_a_mistake_of_tmeasy_is_reported(curve: str, field: str, factor: float, message: str) -> None:
+def test_a_mistake_of_tmeasy_is_reported(curve, field, factor, message):
     t = load("hatchback").front.tyre.tyre()
     fields = [field, "slide_slip"] if field == "max_slip" else [field]
     result = {f: tuple(factor * v for v in getattr(getattr(t, curve), f)) for f in fields}
@@ -142,7 +139,7 @@ def test_a_mistake_of_tmeasy_is_reported(curve: str, field: str, factor: float, 
     assert any(message in line for line in lines), lines
 
 
-def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
+def test_a_mistake_is_named_only_where_undoing_it_mends():
     length = Quantity("length", "l", "m", "", {"small": (0.0, 1.0), "large": (1.0, 10.0)}, "")
     values = [Value(length, 5e3, {"a": 5e3}, "first"), Value(length, 2.0, {"b": 2.0}, "second")]
 
@@ -156,7 +153,7 @@ def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
         assert sentence == "f: first length is 5000 m; usual is 0 to 10 m. It follows from a = 5000."
 
 
-def test_the_table_is_one_screen_with_a_column_for_each_axle() -> None:
+def test_the_table_is_one_screen_with_a_column_for_each_axle():
     """Places of points are shown where they lie outside alone."""
     table = load("prototype").summary()
     assert len(table.splitlines()) < 50
@@ -174,7 +171,7 @@ def test_the_table_is_one_screen_with_a_column_for_each_axle() -> None:
 
 
 @pytest.mark.slow
-def test_a_car_that_lies_on_its_body_has_its_mass() -> None:
+def test_a_car_that_lies_on_its_body_has_its_mass():
     """None of it is on the wheels."""
     whole = load("prototype")
     points = at("prototype", "chassis.ground_contact.points")

@@ -89,7 +89,7 @@ def on_rig(car: Car, axle: str, forces: dict[str, float]) -> dict[str, dict[str,
 
 
 @pytest.mark.slow
-def test_a_rig_finds_the_compliances_of_the_file(content: dict[str, Any], folder: Path) -> None:
+def test_a_rig_finds_the_compliances_of_the_file(content, folder):
     """Each force moves what its number says and nothing else; camber is that of its signs on both sides."""
     stiff, soft = (compliant(content, folder, front=STEER | more) for more in ({}, ALL))
     for forces, requested in (
@@ -105,7 +105,7 @@ def test_a_rig_finds_the_compliances_of_the_file(content: dict[str, Any], folder
                 assert after[wheel][name] - value == pytest.approx(expected, rel=1e-4, abs=2e-7), (wheel, name, forces)
 
 
-def test_a_car_keeps_its_books_and_does_so_in_lanes(content: dict[str, Any], folder: Path) -> None:
+def test_a_car_keeps_its_books_and_does_so_in_lanes(content, folder):
     """Works are the change of the energy as those of a car without."""
     turn = {"steering": ([0.0, 0.3], [0.0, 0.2]), "brake": ([0.0, 1.0, 1.2], [0.0, 0.0, 0.1])}
     open_books = {}
@@ -140,8 +140,6 @@ def test_a_car_keeps_its_books_and_does_so_in_lanes(content: dict[str, Any], fol
         ({"longitudinal_per_longitudinal_force": -1e-7}, r"longitudinal_per_longitudinal_force is -1e-07"),
     ],
 )
-def test_what_no_wheel_does_is_a_sentence(
-    numbers: dict[str, float], match: str, content: dict[str, Any], folder: Path
-) -> None:
+def test_what_no_wheel_does_is_a_sentence(numbers, match, content, folder):
     with pytest.raises(CarFileError, match=match):
         compliant(content, folder, rear=STEER | numbers)

@@ -58,9 +58,7 @@ def drive(system: System, seconds: float = 1.5) -> Any:
 @pytest.mark.parametrize(
     ("name", "angle", "way", "load"), [("saloon", 1e-6, 1e-6, 5e-5), ("hatchback", 1e-4, 1e-5, 1e-3)]
 )
-def test_it_drives_as_the_links_that_its_tables_come_from(
-    name: str, angle: float, way: float, load: float, content: dict, folder: Path
-) -> None:
+def test_it_drives_as_the_links_that_its_tables_come_from(name, angle, way, load, content, folder):
     """A swerve with the brakes on; the cross-beam of the hatchback is a bar whose lever does not turn."""
     car = car_from(content[name], folder / name, name)
     system = compile(car.model())
@@ -79,7 +77,7 @@ def test_it_drives_as_the_links_that_its_tables_come_from(
     assert np.abs(curves["steering_rack_force"] - links["steering_rack_force"]).max() < 1e-3 * rack
 
 
-def test_one_axle_may_have_links_and_the_fidelity_of_tables_takes_both(content: dict, folder: Path) -> None:
+def test_one_axle_may_have_links_and_the_fidelity_of_tables_takes_both(content, folder):
     mixed = content["saloon"] | {"rear": linked("saloon")._data["rear"]}
     mixed["chassis"] = linked("saloon")._data["chassis"]
     car = car_from(mixed, folder / "saloon", "mixed", at_rest=False)
@@ -88,7 +86,7 @@ def test_one_axle_may_have_links_and_the_fidelity_of_tables_takes_both(content: 
         assert force == pytest.approx(2437.0, abs=5.0)
 
 
-def test_compliance_is_that_of_the_forces_in_the_contact(content: dict, folder: Path) -> None:
+def test_compliance_is_that_of_the_forces_in_the_contact(content, folder):
     """u = c_x F_x + c_y F_y + c_m M_z of a wheel that does not steer, of both wheels of a turning car."""
     c_m, c_y, c_x = 8e-5, -3e-6, 2e-6
     data = content["saloon"]
@@ -132,7 +130,7 @@ def copied(content: dict, folder: Path, tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(content: dict, copied: Path) -> None:
+def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(content, copied):
     """Contact centres for wheel centres, caster for pitch, mm and deg, and a right side that mirrors the left."""
     car = car_from(content["saloon"], copied, "first")
     heading, rows = rows_of(copied / "rear.csv")
@@ -172,7 +170,7 @@ def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(conten
         np.testing.assert_allclose(other.rotations, one.rotations, atol=1e-12)
 
 
-def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(content: dict, copied: Path) -> None:
+def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(content, copied):
     before = car_from(content["saloon"], copied, "first")
     heading, rows = rows_of(copied / "rear.csv")
     written(copied, heading, np.delete(rows, [3, 8, 15], axis=0))
@@ -191,7 +189,7 @@ def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(con
     np.testing.assert_allclose(toe, whole[:, [k]] + whole[[i]] - whole[i, k], atol=1e-15)
 
 
-def test_an_invalid_table_is_refused_in_one_sentence(content: dict, copied: Path) -> None:
+def test_an_invalid_table_is_refused_in_one_sentence(content, copied):
     heading, rows = rows_of(copied / "rear.csv")
     toe = heading.index("toe_angle [rad]")
 
@@ -243,7 +241,7 @@ def test_an_invalid_table_is_refused_in_one_sentence(content: dict, copied: Path
     refused(r"values of wheel_travel twice, and no .*: rack_travel", [heading[k] for k in alone], rows[:, alone])
 
 
-def test_a_wheel_angle_that_differs_from_that_of_the_file_is_reported(content: dict, copied: Path) -> None:
+def test_a_wheel_angle_that_differs_from_that_of_the_file_is_reported(content, copied):
     """As a table in degrees under headings in radians."""
     data = copy.deepcopy(content["saloon"])
     car = car_from(data, copied, "x")
@@ -256,7 +254,7 @@ def test_a_wheel_angle_that_differs_from_that_of_the_file_is_reported(content: d
     assert sentence.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
 
 
-def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:
+def test_a_row_of_both_wheels_is_one_place_of_the_axle(content, folder, tmp_path):
     """The left wheel of a twist beam and, of the right one, the image of what the left does with travels exchanged."""
     mirrored = car_from(content["hatchback"], folder / "hatchback", "mirrored").rear.suspension
     heading, rows = rows_of(folder / "hatchback" / "rear.csv")
@@ -278,7 +276,7 @@ def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Pa
         np.testing.assert_allclose(other.lengths["spring_length"], one.lengths["spring_length"][own, second])
 
 
-def test_a_column_of_one_wheel_is_asked_of_the_other(tmp_path: Path) -> None:
+def test_a_column_of_one_wheel_is_asked_of_the_other(tmp_path):
     travel = np.linspace(-0.08, 0.08, 17)
     needed = dict.fromkeys(("wheel_centre_x", "wheel_centre_y", "toe_angle", "camber_angle"), 0.1 * travel)
     needed["carrier_pitch_angle"] = 0.1 * travel
@@ -310,7 +308,7 @@ def test_a_column_of_one_wheel_is_asked_of_the_other(tmp_path: Path) -> None:
             table(*sides, *one_wheel)
 
 
-def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content: dict, folder: Path, copied: Path) -> None:
+def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content, folder, copied):
     """Noisy pairs take no memory of rows by rows; a travel that ends at the drawing is no range."""
     rng = np.random.default_rng(1)
     noisy = np.column_stack([np.linspace(-0.08, 0.08, 6000), rng.uniform(-0.05, 0.05, 6000), np.zeros((6000, 5))])
@@ -333,7 +331,7 @@ def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content: dict,
     )
 
 
-def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content: dict, copied: Path) -> None:
+def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content, copied):
     heading, rows = rows_of(copied / "rear.csv")
     short = _with(content["saloon"], "rear", file="rear.csv")
     short["rear"].pop("stops")
@@ -343,7 +341,7 @@ def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content: 
         simulate(compile(car.model()), 2.0, 0.005, pose=Pose(z=0.6))
 
 
-def test_track_change_is_of_both_wheels(content: dict, copied: Path) -> None:
+def test_track_change_is_of_both_wheels(content, copied):
     """A swing axle whose wheel goes 0.55 m aside per m of travel: both together have 1.1 m per m."""
     heading, rows = rows_of(copied / "rear.csv")
     y, track = heading.index("wheel_centre_y [m]"), [*heading]
@@ -367,7 +365,7 @@ def test_track_change_is_of_both_wheels(content: dict, copied: Path) -> None:
 
 
 @pytest.mark.slow
-def test_the_axle_with_links_has_its_own_curves(content: dict, folder: Path) -> None:
+def test_the_axle_with_links_has_its_own_curves(content, folder):
     whole = linked("saloon")
     data = content["saloon"] | {"rear": whole._data["rear"], "chassis": whole._data["chassis"]}
     half = car_from(data, folder / "saloon", "half", at_rest=False)
@@ -388,14 +386,14 @@ def test_the_axle_with_links_has_its_own_curves(content: dict, folder: Path) -> 
         ({"inner": [-2.58, -0.3, 0.2]}, r"points\.inner has y = -0\.3 m; points are given for the left side"),
     ],
 )
-def test_an_invalid_link_is_refused_in_one_sentence(points: dict, message: str, content: dict, copied: Path) -> None:
+def test_an_invalid_link_is_refused_in_one_sentence(points, message, content, copied):
     data = copy.deepcopy(content["saloon"])
     data["rear"]["suspension"]["bodies"]["links"]["lower_wishbone"]["points"] = {"outer": [-2.58, 0.62, 0.20]} | points
     with pytest.raises(CarFileError, match=message):
         car_from(data, copied, "x")
 
 
-def test_functions_that_need_links_ask_for_them(content: dict, folder: Path) -> None:
+def test_functions_that_need_links_ask_for_them(content, folder):
     car = car_from(content["saloon"], folder / "saloon", "x")
     with pytest.raises(ModelError, match=r"front\.suspension\.kind is 'curves'.*front\.csv has its curves"):
         kinematics(car)

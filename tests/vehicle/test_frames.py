@@ -43,7 +43,7 @@ def at_rest(car: Car, fidelity: int) -> mbs.Simulation:
     return mbs.Simulation(mbs.compile(car.model(fidelity=fidelity)), parameters=REST)
 
 
-def test_the_prototype_finds_its_joints_by_place() -> None:
+def test_the_prototype_finds_its_joints_by_place():
     joints = PROTOTYPE.flexible_frame.joints
     joint_names = ("LF", "LR", "UF", "UR", "RK", "TF", "AF", "AR", "TL", "TR")
     assert tuple(joints.interfaces) == tuple(f"{joint}{side}" for joint in joint_names for side in "LR")
@@ -55,7 +55,7 @@ def test_the_prototype_finds_its_joints_by_place() -> None:
 
 
 @pytest.mark.slow
-def test_a_frame_of_the_user_carries_the_car_in_every_fidelity(small: Car) -> None:
+def test_a_frame_of_the_user_carries_the_car_in_every_fidelity(small):
     assert list(small.fidelities()) == [Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.DYNAMIC]
     rest = {fidelity: at_rest(small, fidelity).sensors for fidelity in (0, 1, 3)}
     assert rest[1]["wheel_FL.Fz"] == pytest.approx(rest[0]["wheel_FL.Fz"], rel=1e-6)
@@ -73,12 +73,12 @@ def test_a_frame_of_the_user_carries_the_car_in_every_fidelity(small: Car) -> No
         np.testing.assert_allclose(runs[1][name], runs[0][name], rtol=0, atol=gap)
 
 
-def test_load_paths_without_loads_report_what_is_missing(small: Car) -> None:
+def test_load_paths_without_loads_report_what_is_missing(small):
     with pytest.raises(ModelError, match=r"chassis\.frame\.loads is missing: fidelity 2 needs a table"):
         small.model(fidelity="load_paths")
 
 
-def test_mounts_may_be_named(small: Car) -> None:
+def test_mounts_may_be_named(small):
     """Named as found, nothing changes; drive mounts at other heights still take the torque about the lateral axis."""
     same = small.changed({"chassis.frame.drive_mounts": ["gL", "hL", "jL"], "chassis.frame.reference": "oc"})
     assert same.flexible_frame.joints == small.flexible_frame.joints
@@ -100,7 +100,7 @@ def _drive_axes(car: Car) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.slow
-def test_contact_with_the_ground_may_be_given_by_joints() -> None:
+def test_contact_with_the_ground_may_be_given_by_joints():
     by_name = PROTOTYPE.changed({"chassis.ground_contact.points": ["F1L", "S1L", "S1c"]})
     by_place = PROTOTYPE.changed(
         {"chassis.ground_contact.points": [[0.45, 0.28, 0.19], [-1.1, 0.55, 0.16], [-1.1, 0.0, 0.16]]}
@@ -112,13 +112,13 @@ def test_contact_with_the_ground_may_be_given_by_joints() -> None:
 
 
 @pytest.mark.slow
-def test_the_own_frame_of_the_prototype_comes_back_from_matrices(tmp_path: Path) -> None:
+def test_the_own_frame_of_the_prototype_comes_back_from_matrices(tmp_path):
     """Same joints; frequencies, moments and trajectory differ by the masses, which a matrix gives at the nodes."""
     _same_as_the_tubes(exported(tmp_path), 3)
 
 
 @pytest.mark.slow
-def test_the_own_frame_of_the_prototype_comes_back_from_nastran(tmp_path: Path) -> None:
+def test_the_own_frame_of_the_prototype_comes_back_from_nastran(tmp_path):
     op4 = pytest.importorskip("pyyeti.nastran.op4")
     flexible = PROTOTYPE.flexible_frame
     model, frame_data = flexible.model, PROTOTYPE._data["chassis"]["frame"]
@@ -163,7 +163,7 @@ def _same_as_the_tubes(car: Car, fidelity: int) -> None:
 
 
 @pytest.mark.slow
-def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
+def test_a_frame_comes_from_calculix(small, tmp_path):
     """Nodes with three freedoms: rotations, which carry no mass, are condensed out before the files are written."""
     pytest.importorskip("meshio", reason="extra 'fem'")
     tubular, readings = small.frame_section.tubular(small.folder), small.flexible_frame.structure.readings
@@ -228,9 +228,7 @@ def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
         ("loads.csv", "LFL,x,478.8843", "LFL,x,none", r"load_1 is 'none'; it must be a number"),
     ],
 )  # fmt: skip
-def test_a_frame_that_cannot_be_is_refused_in_one_sentence(
-    tmp_path: Path, file: str, old: str, new: str, sentence: str | None
-) -> None:
+def test_a_frame_that_cannot_be_is_refused_in_one_sentence(tmp_path, file, old, new, sentence):
     folder = copied(tmp_path)
     text = (folder / file).read_text()
     assert old in text
@@ -256,7 +254,7 @@ GAUGES_REFUSED: list[tuple[dict[str, object], str, str]] = [
 
 
 @pytest.mark.slow
-def test_a_gauge_on_matrices_that_cannot_be_is_refused(tmp_path: Path) -> None:
+def test_a_gauge_on_matrices_that_cannot_be_is_refused(tmp_path):
     car = exported(tmp_path)
     for gauge, line, sentence in GAUGES_REFUSED:
         (tmp_path / "g.csv").write_text(f"gauge,quantity,node,axis,factor\n{line}\n")

@@ -1,7 +1,7 @@
 """The road at ports: answers of a copy of the road give the closed car, the start stands on them, works are booked."""
 
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -90,7 +90,7 @@ def drive(step: float, order: str, lead: float, speed: float = SPEED, waves: Wav
 
 
 @pytest.mark.slow
-def test_answers_of_a_copy_of_the_road_converge_to_the_closed_car() -> None:
+def test_answers_of_a_copy_of_the_road_converge_to_the_closed_car():
     """By order two: the plane misses curvature. At 2 ms loads within 1 %, the path within 0.2 %."""
     fine, coarse = drive(0.002, "in turn", 0.0), drive(0.004, "in turn", 0.0)
     assert fine["range"] > 3000.0, "the road is rough"
@@ -103,9 +103,7 @@ def test_answers_of_a_copy_of_the_road_converge_to_the_closed_car() -> None:
 @pytest.mark.parametrize(
     ("order", "lead", "speed", "within"), [("in turn", 1.0, 10.0, 4e-4), ("at once", 2.0, 25.0, 1e-2)]
 )
-def test_answers_for_the_end_of_the_step_that_they_hold_in_are_the_best(
-    order: str, lead: float, speed: float, within: float
-) -> None:
+def test_answers_for_the_end_of_the_step_that_they_hold_in_are_the_best(order, lead, speed, within):
     """At 25 m/s the waves are near the hop of the wheels: answers for its start are 2.2 % off (decision 91)."""
     before, requested = drive(0.002, order, lead - 1.0, speed), drive(0.002, order, lead, speed)
     assert requested["load"] < within
@@ -114,14 +112,14 @@ def test_answers_for_the_end_of_the_step_that_they_hold_in_are_the_best(
 
 
 @pytest.mark.slow
-def test_what_the_answers_lift_is_booked_apart_from_the_tyres() -> None:
+def test_what_the_answers_lift_is_booked_apart_from_the_tyres():
     coarse = drive(0.01, "at once", 1.0)
     assert abs(coarse["road"]) > 20.0
     assert abs(coarse["tyres"]) < 0.5 * abs(coarse["road"])
     assert abs(coarse["left"]) < 1.0  # the rack's own work is in no book
 
 
-def test_a_raised_road_does_the_work_that_the_tyres_store() -> None:
+def test_a_raised_road_does_the_work_that_the_tyres_store():
     """A jump of the height by d at rest: the energy of springs k, loaded by F, rises by the sum of F d + k d^2/2."""
     s, d = mbs.Simulation(at_ports()), 0.004
     s.step(0.002, 50)
@@ -135,7 +133,7 @@ def test_a_raised_road_does_the_work_that_the_tyres_store() -> None:
     assert now["energy.road"] - before["energy.road"] == pytest.approx(expected, rel=1e-3)
 
 
-def test_the_start_stands_on_the_answers_as_on_a_road() -> None:
+def test_the_start_stands_on_the_answers_as_on_a_road():
     raised = {f"wheel_{w}.road_height": 1.5 for w in WHEELS}
     first, now = mbs.Simulation(at_ports()).sensors, mbs.Simulation(at_ports(), inputs=raised).sensors
     assert now["chassis.z"] - first["chassis.z"] == pytest.approx(1.5, abs=1e-9)
@@ -148,8 +146,8 @@ def test_the_start_stands_on_the_answers_as_on_a_road() -> None:
     [(0.0, 0.0, 0.3, 0.04375), (0.5, 0.0, 0.366873, 0.04375), (0.0, 0.02, 0.296354, 0.0472)],
 )
 def test_between_answers_lies_their_mean_by_the_inverse_squares_of_the_distances(
-    place: float, slope_there: float, height_there: float, steep: float
-) -> None:
+    place, slope_there, height_there, steep
+):
     """A point of a body on a vertical guide rests on 0.2 m at x = -1 and 0.4 m at x = 1, as on the mean; slopes that
     depart from the plane of both by 0.08, 0.1 and 0.12 are left with 0.71, 0.56 and 0.41 of that (decision 91).
     """
@@ -175,7 +173,7 @@ def test_between_answers_lies_their_mean_by_the_inverse_squares_of_the_distances
 
 
 @pytest.mark.slow
-def test_a_car_climbs_an_edge_that_is_answered_as_a_kerb() -> None:
+def test_a_car_climbs_an_edge_that_is_answered_as_a_kerb():
     """Ground and edge as one plane, the sum of both depths along their normals: no point of the chassis touches."""
     (on_kerb, _, one), (answered, turn, other) = (
         edge_answers.climb("hatchback", 0.12, kind, 0.4) for kind in ("", edge_answers.SUM)
@@ -186,7 +184,7 @@ def test_a_car_climbs_an_edge_that_is_answered_as_a_kerb() -> None:
     assert other.sensors["energy.ground"] == 0.0
 
 
-def test_an_invalid_normal_is_refused() -> None:
+def test_an_invalid_normal_is_refused():
     s = mbs.Simulation(at_ports())
     for normal in ((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, 0.0, 0.5)):
         for c, value in zip("xyz", normal, strict=True):
@@ -200,7 +198,7 @@ def test_an_invalid_normal_is_refused() -> None:
 
 
 @pytest.mark.parametrize("how", [{"h": 0.002}, {"tolerance": 1e-3}])
-def test_a_normal_that_ends_within_a_run_is_refused_there(how: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_normal_that_ends_within_a_run_is_refused_there(how, monkeypatch):
     """By a table, also with a jump, and by a callable; no equation is at fault."""
     monkeypatch.setattr("mbs.simulation.refusal._worst_equations_text", lambda *_: " Worst balance.")
     times = ([0.0, 0.02, 0.03], [1.0, 1.0, 0.0])
@@ -214,7 +212,7 @@ def test_a_normal_that_ends_within_a_run_is_refused_there(how: dict[str, Any], m
         assert refused.value.time <= 0.0215
 
 
-def test_many_runs_refuse_a_normal_that_ends_within_them() -> None:
+def test_many_runs_refuse_a_normal_that_ends_within_them():
     bad = mbs.Variant(inputs={"wheel_FL.road_normal_z": ([0.0, 0.02, 0.03], [1.0, 1.0, 0.0])})
     runs = mbs.simulate_many(at_ports(), [bad, mbs.Variant(), bad], 0.1, 0.002, lanes=2, progress=False)
     assert set(runs.failures) == {0, 2}
@@ -223,7 +221,7 @@ def test_many_runs_refuse_a_normal_that_ends_within_them() -> None:
         assert failure.time == pytest.approx(0.02)
 
 
-def test_no_other_road_fits_and_the_own_one_is_left_out() -> None:
+def test_no_other_road_fits_and_the_own_one_is_left_out():
     car = with_ports(load("hatchback"), road="planes")
     with pytest.raises(mbs.ModelError, match="at ports"):
         car.model(mbs.elements.PlaneRoad())
@@ -235,7 +233,7 @@ def test_no_other_road_fits_and_the_own_one_is_left_out() -> None:
     ("first", "sentence"),
     [([1], "has 7; `road_answer` makes them"), ([], "must be a list of at least one number"), ([0.5], "whole number")],
 )
-def test_a_road_of_missing_inputs_is_refused(first: list[float], sentence: str) -> None:
+def test_a_road_of_missing_inputs_is_refused(first, sentence):
     m = mbs.Model("answered")
     m.road_answer("road")
     with pytest.raises(mbs.ModelError, match=sentence):

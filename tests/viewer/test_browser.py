@@ -29,9 +29,7 @@ class Told(BaseHTTPRequestHandler):
 
 
 @pytest.mark.slow
-def test_a_secret_address_is_on_no_command_line_and_is_reached(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, chromium: Any
-) -> None:
+def test_a_secret_address_is_on_no_command_line_and_is_reached(tmp_path, monkeypatch, chromium):
     addresses: list[str] = []
     monkeypatch.setattr(open_browser.webbrowser, "open", lambda address: addresses.append(address) or True)
     monkeypatch.setenv("DISPLAY", ":0")

@@ -105,8 +105,8 @@ def assert_same_bits(fmu: Path, table: str, folder: Path) -> None:
 
 @pytest.mark.slow
 def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_the_same_bits(
-    live_car: Path, chromium: Any, tmp_path: Path
-) -> None:
+    live_car, chromium, tmp_path
+):
     opened = Page(chromium, written([live_car], tmp_path, "--title", "A <car> & its page"))
     assert opened.page.title() == "A <car> & its page"
     assert opened.ask("player.session.threaded") is True
@@ -139,9 +139,7 @@ def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_t
 
 
 @pytest.mark.slow
-def test_parameters_start_values_and_going_back_give_the_bits_of_a_native_run(
-    live_car: Path, chromium: Any, tmp_path: Path
-) -> None:
+def test_parameters_start_values_and_going_back_give_the_bits_of_a_native_run(live_car, chromium, tmp_path):
     opened = Page(chromium, written([live_car], tmp_path, "--set", "initial.yaw=0.1", "--paused"))
     assert opened.ask("player.running") is False
     opened.ask("player.set('initial.speed', 12)")
@@ -180,7 +178,7 @@ navigator.getGamepads = () => window.pads;
 
 
 @pytest.mark.slow
-def test_a_gamepad_is_plugged_in_and_drives(live_car: Path, chromium: Any, tmp_path: Path) -> None:
+def test_a_gamepad_is_plugged_in_and_drives(live_car, chromium, tmp_path):
     opened = Page(chromium, written([live_car], tmp_path), PAD)
     opened.page.locator('[data-a3="section Gamepad"] summary').click()
     assert "No gamepad" in opened.text("section Gamepad")
@@ -200,7 +198,7 @@ def test_a_gamepad_is_plugged_in_and_drives(live_car: Path, chromium: Any, tmp_p
 
 
 @pytest.mark.slow
-def test_sliders_of_a_mechanism_and_a_step_that_is_refused(live_reach: Path, chromium: Any, tmp_path: Path) -> None:
+def test_sliders_of_a_mechanism_and_a_step_that_is_refused(live_reach, chromium, tmp_path):
     opened = Page(chromium, written([live_reach], tmp_path, "--paused", "--step", "0.01", "--plot", "bob.x"))
     assert opened.page.locator(".a3-chart canvas").count() == 1
     opened.page.locator('[data-a3="control pull"] [data-a3="number"]').fill("0.2")
@@ -257,7 +255,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(live_reach: Path, chr
 
 
 @pytest.mark.slow
-def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(live_reach: Path, chromium: Any, tmp_path: Path) -> None:
+def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(live_reach, chromium, tmp_path):
     """One starts outside of the reach of its cable, the binary of the other is none."""
     far = written([live_reach], tmp_path / "far", "--set", "pull=9")
     text = written([live_reach], tmp_path / "binary").read_text(encoding="utf-8")
@@ -274,9 +272,7 @@ def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(live_reach: Path, 
 
 
 @pytest.mark.slow
-def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
-    live_reach: Path, chromium: Any, tmp_path: Path
-) -> None:
+def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(live_reach, chromium, tmp_path):
     table = tmp_path / "pulled.csv"
     table.write_text('"time","pull"\n0,0.1\n0.5,0.3\n0.5,0.2\n1,0.2\n# start: spring.free_length=0.25\n')
     assert run([str(live_reach), "--input", str(table), "--step", "0.01", "--out", str(tmp_path)]) == 0
@@ -305,7 +301,7 @@ def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
 
 
 @pytest.mark.slow
-def test_levers_drive_and_a_hidden_page_stands(live_car: Path, chromium: Any, tmp_path: Path) -> None:
+def test_levers_drive_and_a_hidden_page_stands(live_car, chromium, tmp_path):
     opened = Page(chromium, written([live_car], tmp_path))
     opened.page.locator('[data-a3="levers"]').click()
     levers = [f'[data-a3="lever {name}"]' for name in ("steering", "brake", "throttle")]
@@ -343,7 +339,7 @@ def test_levers_drive_and_a_hidden_page_stands(live_car: Path, chromium: Any, tm
 
 
 @pytest.mark.slow
-def test_a_road_of_the_user_is_in_the_page_and_under_the_car(live_car: Path, chromium: Any, tmp_path: Path) -> None:
+def test_a_road_of_the_user_is_in_the_page_and_under_the_car(live_car, chromium, tmp_path):
     bumps = tmp_path / "bumps.toml"
     bumps.write_text(
         'kind = "washboard"\nstart = 5.0\nlength = 40.0\nwidth = 6.0\namplitude = 0.02\nwavelength = 1.0\n'

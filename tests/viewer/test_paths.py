@@ -1,6 +1,6 @@
 """Paths of a run on the ground, and fixed cameras: pixels against known positions."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -80,7 +80,7 @@ def yellow(opened: Opened, point: list[float]) -> bool:
     return bool(is_yellow(*opened.picture()[y, x]))
 
 
-def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> None:
+def test_the_path_lies_on_the_ground_where_the_run_has_been(seen):
     seen.seek(2.0)
     assert [yellow(seen, position(t)) for t in (1.84, 1.87, 1.9)] == [True] * 3
     assert not yellow(seen, position(2.12))  # where it goes next
@@ -90,7 +90,7 @@ def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> Non
     assert abs(np.mean(rows) - y) <= 1.0  # its middle
 
 
-def test_the_path_is_seen_at_any_instant(opened: Callable[..., Opened]) -> None:
+def test_the_path_is_seen_at_any_instant(opened):
     """Near the eye, where the depth of large triangles is off by more than the path lies above them."""
     result = run("straight", extent=3.8)
     yaw = 0.03 * np.sin(5.0 * T)  # another camera at each instant
@@ -105,7 +105,7 @@ def test_the_path_is_seen_at_any_instant(opened: Callable[..., Opened]) -> None:
     assert all(recorded), recorded
 
 
-def test_the_path_goes_over_a_kerb_on_its_surface(opened: Callable[..., Opened]) -> None:
+def test_the_path_goes_over_a_kerb_on_its_surface(opened):
     """Up to the kerb on its upper side, behind it on the lower one, whatever the wheels do meanwhile."""
     kerb = {"kind": "profile", "stations": [0.0, 0.001], "heights": [0.0, -0.2], "origin": [15.0, 0.0, 0.0]}
     page = opened(run("kerb", roads=[kerb]), camera="top")
@@ -114,7 +114,7 @@ def test_the_path_goes_over_a_kerb_on_its_surface(opened: Callable[..., Opened])
     assert np.allclose(points[:, 2], np.where(points[:, 0] < 15.0, 0.0, -0.2), atol=1e-9)
 
 
-def test_the_path_goes_and_comes_with_its_key(seen: Opened) -> None:
+def test_the_path_goes_and_comes_with_its_key(seen):
     seen.seek(2.0)
     seen.page.keyboard.press("y")
     seen("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
@@ -124,9 +124,7 @@ def test_the_path_goes_and_comes_with_its_key(seen: Opened) -> None:
     assert yellow(seen, position(1.87))
 
 
-def test_the_fixed_camera_stays_where_it_is_and_shows_the_body_on_a_tenth_of_the_width(
-    opened: Callable[..., Opened],
-) -> None:
+def test_the_fixed_camera_stays_where_it_is_and_shows_the_body_on_a_tenth_of_the_width(opened):
     """300 m along x: shown whole, the box of 1 m would be 2 pixels of 640; beside the wheel the size is 2 m."""
     page = opened(straight(75.0), camera="fixed")
     eyes = []
@@ -139,7 +137,7 @@ def test_the_fixed_camera_stays_where_it_is_and_shows_the_body_on_a_tenth_of_the
     assert np.allclose(eyes[0], eyes[1:], atol=1e-6)
 
 
-def test_where_there_are_a_path_a_fixed_camera_and_one_beside_the_track(opened: Callable[..., Opened]) -> None:
+def test_where_there_are_a_path_a_fixed_camera_and_one_beside_the_track(opened):
     """From where it saw all of 3 km, nothing of what is followed was drawn. What stays has no path either."""
     cameras = opened(straight(750.0))("() => window.player.cameras")
     assert "trackside" in cameras
@@ -149,7 +147,7 @@ def test_where_there_are_a_path_a_fixed_camera_and_one_beside_the_track(opened: 
     assert "trackside" not in still("() => window.player.cameras")
 
 
-def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opened]) -> None:
+def test_the_path_has_no_gaps_however_far_the_eye_is(opened):
     """300 m in a picture of 640 pixels: 4.5 cm are a tenth of a pixel."""
     far = straight(75.0)
     far.columns["body.y"] = 4.0 * np.sin(7.0 * T)
@@ -171,7 +169,7 @@ def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opene
     assert (below[..., 0] - below[..., 2]).max() < 30  # the ground is grey
 
 
-def test_the_camera_beside_the_track_follows_passing_bodies(seen: Opened) -> None:
+def test_the_camera_beside_the_track_follows_passing_bodies(seen):
     seen("() => window.player.camera('trackside')")
     eyes = []
     for t in (1.0, 1.05):
@@ -184,7 +182,7 @@ def test_the_camera_beside_the_track_follows_passing_bodies(seen: Opened) -> Non
     seen("() => window.player.camera('top')")
 
 
-def test_a_ghost_is_distinguished_by_its_colour_even_where_both_ran(opened: Callable[..., Opened]) -> None:
+def test_a_ghost_is_distinguished_by_its_colour_even_where_both_ran(opened):
     """The blue box has a ghost at its own place for 3 s; its path is the rim of the first one's."""
     ghost = run("two")
     ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)
@@ -222,7 +220,7 @@ def beam(amplitude: np.ndarray) -> Recording:
     return Recording(scene, np.linspace(0.0, 1.0, 101), {"q": amplitude})
 
 
-def test_a_flexible_ghost_is_drawn_where_it_bends_otherwise_only(opened: Callable[..., Opened]) -> None:
+def test_a_flexible_ghost_is_drawn_where_it_bends_otherwise_only(opened):
     """Half-way the ghost begins to rise, by 20 cm in the end; before, the beam has the pixels of a run without one."""
     t = np.linspace(0.0, 1.0, 101)
     alone, both = opened(beam(0.0 * t)), opened(beam(0.0 * t), beam(-0.4 * np.maximum(t - 0.5, 0.0)))
@@ -237,7 +235,7 @@ def test_a_flexible_ghost_is_drawn_where_it_bends_otherwise_only(opened: Callabl
     assert is_magenta(*both.picture()[y, x])
 
 
-def test_a_picture_of_two_runs_has_a_legend_of_colours(opened: Callable[..., Opened]) -> None:
+def test_a_picture_of_two_runs_has_a_legend_of_colours(opened):
     """As pictures and films are made, without controls; a picture of one run has no names."""
     ghost = run("two")
     ghost.columns["body.y"] += 1.5
@@ -251,7 +249,7 @@ def test_a_picture_of_two_runs_has_a_legend_of_colours(opened: Callable[..., Ope
             )
 
 
-def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(opened: Callable[..., Opened]) -> None:
+def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(opened):
     """A beam whose middle sinks by 2 cm, drawn thirtyfold: 0.6 m."""
     sinks = 0.02 * np.sin(np.pi * np.linspace(0.0, 1.0, 101))
     page = opened(beam(sinks), deformation=30)
@@ -262,7 +260,7 @@ def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(o
     assert page("() => window.player.view.floor") < -1.2
 
 
-def test_the_floor_lies_below_short_peaks_and_below_ghosts(opened: Callable[..., Opened]) -> None:
+def test_the_floor_lies_below_short_peaks_and_below_ghosts(opened):
     """One time of 501 at which a ball is 3 m down, and another at which its ghost is 5 m down."""
     t = np.linspace(0.0, 1.0, 501)
     scene = {"format": "ALi3 scene", "version": 1, "name": "ball", "up": [0, 0, 1], "planar": False, "extent": 2.0}
@@ -274,7 +272,7 @@ def test_the_floor_lies_below_short_peaks_and_below_ghosts(opened: Callable[...,
     assert -5.3 < opened(*runs)("() => window.player.view.floor") < -5.1
 
 
-def test_the_path_of_a_flattened_tyre_lies_on_the_ground(opened: Callable[..., Opened]) -> None:
+def test_the_path_of_a_flattened_tyre_lies_on_the_ground(opened):
     """Without outputs of a tyre its wheel reaches 2 cm into the road; with one it is in the air, and so is its path."""
     sunk, lifted = run("sunk"), run("lifted")
     for recording, height in ((sunk, 0.48), (lifted, 0.6)):

@@ -87,14 +87,14 @@ def is_red(colour: np.ndarray) -> bool:
     return bool(red > 1.5 * green + 20 and red > 1.5 * blue + 20)
 
 
-def test_it_opens_from_disk_without_a_complaint_and_asks_for_nothing(pair: Opened) -> None:
+def test_it_opens_from_disk_without_a_complaint_and_asks_for_nothing(pair):
     assert pair("player.problem") == ""
     assert [line for line in pair.said if not line.startswith("warning: ")] == []
     assert [url for url in pair.asked if not url.startswith(("file:", "blob:", "data:"))] == []
     assert len([url for url in pair.asked if url.startswith("file:")]) == 1
 
 
-def test_at_a_time_the_slider_is_where_it_belongs(pair: Opened) -> None:
+def test_at_a_time_the_slider_is_where_it_belongs(pair):
     pair("player.showGhost(player.ghosts[0], false)")
     for t in (0.0, 0.515):
         pair.seek(t)
@@ -105,7 +105,7 @@ def test_at_a_time_the_slider_is_where_it_belongs(pair: Opened) -> None:
     pair("player.showGhost(player.ghosts[0], true)")
 
 
-def test_a_ghost_moves_in_step_and_stands_still_after_its_end(pair: Opened) -> None:
+def test_a_ghost_moves_in_step_and_stands_still_after_its_end(pair):
     pair("player.showGhost(player.ghosts[0], false)")
     for t in (0.9, 2.9):
         pair("player.showGhost(player.ghosts[0], false)")
@@ -123,7 +123,7 @@ def test_a_ghost_moves_in_step_and_stands_still_after_its_end(pair: Opened) -> N
     assert "faster </script><b>crank (ghost)" in notices
 
 
-def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
+def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair):
     pair("""() => { const s = document.querySelector('.a3-slide'); s.value = '1.25';
                     s.dispatchEvent(new Event('input')); }""")
     assert pair("player.time") == pytest.approx(1.25)
@@ -146,7 +146,7 @@ def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
     assert pair("document.querySelector('.a3-legend output').ariaLive") == "off", "it changes in each picture"
 
 
-def test_a_slider_with_the_focus_follows_the_time_and_says_it(pair: Opened) -> None:
+def test_a_slider_with_the_focus_follows_the_time_and_says_it(pair):
     pair.seek(1.0)
     slider = pair.page.locator(".a3-slide")
     slider.focus()
@@ -156,7 +156,7 @@ def test_a_slider_with_the_focus_follows_the_time_and_says_it(pair: Opened) -> N
     pair("document.activeElement.blur()")
 
 
-def test_it_plays_in_time_and_stops_at_the_key(pair: Opened) -> None:
+def test_it_plays_in_time_and_stops_at_the_key(pair):
     pair("player.seek(0)")
     pair("player.speed(0.2)")
     pair.page.keyboard.press(" ")
@@ -169,7 +169,7 @@ def test_it_plays_in_time_and_stops_at_the_key(pair: Opened) -> None:
     pair("player.speed(1)")
 
 
-def test_the_difference_of_runs(pair: Opened) -> None:
+def test_the_difference_of_runs(pair):
     pair.page.locator(".a3-legend button").first.click()
     t, difference = pair("player.plots.charts[0].plot.data.map(column => Array.from(column))")
     shown = np.array([np.nan if x is None else x for x in difference])
@@ -180,7 +180,7 @@ def test_the_difference_of_runs(pair: Opened) -> None:
     assert count == 3
 
 
-def test_settings_and_signals_are_chosen_by_keys(opened: Callable[..., Opened]) -> None:
+def test_settings_and_signals_are_chosen_by_keys(opened):
     """Settings show what keys and programs set; the space bar does not play while a signal has the focus."""
     page = opened(crank(TIMES), arrows=False)
     page.page.locator(".a3-bar button", has_text="settings").click()
@@ -218,7 +218,7 @@ def test_settings_and_signals_are_chosen_by_keys(opened: Callable[..., Opened]) 
     assert page("player.plots.chosen") == [first]
 
 
-def test_signals_are_searched_and_chosen(pair: Opened) -> None:
+def test_signals_are_searched_and_chosen(pair):
     pair.page.fill(".a3-find input", "crank qz")
     assert pair.page.locator(".a3-list label").count() == 1
     pair.page.locator(".a3-list input").click()
@@ -231,7 +231,7 @@ def test_signals_are_searched_and_chosen(pair: Opened) -> None:
     pair("document.activeElement.blur()")
 
 
-def test_the_address_names_the_displayed_state(opened: Callable[..., Opened]) -> None:
+def test_the_address_names_the_displayed_state(opened):
     page = opened(crank(TIMES), hash_text="#t=1.5&plots=fx&speed=0.5")
     assert page("player.time") == 1.5
     assert page("player.source.speed") == 0.5
@@ -240,7 +240,7 @@ def test_the_address_names_the_displayed_state(opened: Callable[..., Opened]) ->
     page.page.wait_for_url("**#t=2.25&speed=0.5&plots=fx")
 
 
-def test_it_fits_small_screens(opened: Callable[..., Opened]) -> None:
+def test_it_fits_small_screens(opened):
     """From its first picture on, and when the window changes."""
     sizes = [(360, 640), (640, 360), (320, 480)]
     page = opened(crank(TIMES), size=sizes[0], plots=["angle"])
@@ -259,7 +259,7 @@ def test_it_fits_small_screens(opened: Callable[..., Opened]) -> None:
     assert outside == {}
 
 
-def test_legends_lie_on_no_instrument(opened: Callable[..., Opened]) -> None:
+def test_legends_lie_on_no_instrument(opened):
     """Of a crank with numbers as those of a car."""
     numbers = dict.fromkeys(["speed", *(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR"))], TIMES)
     result = crank(TIMES)
@@ -276,7 +276,7 @@ def test_legends_lie_on_no_instrument(opened: Callable[..., Opened]) -> None:
             assert beside or above, (width, height, name)
 
 
-def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> None:
+def test_one_time_is_a_picture_that_stands(opened):
     page = opened(crank(np.zeros(1)), plots=["angle"], camera="moon")
     assert page("player.problem") == ""
     assert "There is no camera 'moon'" in page.page.inner_text(".a3-notices")
@@ -286,9 +286,7 @@ def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> Non
     assert page.page.locator(".a3-slide").is_disabled()
 
 
-def test_a_result_without_a_scene_has_its_diagrams_or_reports_that_there_are_none(
-    opened: Callable[..., Opened],
-) -> None:
+def test_a_result_without_a_scene_has_its_diagrams_or_reports_that_there_are_none(opened):
     page = opened(Recording(None, TIMES, {"x": np.sin(TIMES)}, {"x": "m"}, "foreign"), plots=["x"])
     assert "no poses in this result" in page.page.inner_text(".a3-notices")
     assert page.page.locator(".a3-chart canvas").bounding_box()["height"] > 100
@@ -299,7 +297,7 @@ def test_a_result_without_a_scene_has_its_diagrams_or_reports_that_there_are_non
     assert page.said == empty.said == []
 
 
-def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened: Callable[..., Opened]) -> None:
+def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened):
     columns = {"strain": 1e-6 * np.sin(TIMES), "near one": 1.0 + 1e-5 * np.sin(TIMES)}
     page = opened(Recording(None, TIMES, columns, {"strain": "m/m"}), plots=list(columns))
     for ticks in page("player.plots.charts.map(({ plot }) => plot.axes[1]._values)"):
@@ -307,7 +305,7 @@ def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened: C
     assert "1e-6" in page("player.plots.charts[0].plot.axes[1]._values")
 
 
-def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair: Opened) -> None:
+def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair):
     """Of another program: a flexible body without the numbers of its mode."""
     messages = pair(
         """async () => {
@@ -325,7 +323,7 @@ def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page
     assert messages == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {messages[0]}"]
 
 
-def test_without_webgl_there_is_one_sentence_and_the_diagrams(opened: Callable[..., Opened]) -> None:
+def test_without_webgl_there_is_one_sentence_and_the_diagrams(opened):
     page = opened(crank(TIMES), plots=["fx"], script=WITHOUT_WEBGL)
     assert "no WebGL" in page("player.problem")
     assert "no WebGL" in page.page.inner_text(".a3-view")
@@ -335,7 +333,7 @@ def test_without_webgl_there_is_one_sentence_and_the_diagrams(opened: Callable[.
 
 
 @pytest.mark.slow
-def test_in_a_notebook_it_runs_in_its_frame(chromium: Any, tmp_path: Path) -> None:
+def test_in_a_notebook_it_runs_in_its_frame(chromium, tmp_path):
     (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
     page = chromium.new_page(viewport={"width": 640, "height": 400})
     messages: list[str] = []

@@ -49,7 +49,7 @@ def at(recording: Recording, name: str, time: float) -> float:
     return float(np.interp(time, recording.t, recording.columns[name]))
 
 
-def test_keys_drive_at_their_rates_and_are_let_go_with_the_focus(program: Program) -> None:
+def test_keys_drive_at_their_rates_and_are_let_go_with_the_focus(program):
     shown(program, 0.5, RUNNING)
     keyboard = program.page.keyboard
     keyboard.down("ArrowUp")
@@ -77,7 +77,7 @@ def test_keys_drive_at_their_rates_and_are_let_go_with_the_focus(program: Progra
 
 
 @pytest.mark.slow
-def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> None:
+def test_what_is_true_of_the_run_stands_over_the_picture(program):
     flag = lambda name: program.page.locator(f'[data-a3="flag {name}"]')  # noqa: E731
     shown(program, 2.0, 0)
     assert flag("paused").is_visible()
@@ -111,7 +111,7 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
 
 
 @pytest.mark.slow
-def test_a_broken_wire_is_reported_and_mended_and_a_world_that_comes_then_is_no_longer_missed(program: Program) -> None:
+def test_a_broken_wire_is_reported_and_mended_and_a_world_that_comes_then_is_no_longer_missed(program):
     page, message = program.page, "The drawing of the world cannot be had"
     lost = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
     shown(program, 1.0, RUNNING)
@@ -130,7 +130,7 @@ def test_a_broken_wire_is_reported_and_mended_and_a_world_that_comes_then_is_no_
 
 
 @pytest.mark.slow
-def test_the_page_of_a_car_that_comes_back_keeps_its_settings_and_the_focus(program: Program) -> None:
+def test_the_page_of_a_car_that_comes_back_keeps_its_settings_and_the_focus(program):
     """It is another program, which counts its frames and epochs anew and records in another file."""
     page = program.page
     shown(program, 2.0, RUNNING)
@@ -153,7 +153,7 @@ def test_the_page_of_a_car_that_comes_back_keeps_its_settings_and_the_focus(prog
 
 
 @pytest.mark.slow
-def test_the_car_is_drawn_at_its_frame_in_every_camera(chromium: Any, lane_change: Recording) -> None:
+def test_the_car_is_drawn_at_its_frame_in_every_camera(chromium, lane_change):
     """Points inside the wheels, which are magenta here."""
     scene = dict(lane_change.scene or {})
     scene["shapes"] = [s | {"color": "#ff00ff", "material": "plastic"} for s in scene["shapes"] if s["kind"] == "wheel"]
@@ -182,7 +182,7 @@ def test_the_car_is_drawn_at_its_frame_in_every_camera(chromium: Any, lane_chang
 
 @pytest.mark.slow
 @pytest.mark.parametrize("without", ["a drawing", "WebGL"])
-def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_change: Recording, without: str) -> None:
+def test_instruments_map_and_keys_work_without_a_picture(chromium, lane_change, without):
     context = chromium.new_context(viewport={"width": 640, "height": 360})
     page = context.new_page()
     if without == "WebGL":
@@ -214,9 +214,7 @@ def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_cha
     [[(1280, 720)], [(1280, 720), (800, 1280)], [(390, 844), (844, 390)]],
     ids=["screen", "tablet", "telephone"],
 )
-def test_everything_fits_on_the_screen_and_nothing_lies_on_another(
-    chromium: Any, lane_change: Recording, sizes: list[tuple[int, int]]
-) -> None:
+def test_everything_fits_on_the_screen_and_nothing_lies_on_another(chromium, lane_change, sizes):
     """A tablet and a telephone have levers to touch, and are turned; a key shows and hides levers everywhere."""
     levers = [f"lever {name}" for name in ("steering", "brake", "throttle")]
     context = chromium.new_context(viewport={"width": sizes[0][0], "height": sizes[0][1]}, has_touch=len(sizes) > 1)
@@ -243,7 +241,7 @@ def test_everything_fits_on_the_screen_and_nothing_lies_on_another(
 
 
 @pytest.mark.slow
-def test_long_sentences_beside_open_panels_end_above_the_cluster(chromium: Any, lane_change: Recording) -> None:
+def test_long_sentences_beside_open_panels_end_above_the_cluster(chromium, lane_change):
     context = chromium.new_context(viewport={"width": 800, "height": 450})
     program = Program(context.new_page(), lane_change, world=WORLD)
     program.open()
@@ -289,7 +287,7 @@ def reused(_open_page: Program) -> Iterator[Program]:
 class TestOnePage:
     """Tests that leave the page as it was share one, each with an epoch of its own; it is closed before others open."""
 
-    def test_instruments_show_the_numbers_of_the_frame(self, reused: Program, lane_change: Recording) -> None:
+    def test_instruments_show_the_numbers_of_the_frame(self, reused, lane_change):
         reused.values = {"used.throttle": 0.25, "used.brake": 0.5, "used.selector": 1.0}
         assert not reused.page.locator('[data-a3="step time"]').is_visible()
         reused.page.keyboard.press("k")
@@ -320,7 +318,7 @@ class TestOnePage:
         assert [float(word.split()[0]) for word in message[1::2]] == pytest.approx(slips, abs=0.51)
         assert np.array(radii) / max(radii) == pytest.approx(np.sqrt(loads / loads.max()), abs=0.01)
 
-    def test_an_arrow_of_a_tyre_points_where_the_force_does(self, reused: Program) -> None:
+    def test_an_arrow_of_a_tyre_points_where_the_force_does(self, reused):
         names = ("Fx", "Fy", "steer")
         reused.values = {f"wheel_{w}.{c}": 0.0 for w in ("FL", "FR", "RL", "RR") for c in names}
         reused.values |= {f"wheel_{w}.Fz": 2000.0 for w in ("FL", "FR", "RL", "RR")}
@@ -336,7 +334,7 @@ class TestOnePage:
         assert ends[3][1] > begins[3][1] + 8  # down is backwards
         assert ends[3][0] == pytest.approx(begins[3][0], abs=0.11)
 
-    def test_keys_and_buttons_are_commands(self, reused: Program) -> None:
+    def test_keys_and_buttons_are_commands(self, reused):
         shown(reused, 3.0, RUNNING, saved=12.5)
         keyboard = reused.page.keyboard
         for key in ("p", ".", "Backspace", "Shift+Backspace", "u", "Home", "l"):
@@ -358,7 +356,7 @@ class TestOnePage:
         keyboard.press("h")
         assert not reused.page.locator('[data-a3="help list"]').is_visible()
 
-    def test_the_map_shows_the_car_its_trail_and_places(self, reused: Program, lane_change: Recording) -> None:
+    def test_the_map_shows_the_car_its_trail_and_places(self, reused, lane_change):
         for time in np.arange(0.0, 3.0, 0.2):  # each drawn: frames in real time pass a page that has no processor
             shown(reused, time)
         reused.page.keyboard.press("5")
@@ -378,7 +376,7 @@ class TestOnePage:
         reused.until_heard({"type": "place", "name": "hill_20"})
         reused.page.keyboard.press("1")
 
-    def test_maps_draw_their_ground_once_for_many_pictures_and_it_goes_along(self, reused: Program) -> None:
+    def test_maps_draw_their_ground_once_for_many_pictures_and_it_goes_along(self, reused):
         """Pictures of the small map while the car goes 127 m, against those whose ground is drawn for each."""
         shown(reused, 3.0)  # the small map is there
         result, apart = reused.ask("""(() => {
@@ -411,7 +409,7 @@ class TestOnePage:
         assert apart < 0.01
 
     @pytest.mark.slow
-    def test_a_report_is_drawn(self, reused: Program) -> None:
+    def test_a_report_is_drawn(self, reused):
         shown(reused, 1.0)
         reused.page.keyboard.press("g")
         reused.until_heard({"type": "report"})

@@ -82,7 +82,7 @@ def motion(written: WrittenGltf, part: Part) -> NDArray[np.float64]:
     ("name", "exact"),
     [("box", 0.024), ("cylinder", np.pi * 0.08**2 * np.hypot(0.1, 0.4)), ("sphere", 4.0 / 3.0 * np.pi * 0.2**3)],
 )
-def test_volume_and_place(parts: list[Part], name: str, exact: float) -> None:
+def test_volume_and_place(parts, name, exact):
     """Corners are rounded, and what is round has flat sides."""
     (part,) = named(parts, name)
     assert part.frame == "car"
@@ -91,7 +91,7 @@ def test_volume_and_place(parts: list[Part], name: str, exact: float) -> None:
     assert part.mesh.bounds.mean(axis=0) == pytest.approx(expected, abs=1e-6)
 
 
-def test_normals_are_unit_and_point_out(parts: list[Part]) -> None:
+def test_normals_are_unit_and_point_out(parts):
     assert len(parts) > 20
     for part in parts:
         assert np.abs(np.linalg.norm(part.normals, axis=1) - 1.0).max() < 1e-6
@@ -101,7 +101,7 @@ def test_normals_are_unit_and_point_out(parts: list[Part]) -> None:
         assert np.mean(out) > 0.98  # small bevels have the normals of what they join
 
 
-def test_wheels_look_outwards(parts: list[Part]) -> None:
+def test_wheels_look_outwards(parts):
     """Brakes stand on the inner side of a rim, its nuts and spokes on the outer one."""
     for name, out in (("left wheel", 1.0), ("right wheel", -1.0)):
         actual = {p.look["name"]: p.mesh for p in named(parts, name) if p.frame == name.partition(" ")[0]}
@@ -112,7 +112,7 @@ def test_wheels_look_outwards(parts: list[Part]) -> None:
         assert np.ptp(actual["rubber"].vertices[:, 1]) == pytest.approx(0.2, rel=0.01)
 
 
-def test_the_mark_of_a_steering_wheel_is_on_top(parts: list[Part]) -> None:
+def test_the_mark_of_a_steering_wheel_is_on_top(parts):
     looks = ((part.mesh, part.look["pbrMetallicRoughness"]) for part in named(parts, "steering wheel"))
     (mark,) = (mesh for mesh, look in looks if look["baseColorFactor"][0] > 0.5)
     top = np.array([0.6, 0.0, 0.8])  # across the axis, upwards
@@ -126,9 +126,7 @@ def ends_of(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.parametrize(("name", "tolerance"), [("tube", 1e-6), ("spring", 5e-4)])  # a wire has seven sides
-def test_shapes_between_two_frames_reach_from_end_to_end(
-    written: WrittenGltf, parts: list[Part], name: str, tolerance: float
-) -> None:
+def test_shapes_between_two_frames_reach_from_end_to_end(written, parts, name, tolerance):
     begin, end = ends_of(name)
     part = next(part for part in named(parts, name) if part.frame == "shapes")
     found = motion(written, part)
@@ -145,7 +143,7 @@ def test_shapes_between_two_frames_reach_from_end_to_end(
     assert np.abs(turned - swung).max() < 1e-5, "it does not twist"
 
 
-def test_balls_stand_in_the_frames_of_their_ends(parts: list[Part]) -> None:
+def test_balls_stand_in_the_frames_of_their_ends(parts):
     for name in ("tube", "damper"):
         actual = {part.frame: part.mesh.vertices.mean(axis=0) for part in named(parts, name) if part.frame != "shapes"}
         ends = SHAPES[name].get("ends") or SHAPES[name]["points"]
@@ -154,7 +152,7 @@ def test_balls_stand_in_the_frames_of_their_ends(parts: list[Part]) -> None:
             assert actual[frame] == pytest.approx(place, abs=1e-6)
 
 
-def test_rods_of_a_damper_keep_their_length(written: WrittenGltf, parts: list[Part]) -> None:
+def test_rods_of_a_damper_keep_their_length(written, parts):
     begin, end = ends_of("damper")
     rods = [part for part in named(parts, "damper") if part.frame == "shapes"]
     assert sorted(part.look["name"] for part in rods) == ["chrome", "dark_paint", "steel"]
@@ -166,7 +164,7 @@ def test_rods_of_a_damper_keep_their_length(written: WrittenGltf, parts: list[Pa
         assert np.abs(np.cross(found[:, :3, 3] - begin, along)).max() < 1e-6
 
 
-def test_a_bending_plate_keeps_its_form_and_is_reported(written: WrittenGltf) -> None:
+def test_a_bending_plate_keeps_its_form_and_is_reported(written):
     (note,) = (note for note in written.notes if "form" in note)
     corners = np.stack([POSES.points(anchor) for anchor in MIXED], axis=1)
     apart = np.linalg.norm(corners[:, 2] - corners[:, 0], axis=1)
@@ -176,7 +174,7 @@ def test_a_bending_plate_keeps_its_form_and_is_reported(written: WrittenGltf) ->
     assert least < deviation < 1000.0
 
 
-def test_places_far_away_are_of_double_precision(tmp_path: Path) -> None:
+def test_places_far_away_are_of_double_precision(tmp_path):
     far = [500_123.456, 5_400_123.4, 112.3]
     boxes = [{"kind": "box", "frame": "ground", "at": far, "size": [1.0, 1.0, 1.0]}]
     boxes.append({"kind": "tube", "points": [["ground", far], ["ground", [*far[:2], 113.3]]], "radius": 0.1})
@@ -189,7 +187,7 @@ def test_places_far_away_are_of_double_precision(tmp_path: Path) -> None:
         assert min(np.abs(place - middle).max() for place in results) < 2e-5
 
 
-def test_a_program_that_fails_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_a_program_that_fails_is_one_sentence(monkeypatch, tmp_path):
     failed = subprocess.CompletedProcess(
         [], 1, b"", b"a.mjs:1\n^\n\nRangeError: out of memory\n    at a.mjs:1\n\nNode.js v24"
     )
@@ -201,7 +199,7 @@ def test_a_program_that_fails_is_one_sentence(monkeypatch: pytest.MonkeyPatch, t
         write_gltf(tmp_path / "a.glb", Recording(scene(), T, moving()))
 
 
-def test_a_program_that_does_not_start_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_a_program_that_does_not_start_is_one_sentence(monkeypatch, tmp_path):
     monkeypatch.setattr(gltf, "node_and_npm", lambda: (str(tmp_path / "node"), ""))
     monkeypatch.setattr(gltf, "bundle", lambda: Path("viewer.js"))
     with pytest.raises(ViewerError, match=r"^A glTF file cannot be written: .*node does not start: no such file"):

@@ -1,8 +1,5 @@
 """A world in a page that runs an FMU: one file with its road, thin, its drawing and its places."""
 
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 from hosts.simulator.command import main as simulator
@@ -25,9 +22,7 @@ SLOW_TO_UNPACK = """{
 
 
 @pytest.mark.slow
-def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
-    chromium: Any, live_car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(chromium, live_car, tmp_path, capsys):
     assert view([str(live_car), "--live", "--world", "proving_ground", "--no-open", "--out", str(tmp_path)]) == 0
     file = next(tmp_path.glob("*_live.html"))
     assert file.stat().st_size <= MOST_BYTES
@@ -82,9 +77,7 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
 
 
 @pytest.mark.slow
-def test_a_world_and_a_road_are_refused_together(
-    live_car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_world_and_a_road_are_refused_together(live_car, tmp_path, capsys):
     wishes = ["--world", "proving_ground", "--road", "washboard.road"]
     assert view([str(live_car), "--live", *wishes, "--no-open", "--out", str(tmp_path)]) != 0
     assert "give it once" in capsys.readouterr().err
@@ -100,9 +93,7 @@ def test_a_world_and_a_road_are_refused_together(
     ],
     ids=["missing", "100 km"],
 )
-def test_worlds_that_cannot_be_are_one_sentence_at_each_door(
-    live_car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], world: str | None, message: str
-) -> None:
+def test_worlds_that_cannot_be_are_one_sentence_at_each_door(live_car, tmp_path, capsys, world, message):
     file = tmp_path / "w.toml"
     if world is not None:
         file.write_text(f'kind = "world"\nname = "w"\n{world}\n', encoding="utf-8")

@@ -7,7 +7,7 @@ import shutil
 import struct
 import subprocess
 import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
@@ -44,7 +44,7 @@ def module(fmu: Fmu, **more: Any) -> FmuModule:
 
 
 @pytest.mark.slow
-def test_it_imports_nothing_and_exports_fmi(small: Callable[[str], Fmu]) -> None:
+def test_it_imports_nothing_and_exports_fmi(small):
     import wasmtime
 
     fmu = small("crane")
@@ -58,7 +58,7 @@ def test_it_imports_nothing_and_exports_fmi(small: Callable[[str], Fmu]) -> None
 
 
 @pytest.mark.slow
-def test_the_stack_lies_below_all_data(small: Callable[[str], Fmu]) -> None:
+def test_the_stack_lies_below_all_data(small):
     """An overflow is then a trap, and no change of data."""
     loaded = module(small("crane"))
     assert loaded.address("ali3_messages") >= STACK
@@ -66,7 +66,7 @@ def test_the_stack_lies_below_all_data(small: Callable[[str], Fmu]) -> None:
 
 
 @pytest.mark.slow
-def test_memory_that_runs_out_is_a_sentence(prototype: Fmu) -> None:
+def test_memory_that_runs_out_is_a_sentence(prototype):
     loaded = module(prototype)
     assert loaded.there
     for limit, there in ((loaded.memory_size, True), (loaded.memory_size - (1 << 18), False)):
@@ -77,7 +77,7 @@ def test_memory_that_runs_out_is_a_sentence(prototype: Fmu) -> None:
 
 
 @pytest.mark.slow
-def test_a_road_for_which_there_is_no_memory(prototype: Fmu) -> None:
+def test_a_road_for_which_there_is_no_memory(prototype):
     loaded = module(prototype, memory_limit=module(prototype).memory_size + (1 << 16))
     with pytest.raises(FMICallException):
         loaded.set("String", [prototype.kinds["road.file"][1]], ["own.road"])
@@ -87,7 +87,7 @@ def test_a_road_for_which_there_is_no_memory(prototype: Fmu) -> None:
 
 
 @pytest.mark.slow
-def test_a_table_whose_points_exceed_32_bits_is_refused(prototype: Fmu) -> None:
+def test_a_table_whose_points_exceed_32_bits_is_refused(prototype):
     """65536 x 65536 points are 0 in 32 bits."""
     result, n = module(prototype), 1 << 16
     result.add_file("roads/large.csv", b"y/x" + b";1" * n + b"\n" + (b"1" + b";0" * n + b"\n") * 4 + b"1;0\n" * (n - 4))
@@ -97,7 +97,7 @@ def test_a_table_whose_points_exceed_32_bits_is_refused(prototype: Fmu) -> None:
 
 
 @pytest.mark.slow
-def test_messages_beyond_the_room_for_them_are_counted(small: Callable[[str], Fmu]) -> None:
+def test_messages_beyond_the_room_for_them_are_counted(small):
     fmu = small("crane")
     loaded = module(fmu)
     reference = struct.pack("<I", fmu.kinds["torque"][1])
@@ -117,7 +117,7 @@ def test_messages_beyond_the_room_for_them_are_counted(small: Callable[[str], Fm
 
 
 @pytest.mark.slow
-def test_a_percent_sign_is_one(prototype: Fmu) -> None:
+def test_a_percent_sign_is_one(prototype):
     loaded = module(prototype)
     with pytest.raises(FMICallException):
         loaded.set("String", [prototype.kinds["road.file"][1]], ["50%.road"])
@@ -125,7 +125,7 @@ def test_a_percent_sign_is_one(prototype: Fmu) -> None:
 
 
 @pytest.mark.slow
-def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype: Fmu, tmp_path: Path) -> None:
+def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype, tmp_path):
     """Of a road with more tiles than are near; what comes later is read from the file as it was opened."""
     for name, seed in (("long.road", 1), ("other.road", 2)):
         heights = 0.002 * np.random.default_rng(seed).standard_normal((6000, 64))
@@ -165,7 +165,7 @@ def bare(tmp_path: Path) -> Path:
 
 
 @pytest.mark.slow
-def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callable[[str], Fmu], tmp_path: Path) -> None:
+def test_an_fmu_is_compiled_again_from_its_own_sources(bare, small, tmp_path):
     out = tmp_path / "out"
     assert build_fmu.main(["--fmu", str(bare), "--platforms", "wasm32", "--out", str(out)]) == 0
     fmu = Fmu(out / "Crane.fmu", tmp_path / "made")
@@ -178,7 +178,7 @@ def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callab
 
 
 @pytest.mark.slow
-def test_other_sources_than_those_installed_are_compiled(bare: Path, tmp_path: Path) -> None:
+def test_other_sources_than_those_installed_are_compiled(bare, tmp_path):
     """The sign of a damper is turned in the FMU's sources: the module has it, the library of this machine has not."""
     plan = Plan({"torque": 2.0}, ["torque"], [{"h": 0.01, "inputs": [2.0]}] * 20)
     turned = tmp_path / "turned" / "Crane.fmu"
@@ -197,9 +197,7 @@ def test_other_sources_than_those_installed_are_compiled(bare: Path, tmp_path: P
 
 
 @pytest.mark.slow
-def test_fmus_that_cannot_be_compiled_again_are_refused(
-    bare: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], small: Callable[[str], Fmu]
-) -> None:
+def test_fmus_that_cannot_be_compiled_again_are_refused(bare, tmp_path, capsys, small):
     def words(file: Path) -> str:
         assert build_fmu.main(["--fmu", str(file), "--platforms", "wasm32", "--out", str(tmp_path / "out")]) == 2
         return capsys.readouterr().err
@@ -222,7 +220,7 @@ def test_fmus_that_cannot_be_compiled_again_are_refused(
 
 
 @pytest.mark.slow
-def test_other_tools_do_not_mind_it(small: Callable[[str], Fmu], tmp_path: Path, capfd: Any) -> None:
+def test_other_tools_do_not_mind_it(small, tmp_path, capfd):
     fmu = small("crane")
     assert "wasm32" in {part.name for part in (fmu.folder / "binaries").iterdir()}
     assert fmpy.supported_platforms(str(fmu.path)) == ["c-code", fmpy.platform]
@@ -234,9 +232,7 @@ def test_other_tools_do_not_mind_it(small: Callable[[str], Fmu], tmp_path: Path,
     assert "nothing bad found" in capfd.readouterr().out
 
 
-def test_the_platform_is_asked_for_by_name(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_platform_is_asked_for_by_name(tmp_path, capsys, monkeypatch):
     """Its compilation takes longest where it was never done: other tests look at what it gives."""
     requested: list[tuple[tuple[str, ...], str]] = []
 
@@ -258,7 +254,7 @@ def test_the_platform_is_asked_for_by_name(
     assert requested == [(("wasm32-wasi",), "fmi2")]
 
 
-def test_sources_for_a_file_system_leave_the_room_out() -> None:
+def test_sources_for_a_file_system_leave_the_room_out():
     """Its files lie in every FMU, and are empty but with ALI3_ALONE."""
     sources = packed_sources("fmi2", "")
     for name in ("fmi2_alone.c", "kernel/src/files/file_room.c"):
@@ -267,7 +263,7 @@ def test_sources_for_a_file_system_leave_the_room_out() -> None:
 
 @pytest.mark.slow
 @unoptimised()
-def test_the_kernel_alone_is_a_module_too(tmp_path: Path) -> None:
+def test_the_kernel_alone_is_a_module_too(tmp_path):
     import wasmtime
 
     path = kernel_build.compile_library("wasm32-wasi", tmp_path / kernel_build.library_name("wasm32-wasi"))

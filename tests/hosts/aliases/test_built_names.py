@@ -1,7 +1,6 @@
 """``ali3 build --names`` and ``--aliases`` are inverse: a car under other names drives as under ours."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -57,9 +56,7 @@ def ours(prototype_fmu: Path) -> dict[str, np.ndarray]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("names", THEIRS)
-def test_a_car_under_other_names_is_driven_through_its_alias_file(
-    names: str, ours: dict[str, np.ndarray], renamed_fmu: Callable[[str], Path]
-) -> None:
+def test_a_car_under_other_names_is_driven_through_its_alias_file(names, ours, renamed_fmu):
     """All of CarMaker's are in the test with ports."""
     theirs = renamed_fmu(names)
     assert THEIRS[names] in Variables(described(theirs)).names
@@ -93,7 +90,7 @@ def ported(fmu: Path, names: str | None) -> Result:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("names", quick(("carmaker",), ("carmaker", "chrono"), "proof"))
-def test_all_outputs_of_a_car_with_ports_are_the_same_under_other_names(names: str, made_once: Made) -> None:
+def test_all_outputs_of_a_car_with_ports_are_the_same_under_other_names(names, made_once):
     one, theirs = ported(ported_fmu(made_once, None), None), ported_fmu(made_once, names)
     two = ported(theirs, names)
     assert two.failed_steps == one.failed_steps == 0
@@ -109,9 +106,7 @@ def test_all_outputs_of_a_car_with_ports_are_the_same_under_other_names(names: s
 
 
 @pytest.mark.slow
-def test_run_drives_a_car_under_other_names(
-    prototype_fmu: Path, renamed_fmu: Callable[[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_run_drives_a_car_under_other_names(prototype_fmu, renamed_fmu, tmp_path, capsys):
     """A manoeuvre with a driver, values of --set in the FMU's names, and a table that repeats the run."""
     theirs = str(renamed_fmu("carsim"))
     drive = ["-m", "double_lane_change", "--stop-time", "4", "--step", "0.01", "--set", "road.friction=0.8"]
@@ -135,9 +130,7 @@ def test_run_drives_a_car_under_other_names(
 
 
 @pytest.mark.slow
-def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
-    renamed_fmu: Callable[[str], Path], tmp_path: Path
-) -> None:
+def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(renamed_fmu, tmp_path):
     theirs = renamed_fmu("carsim")
     aliases = find_aliases("carsim", Variables(described(theirs)))
     car = TestedCar("a car", FmuSource(theirs, aliases), start={"initial.speed": 0.0, "steering": 0.5})
@@ -156,7 +149,7 @@ def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
 
 
 @pytest.mark.slow
-def test_marks_of_tyres_know_the_slips_of_a_car_under_other_names(renamed_fmu: Callable[[str], Path]) -> None:
+def test_marks_of_tyres_know_the_slips_of_a_car_under_other_names(renamed_fmu):
     theirs = renamed_fmu("carmaker")
     names = Variables(described(theirs)).names
     scene = scene_of(theirs)

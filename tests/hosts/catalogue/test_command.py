@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -31,9 +30,7 @@ def rows(folder: Path) -> list[dict[str, str]]:
 
 
 @pytest.mark.slow
-def test_cars_stand_side_by_side_and_processes_change_nothing(
-    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_cars_stand_side_by_side_and_processes_change_nothing(prototype_fmu, tmp_path, capsys):
     soft = tmp_path / "soft.ssv"
     soft.write_text(SSV, encoding="utf-8")
     for jobs in (1, 2):  # of processes of one thread, which give a fit its last digit
@@ -63,9 +60,7 @@ def test_cars_stand_side_by_side_and_processes_change_nothing(
     assert "load.peak_FL" in printed
 
 
-def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(
-    scene_fmu: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(scene_fmu, tmp_path, capsys):
     fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
     assert main([str(fmu), "--tests", "steady_circle", "--out", str(tmp_path / "out")]) == 1
     (row,) = rows(tmp_path / "out")
@@ -89,9 +84,7 @@ def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(
         (["--step", "0.5"], "at most 0.1 s"),
     ],
 )
-def test_each_error_is_one_sentence_before_the_first_run(
-    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
-) -> None:
+def test_each_error_is_one_sentence_before_the_first_run(prototype_fmu, tmp_path, capsys, arguments, message):
     tests = [] if "--tests" in arguments else ["--tests", "steady_circle"]
     assert main([str(prototype_fmu), *tests, *arguments, "--out", str(tmp_path / "out")]) == 2
     error = capsys.readouterr().err
@@ -100,14 +93,14 @@ def test_each_error_is_one_sentence_before_the_first_run(
     assert not (tmp_path / "out").exists()
 
 
-def test_no_fmu_and_no_file_are_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_fmu_and_no_file_are_reported(tmp_path, capsys):
     assert main([]) == 2
     assert "There is no FMU to test" in capsys.readouterr().err
     assert main([str(tmp_path / "none.fmu")]) == 2
     assert "There is no file" in capsys.readouterr().err
 
 
-def test_the_list_has_all_tests_with_their_settings(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_list_has_all_tests_with_their_settings(capsys):
     assert main(["--list"]) == 0
     printed = capsys.readouterr().out
     for name in TESTS:
@@ -118,7 +111,7 @@ def test_the_list_has_all_tests_with_their_settings(capsys: pytest.CaptureFixtur
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
 @pytest.mark.slow
-def test_ctrl_c_keeps_the_written_files(prototype_fmu: Path, tmp_path: Path) -> None:
+def test_ctrl_c_keeps_the_written_files(prototype_fmu, tmp_path):
     """The drop is soon done, the circle goes on for minutes; then Ctrl-C."""
     out, pipe = tmp_path / "out", subprocess.PIPE
     slow = ["--tests", "drop,steady_circle", "--test-setting", "steady_circle.speed_rise=0.02", "--jobs", "2"]

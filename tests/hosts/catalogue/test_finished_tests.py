@@ -24,9 +24,7 @@ def kept(task: Task, out: Path) -> TestRecord | None:
 
 
 @pytest.mark.slow
-def test_kept_records_are_those_of_the_runs(
-    prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_kept_records_are_those_of_the_runs(prototype_fmu, tmp_path, monkeypatch, capsys):
     drop = standard_test("drop")
     task = Task(
         "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(drop, SETTINGS), tmp_path

@@ -43,7 +43,7 @@ def kept(outcomes: dict[str, dict[str, Outcome]]) -> dict[tuple[str, str], bool 
     }
 
 
-def test_each_car_is_held_against_the_limits(tmp_path: Path) -> None:
+def test_each_car_is_held_against_the_limits(tmp_path):
     own_limits = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"drop.critical_speed" = {min = 80, unit = "km/h"}')
     result, faults = own_limits.apply_to(
         {"drop": {"a": record(1999.0), "b": record(2001.0, False), "c": "It has no wheels."}}
@@ -57,7 +57,7 @@ def test_each_car_is_held_against_the_limits(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("least", "both"), [(0.4, True), (0.6, False)])
-def test_the_limit_of_a_standard_holds_too(tmp_path: Path, least: float, both: bool) -> None:
+def test_the_limit_of_a_standard_holds_too(tmp_path, least, both):
     outcomes, _ = limits(tmp_path, f"rest = {{min = {least}, max = 9.0}}").apply_to({"drop": {"a": record(1.0)}})
     outcome = outcomes["drop"]["a"]
     assert isinstance(outcome, TestRecord)
@@ -65,7 +65,7 @@ def test_the_limit_of_a_standard_holds_too(tmp_path: Path, least: float, both: b
     assert outcome.measures[2].is_kept is both
 
 
-def test_a_limit_of_nothing_is_reported_and_the_others_are_judged(tmp_path: Path) -> None:
+def test_a_limit_of_nothing_is_reported_and_the_others_are_judged(tmp_path):
     own_limits = limits(
         tmp_path, 'peek = {max = 1}\n"rest.unit" = {max = 1}\npeak = {max = 1}\n"drop.peak" = {min = 0}'
     )
@@ -91,7 +91,7 @@ def test_a_limit_of_nothing_is_reported_and_the_others_are_judged(tmp_path: Path
         ("limits = 3", "limits is 3"),
     ],
 )
-def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, message: str) -> None:
+def test_a_file_without_limits_is_one_sentence(tmp_path, text, message):
     file = tmp_path / "l.toml"
     file.write_text(text)
     with pytest.raises(HostError) as refusal:
@@ -100,9 +100,7 @@ def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, messag
     assert "\n" not in str(refusal.value)
 
 
-def test_the_command_names_the_measure_outside_its_limits(
-    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_names_the_measure_outside_its_limits(prototype_fmu, tmp_path, capsys):
     task = Task(
         "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(standard_test("drop"), {})
     )
@@ -121,7 +119,7 @@ def test_the_command_names_the_measure_outside_its_limits(
     assert peak["kept"] is False
 
 
-def test_measures_are_in_si_units() -> None:
+def test_measures_are_in_si_units():
     """Tables of data keep them; reports show degrees and km/h."""
     results = [m.unit for test in TESTS for part in read_test_file(test).parts.values() for m in part.measures.values()]
     results = [unit for unit in results if "{" not in unit]

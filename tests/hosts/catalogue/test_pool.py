@@ -2,7 +2,6 @@
 
 import os
 import time
-from pathlib import Path
 from typing import Any
 
 import psutil
@@ -26,7 +25,7 @@ class FaultyCar(BicycleCar):
         return {}["nothing"]
 
 
-def test_a_fault_is_the_outcome_of_its_test_and_runs_are_written(tmp_path: Path) -> None:
+def test_a_fault_is_the_outcome_of_its_test_and_runs_are_written(tmp_path):
     good, faulty = (Task("steady_circle", car, FAST, tmp_path) for car in (BicycleCar(label="b"), FaultyCar()))
     parts: list[float] = []
     outcome = perform_task(good, parts.append)
@@ -40,9 +39,7 @@ def test_a_fault_is_the_outcome_of_its_test_and_runs_are_written(tmp_path: Path)
 
 
 @pytest.mark.slow
-def test_processes_and_their_unpacked_files_end_with_the_iteration(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, prototype_fmu: Path
-) -> None:
+def test_processes_and_their_unpacked_files_end_with_the_iteration(tmp_path, monkeypatch, prototype_fmu):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     others = psutil.Process().children()
     slow = Task("steady_circle", TestedCar("slow", FmuSource(prototype_fmu)), {"speed_rise": 0.02})

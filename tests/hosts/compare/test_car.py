@@ -101,7 +101,7 @@ def values(record: dict, part: str = "measures") -> dict[str, float]:
 
 
 @pytest.mark.slow
-def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> None:
+def test_the_same_car_at_another_step_is_the_same(car, tmp_path):
     """Units, signs, clock, pose and speed at the start: all must be right for this."""
     start = {"initial.speed": 15.0, "initial.x": 120.0, "initial.y": -40.0, "initial.yaw": 2.0}
     log = logged(car, tmp_path, start)
@@ -124,9 +124,7 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
 
 
 @pytest.mark.slow
-def test_an_inverted_input_is_reported_and_not_the_outputs(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_inverted_input_is_reported_and_not_the_outputs(car, tmp_path, capsys):
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     file = log.with_suffix(".toml")
     aliases = file.read_text("utf-8").replace('= "Lenkrad"', '= { name = "Lenkrad", factor = -1.0 }')
@@ -141,9 +139,7 @@ def test_an_inverted_input_is_reported_and_not_the_outputs(
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("unit", "factor"), [("km/h", 1.0), ("mph", 1.609344)])
-def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_it(
-    unit: str, factor: float, car: Path, tmp_path: Path
-) -> None:
+def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_it(unit, factor, car, tmp_path):
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     file = log.with_suffix(".toml")
     lines = file.read_text("utf-8").splitlines()
@@ -156,7 +152,7 @@ def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_i
 
 
 @pytest.mark.proof
-def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
+def test_parameters_of_the_car_come_back(car, tmp_path):
     true = {"front.tyre.grip": 0.85, "initial.speed": 15.0}
     log = logged(car, tmp_path, true, delay=0.04, noise=1.0)
     status, record = compared(
@@ -173,7 +169,7 @@ def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_driver_can_hold_the_measured_speed(car, tmp_path, capsys):
     """With another drag the pedals of the log would lose the speed; the driver keeps it."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     _, record = compared(car, log, "--set", "aerodynamics.drag_area=8", "--hold-speed")
@@ -185,9 +181,7 @@ def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys:
 
 
 @pytest.mark.slow
-def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_reported(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_reported(car, tmp_path, capsys):
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     whole, fast = tmp_path / "whole.ssv", tmp_path / "fast.ssv"
     assert check([str(car), "--save-parameters", str(whole)]) == 0
@@ -201,9 +195,7 @@ def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_
 
 
 @pytest.mark.slow
-def test_windows_begin_as_measured_each(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], in_process: pytest.MonkeyPatch
-) -> None:
+def test_windows_begin_as_measured_each(car, tmp_path, capsys, in_process):
     """The second half is left out."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     parts = ("--windows", "1", "--window-every", "0.5", "--seconds", "0.5:3")
@@ -223,7 +215,7 @@ def test_windows_begin_as_measured_each(
 
 
 @pytest.mark.slow
-def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_windows_are_fitted_and_left_out_in_turn(car, tmp_path, capsys):
     """The grip that is 0.8 of the car's pays for its fit, that at its start does not."""
     log = logged(car, tmp_path, {"initial.speed": 15.0, "front.tyre.grip": 0.8}, noise=1.0)
     windows = ("--windows", "1", "--window-every", "1", "--fit-step", "0.004")
@@ -240,7 +232,7 @@ def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, caps
 
 
 @pytest.mark.slow
-def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path) -> None:
+def test_angles_of_the_wheels_on_the_road_are_replayed(car, tmp_path):
     """The linkage of this car is rigid, so that the angles on the road tell that of the steering wheel."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     aliases = log.with_suffix(".toml")
@@ -258,7 +250,7 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
 
 
 @pytest.mark.slow
-def test_windows_that_cannot_be_are_refused(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_windows_that_cannot_be_are_refused(car, tmp_path, capsys):
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     arguments = [str(car), str(log), "--log-aliases", str(log.with_suffix(".toml")), "--out", str(tmp_path / "out")]
     for options, message in (
@@ -275,7 +267,7 @@ def test_windows_that_cannot_be_are_refused(car: Path, tmp_path: Path, capsys: p
 
 
 @pytest.mark.slow
-def test_an_angle_of_the_steering_wheel_drives_at_any_ratio(prototype_fmu: Path, tmp_path: Path) -> None:
+def test_an_angle_of_the_steering_wheel_drives_at_any_ratio(prototype_fmu, tmp_path):
     """Full lock is at another angle where a parameter changes the travel of the rack per turn."""
     t = np.array([0.0, 0.1, 0.3, 1.0])
     start = {"initial.speed": 15.0, "steering.rack_per_turn": 0.06}

@@ -40,14 +40,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.usefixtures("in_process")
 class TestCommand:
     @pytest.mark.slow
-    def test_a_fit_that_is_stopped_leaves_the_comparison(
-        self,
-        tuned: Path,
-        log: Path,
-        tmp_path: Path,
-        capsys: pytest.CaptureFixture[str],
-        monkeypatch: pytest.MonkeyPatch,
-    ) -> None:
+    def test_a_fit_that_is_stopped_leaves_the_comparison(self, tuned, log, tmp_path, capsys, monkeypatch):
         def stopped(
             outputs: object, unknowns: object, simulate: Callable[[Mapping[str, float]], object], **more: object
         ) -> None:
@@ -63,9 +56,7 @@ class TestCommand:
         assert "The fit was stopped after " in (tmp_path / "drive.html").read_text()
         assert not (tmp_path / "drive.ssv").exists()
 
-    def test_a_value_that_is_set_keeps_its_size_under_another_name(
-        self, tuned: Path, log: Path, tmp_path: Path
-    ) -> None:
+    def test_a_value_that_is_set_keeps_its_size_under_another_name(self, tuned, log, tmp_path):
         (tmp_path / "names.toml").write_text('rate = { name = "spring.stiffness", factor = 1000.0 }\n')
         results = []
         for k, more in enumerate(([], ["--aliases", str(tmp_path / "names.toml")])):
@@ -76,7 +67,7 @@ class TestCommand:
         assert results[0] == results[1]
 
     @pytest.mark.slow
-    def test_an_fmu_of_fmi_3_is_fitted_too(self, scene_fmu: Callable[..., Path], log: Path, tmp_path: Path) -> None:
+    def test_an_fmu_of_fmi_3_is_fitted_too(self, scene_fmu, log, tmp_path):
         fmu, record = scene_fmu(f"{SCENES}:tuned", "fmi3"), tmp_path / "record.json"
         fits = ["--fit", "spring.stiffness", "--fit", "spring.damping=0.2:5"]
         assert main([str(fmu), str(log), "--out", str(tmp_path), "--json", str(record), *fits]) == 0
@@ -86,7 +77,7 @@ class TestCommand:
 
     @pytest.mark.slow
     @pytest.mark.drawn
-    def test_compare_and_fit(self, tuned: Path, log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def test_compare_and_fit(self, tuned, log, tmp_path, capsys):
         arguments = [str(tuned), str(log), "--out", str(tmp_path), "--json", str(tmp_path / "all.json")]
         assert (
             main([*arguments, "--fit", "spring.stiffness", "--fit", "spring.damping=0.2:5", "--nuisance", "bias"]) == 0
@@ -114,9 +105,7 @@ class TestCommand:
         assert again["bob.x.rms"] == pytest.approx(0.01, rel=0.15)
 
     @pytest.mark.slow
-    def test_starts_intervals_and_folds_of_a_log_of_another_engine(
-        self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-    ) -> None:
+    def test_starts_intervals_and_folds_of_a_log_of_another_engine(self, tuned, tmp_path, capsys):
         """Every start finds the numbers of SciPy's pendulum within the intervals; so do folds, until they change."""
         fit = ("--fit", "spring.stiffness=60:200,spring.damping=0.3:4", "--starts")
 
@@ -158,9 +147,7 @@ class TestCommand:
             (1.0 / 9.81, ["in the simulation: is it in another unit"]),
         ],
     )
-    def test_a_wrong_unit_is_seen_and_nothing_is_fitted(
-        self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], factor: float, messages: list[str]
-    ) -> None:
+    def test_a_wrong_unit_is_seen_and_nothing_is_fitted(self, tuned, tmp_path, capsys, factor, messages):
         columns = log_columns()
         file = write(tmp_path / "odd.csv", columns | {"bob.x": factor * columns["bob.x"]})
         common = [str(tuned), str(file), "--out", str(tmp_path / "out"), "--set", "spring.stiffness=120"]
@@ -170,9 +157,7 @@ class TestCommand:
         output = capsys.readouterr().out
         assert all(message in output for message in messages)
 
-    def test_a_constant_signal_beside_a_log_that_is_not_written_over(
-        self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-    ) -> None:
+    def test_a_constant_signal_beside_a_log_that_is_not_written_over(self, tuned, tmp_path, capsys):
         columns = log_columns()
         file = write(tmp_path / "flat.csv", columns | {"bob.y": 0.0 * columns["bob.y"] - 1.0})
         before = file.read_bytes()
@@ -201,22 +186,14 @@ class TestCommand:
             (["--fit", "spring.damping", "--fit", "spring.damping"], "is given twice"),
         ],
     )
-    def test_wrong_wishes(
-        self,
-        tuned: Path,
-        log: Path,
-        tmp_path: Path,
-        capsys: pytest.CaptureFixture[str],
-        options: list[str],
-        message: str,
-    ) -> None:
+    def test_wrong_wishes(self, tuned, log, tmp_path, capsys, options, message):
         assert main([str(tuned), str(log), "--out", str(tmp_path), *options]) == 2
         errors = capsys.readouterr().err
         assert message in errors
         assert errors.count("\n") == 1
         assert not list(tmp_path.iterdir())
 
-    def test_a_gap_in_an_input(self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def test_a_gap_in_an_input(self, tuned, tmp_path, capsys):
         columns = log_columns()
         hole = (columns["time"] > 2.0) & (columns["time"] < 3.0)
         file = write(tmp_path / "gap.csv", columns | {"pull": np.where(hole, np.nan, columns["pull"])})
@@ -227,16 +204,14 @@ class TestCommand:
         assert main([str(tuned), str(file), "--out", str(tmp_path), "--longest-gap", "1.01"]) == 0
         assert "is bridged by a straight line" in capsys.readouterr().out
 
-    def test_an_input_beyond_its_range(self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def test_an_input_beyond_its_range(self, tuned, tmp_path, capsys):
         columns = log_columns()
         file = write(tmp_path / "far.csv", columns | {"pull": 100.0 * columns["pull"]})
         assert main([str(tuned), str(file), "--out", str(tmp_path)]) == 2
         assert "the range of the FMU's input is -50 to 50 N" in capsys.readouterr().err
 
     @pytest.mark.slow
-    def test_parameters_that_the_log_does_not_tell(
-        self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-    ) -> None:
+    def test_parameters_that_the_log_does_not_tell(self, tuned, tmp_path, capsys):
         file = write(tmp_path / "few.csv", log_columns())
         common = [str(tuned), str(file), "--out", str(tmp_path / "out"), "--signals", "bob.x"]
         # True is 123: the best within this range is at its end.
@@ -246,5 +221,5 @@ class TestCommand:
         assert "does not change any of the compared signals" in capsys.readouterr().err
 
 
-def test_commas_part_names_but_not_the_places_of_an_array() -> None:
+def test_commas_part_names_but_not_the_places_of_an_array():
     assert _names("a.b=1:2,c[1,2]=0.5:3,d") == ["a.b=1:2", "c[1,2]=0.5:3", "d"]

@@ -46,9 +46,7 @@ def assert_read(log: Log) -> None:
 
 
 @pytest.mark.parametrize(("used", "reported"), [(("bob.x",), 1), (("speed",), 0)])
-def test_an_omitted_sample_is_reported_for_used_signals(
-    fmu: NamedFmu, tmp_path: Path, used: tuple[str, ...], reported: int
-) -> None:
+def test_an_omitted_sample_is_reported_for_used_signals(fmu, tmp_path, used, reported):
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012", "0.12,6.0,9.9")
     (tmp_path / "log.csv").write_text(text)
     log = log_for(fmu, read_log(tmp_path / "log.csv", LogAliases().dialect), LogAliases(), noted=used)
@@ -57,7 +55,7 @@ def test_an_omitted_sample_is_reported_for_used_signals(
 
 
 @pytest.mark.parametrize("second", [0.5 * 12, 30.0])
-def test_an_input_jumps_between_two_rows_of_one_time(fmu: NamedFmu, tmp_path: Path, second: float) -> None:
+def test_an_input_jumps_between_two_rows_of_one_time(fmu, tmp_path, second):
     """An output has the first of them; the same value twice is no jump, and one that is not a spike."""
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012\n", f"0.12,6.0,0.012\n0.12,{second},0.5\n")
     log = read(fmu, tmp_path, text)
@@ -70,7 +68,7 @@ def test_an_input_jumps_between_two_rows_of_one_time(fmu: NamedFmu, tmp_path: Pa
     assert log.inputs["pull"].interval == pytest.approx(0.01)
 
 
-def test_times_of_a_clock_and_over_midnight(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_times_of_a_clock_and_over_midnight(fmu, tmp_path):
     begin, text = 86399.95, "time,pull,bob.x\n"
     for k in range(ROWS):
         t = (begin + 0.01 * k) % 86400.0
@@ -82,7 +80,7 @@ def test_times_of_a_clock_and_over_midnight(fmu: NamedFmu, tmp_path: Path) -> No
         read(fmu, tmp_path, "time,pull,bob.x\n" + short.replace("07:00.020", "7 h"))
 
 
-def test_a_heading_that_is_repeated_is_reported_by_its_line(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_a_heading_that_is_repeated_is_reported_by_its_line(fmu, tmp_path):
     """Empty lines are counted; a word among numbers is told as what it is."""
     heading = "time [ms],pull,bob.x\n"
     lines = (heading + rows("{ms},{f},{x}")).splitlines()
@@ -101,14 +99,14 @@ def test_a_heading_that_is_repeated_is_reported_by_its_line(fmu: NamedFmu, tmp_p
 
 
 @pytest.mark.parametrize("form", ["{t} s,{f} N,{x} m", "{t}s;{f}N;{x}m", "{t},{f} N,{x} m"])
-def test_units_behind_numbers_are_reported(fmu: NamedFmu, tmp_path: Path, form: str) -> None:
+def test_units_behind_numbers_are_reported(fmu, tmp_path, form):
     mark = ";" if ";" in form else ","
     text = mark.join(("time", "pull", "bob.x")) + "\n" + rows(form)
     with pytest.raises(HostError, match=r"line 2.*: '0\.0 ?[sN]' has its unit behind its number; .* 'name \[[sN]\]'"):
         read(fmu, tmp_path, text)
 
 
-def test_german_logger(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_german_logger(fmu, tmp_path):
     text = rows("{ms};{f};{x}").replace(".", ",")
     text = text.replace("\n", ";\n")  # many loggers end a row with a delimiter
     aliases = '[time]\nname = "Zeit"\nunit = "ms"\n[signals]\npull = { name = "Kräft" }\n"bob.x" = { name = "Weg" }'
@@ -116,7 +114,7 @@ def test_german_logger(fmu: NamedFmu, tmp_path: Path) -> None:
     assert_read(read(fmu, tmp_path, heading + text, aliases, "latin-1"))
 
 
-def test_units_of_the_heading_and_of_the_aliases(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_units_of_the_heading_and_of_the_aliases(fmu, tmp_path):
     text = "t [ms]\tF [kN]\tx\n" + rows("{ms}\t{f}\t{x}")
     log = read(fmu, tmp_path, text, '[signals]\npull = "F"\n"bob.x" = { name = "x", unit = "mm" }')
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
@@ -124,20 +122,20 @@ def test_units_of_the_heading_and_of_the_aliases(fmu: NamedFmu, tmp_path: Path) 
     assert log.outputs["bob.x"].time[-1] == pytest.approx(0.01 * (ROWS - 1))
 
 
-def test_the_line_of_units_may_stand_above_that_of_the_names(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_the_line_of_units_may_stand_above_that_of_the_names(fmu, tmp_path):
     log = read(fmu, tmp_path, "ms,kN,m\ntime,pull,bob.x\n" + rows("{ms},{f},{x}"), "[file]\nunits = 1")
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
 
 
 @pytest.mark.parametrize("head", ["# time,pull,bob.x\n# s,kN,m\n", "time,pull,bob.x\n#s,kN,m\n"])
-def test_names_and_units_may_be_comments(fmu: NamedFmu, tmp_path: Path, head: str) -> None:
+def test_names_and_units_may_be_comments(fmu, tmp_path, head):
     log = read(fmu, tmp_path, head + rows("{t},{f},{x}"))
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
     remark = read(fmu, tmp_path, "#by,A.,Smith\ntime,pull,bob.x\n" + rows("{t},{f},{x}"))
     assert remark.inputs["pull"].values == pytest.approx(0.5 * np.arange(ROWS))
 
 
-def test_factor_and_offset_are_those_of_other_alias_files(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_factor_and_offset_are_those_of_other_alias_files(fmu, tmp_path):
     """The number in the log is factor * ours + offset, as in the alias file of an FMU."""
     log = read(
         fmu,
@@ -148,7 +146,7 @@ def test_factor_and_offset_are_those_of_other_alias_files(fmu: NamedFmu, tmp_pat
     assert log.outputs["bob.x"].values == pytest.approx((0.001 * np.arange(ROWS) - 1.0) / -2.0 / 100.0)
 
 
-def test_clock_with_factor_offset_and_its_own_column(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_clock_with_factor_offset_and_its_own_column(fmu, tmp_path):
     text = "clock,imu,pull,bob.x\n" + rows("{ms},{t},{f},{x}")
     aliases = (
         '[time]\nname = "clock"\nunit = "s"\nfactor = 1000.0\noffset = -50.0\n'
@@ -158,7 +156,7 @@ def test_clock_with_factor_offset_and_its_own_column(fmu: NamedFmu, tmp_path: Pa
 
 
 @pytest.mark.parametrize("unit", ["epoch_ms", "iso"])
-def test_moments(fmu: NamedFmu, tmp_path: Path, unit: str) -> None:
+def test_moments(fmu, tmp_path, unit):
     moments = pd.Timestamp("2024-05-03T12:00:00") + pd.to_timedelta(10.0 * np.arange(ROWS), unit="ms")
     texts = [str(int(m.timestamp() * 1000)) if unit == "epoch_ms" else m.isoformat() for m in moments]
     lines = [f"{t},{0.5 * k},{0.001 * k}" for k, t in enumerate(texts)]
@@ -166,7 +164,7 @@ def test_moments(fmu: NamedFmu, tmp_path: Path, unit: str) -> None:
     assert_read(read(fmu, tmp_path, text, f'[time]\nname = "time"\nunit = "{unit}"\n[signals]\npull = "pull"'))
 
 
-def test_several_rates_leave_cells_empty(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_several_rates_leave_cells_empty(fmu, tmp_path):
     lines = [f"{0.01 * k:.2f},{0.5 * k},{0.001 * k if k % 4 == 0 else ''}" for k in range(ROWS)]
     log = read(fmu, tmp_path, "time,pull,bob.x\n" + "\n".join(lines) + "\n")
     assert log.outputs["bob.x"].interval == pytest.approx(0.04)
@@ -192,7 +190,7 @@ def test_several_rates_leave_cells_empty(fmu: NamedFmu, tmp_path: Path) -> None:
         ("lbf.ft", 1.3558179483314),
     ],
 )
-def test_units(unit: str, si: float) -> None:
+def test_units(unit, si):
     assert unit_definition(unit, "").factor == pytest.approx(si, rel=1e-12)
 
 
@@ -208,7 +206,7 @@ def stamped(form: str, shift: float = 0.0) -> str:
     )
 
 
-def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu, tmp_path):
     alias = '[signals]\n"bob.x" = "x"\n[time]\nname = "stamp"'
     with_comma = "stamp;x\n" + stamped("{0};{1}").replace("+00:00", "").replace(".", ",").replace("T", " ")
     lines = stamped("{0};{1}").splitlines()
@@ -220,9 +218,7 @@ def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: NamedFmu, tmp_path: P
 
 
 @pytest.mark.parametrize(("rate", "jitter"), [(10, 1), (5, 0)])
-def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
-    fmu: NamedFmu, tmp_path: Path, rate: int, jitter: int
-) -> None:
+def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(fmu, tmp_path, rate, jitter):
     count, chance = 20 * rate, np.random.default_rng(3)
     new = np.clip(rate * np.arange(20) + chance.integers(-jitter, jitter + 1, 20), 0, None)
     new[0] = 0
@@ -269,9 +265,7 @@ BAD = [
 
 
 @pytest.mark.parametrize(("text", "aliases", "message"), BAD)
-def test_bad_logs_are_reported_in_a_sentence(
-    fmu: NamedFmu, tmp_path: Path, text: str, aliases: str, message: str
-) -> None:
+def test_bad_logs_are_reported_in_a_sentence(fmu, tmp_path, text, aliases, message):
     with pytest.raises(HostError) as refusal:
         read(fmu, tmp_path, text, aliases)
     assert message in str(refusal.value)
@@ -279,7 +273,7 @@ def test_bad_logs_are_reported_in_a_sentence(
 
 
 @pytest.mark.parametrize("cut", ["0.4,20.0,0.0", "0.4,20.0", "0."])
-def test_a_row_without_a_line_end_is_left_out_and_reported(fmu: NamedFmu, tmp_path: Path, cut: str) -> None:
+def test_a_row_without_a_line_end_is_left_out_and_reported(fmu, tmp_path, cut):
     """Of 0.04 a cut log has left 0.0, which nothing tells from a whole number."""
     log = read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}") + cut)
     assert_read(log)
@@ -287,7 +281,7 @@ def test_a_row_without_a_line_end_is_left_out_and_reported(fmu: NamedFmu, tmp_pa
     assert read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")).notes == []
 
 
-def test_what_pandas_has_written_besides_does_not_matter(tmp_path: Path) -> None:
+def test_what_pandas_has_written_besides_does_not_matter(tmp_path):
     """The index is a column; of damaged notes of pandas nothing is read."""
     frame = pd.DataFrame({"u": [1.0, 2.0]}, index=pd.Index([0.0, 0.1], name="t"))
     table = pa.Table.from_pandas(frame)
@@ -300,14 +294,14 @@ def test_what_pandas_has_written_besides_does_not_matter(tmp_path: Path) -> None
     assert list(read_log(tmp_path / "b.parquet", Dialect()).table) == ["u"]
 
 
-def test_what_squares_to_no_number_is_refused_with_its_line(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_what_squares_to_no_number_is_refused_with_its_line(fmu, tmp_path):
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}")
     read(fmu, tmp_path, text.replace("0.12,6.0", "0.12,9e99"))
     with pytest.raises(HostError, match=r"line 14, column 'pull': -2e\+100 is too large; numbers up to 1e\+100"):
         read(fmu, tmp_path, text.replace("0.12,6.0", "0.12,-2e100"))
 
 
-def test_a_file_of_another_kind(tmp_path: Path) -> None:
+def test_a_file_of_another_kind(tmp_path):
     for name, content, message in (
         ("a.mf4", b"MDF     4.10", "asammdf"),
         ("a.parquet", b"PAR1 no", "is not a Parquet file"),

@@ -22,9 +22,7 @@ ROWS = (
 )
 
 
-def test_held_inputs_and_parameters_that_change(
-    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_held_inputs_and_parameters_that_change(tuned, tmp_path, capsys):
     table = tmp_path / "drive.csv"
     table.write_text("# held: pull\n" + "\n".join(",".join(map(str, row)) for row in ROWS) + "\n")
     assert run([str(tuned), "-m", str(table), "--step", "0.05", "--out", str(tmp_path)]) == 0
@@ -40,7 +38,7 @@ JUMPS = ((0.0, 1.0), (0.5, 1.5), (0.5, -20.0), (1.3, -9.0), (1.3, 12.0), (2.0, 3
 
 
 @pytest.mark.slow
-def test_a_jump_means_the_same_as_in_the_run(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_jump_means_the_same_as_in_the_run(tuned, tmp_path, capsys):
     """Of a result, whose record tells the jumps, and of samples with two rows where the input jumps."""
     table = tmp_path / "drive.csv"
     table.write_text("time,pull\n" + "\n".join(f"{t},{x}" for t, x in JUMPS) + "\n")
@@ -79,9 +77,7 @@ def _largest(table: Path) -> float:
     return largest
 
 
-def test_a_set_parameter_is_not_driven_by_the_log(
-    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_set_parameter_is_not_driven_by_the_log(tuned, tmp_path, capsys):
     log = tmp_path / "log.csv"
     rows = [f"{0.02 * k},{np.sin(0.02 * k)},{100 + k},{0.1 * np.sin(0.02 * k)}" for k in range(100)]
     log.write_text("time,pull,spring.stiffness,bob.x\n" + "\n".join(rows) + "\n")
@@ -92,7 +88,7 @@ def test_a_set_parameter_is_not_driven_by_the_log(
 
 
 @pytest.mark.slow
-def test_a_car_starts_as_the_run_did(prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_car_starts_as_the_run_did(prototype_fmu, tmp_path, capsys):
     step = ["--step", "0.01", "--out", str(tmp_path)]
     start = ["--set", "initial.speed=12", "--set", "initial.z=0.05", "--stop-time", "1.5"]
     assert run([str(prototype_fmu), "-m", "slalom", *start, *step]) == 0

@@ -24,7 +24,7 @@ def half(task: float, tell: Callable[[Any], None]) -> float:
     return -task
 
 
-def test_progress_is_reported_and_a_lost_task_is_a_result() -> None:
+def test_progress_is_reported_and_a_lost_task_is_a_result():
     experiment: Experiment[float, float] = Experiment("halves", half, float, str, size=lambda task: task)
     progress: list[tuple[int, float]] = []
     with closing(experiment.results([2.0, 3.0], experiment.pool(), lambda *word: progress.append(word))) as results:
@@ -42,7 +42,7 @@ def tenths(task: float, tell: Callable[[Any], None]) -> float:
     return task
 
 
-def test_parts_that_are_rounded_are_no_more_than_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_parts_that_are_rounded_are_no_more_than_the_whole(monkeypatch):
     """The bar warns of more, which is an error here."""
     monkeypatch.setattr("ali3.bars.DELAY", 0.0)
     experiment: Experiment[float, float] = Experiment("tenths", tenths, float, str, size=lambda task: 60.3)
@@ -60,7 +60,7 @@ def stored(task: float, tell: Callable[[Any], None]) -> float:
     return 0.0
 
 
-def test_a_result_is_finished_out_of_the_store_and_of_a_lost_one_that_is_kept() -> None:
+def test_a_result_is_finished_out_of_the_store_and_of_a_lost_one_that_is_kept():
     """Each task has its own, though they share a process."""
 
     def finish(task: float, result: float | None, place: Path) -> str:
@@ -72,9 +72,7 @@ def test_a_result_is_finished_out_of_the_store_and_of_a_lost_one_that_is_kept() 
     assert actual == ["2.0 0.0 2.0", "3.0 None 3.0", "4.0 0.0 4.0"]
 
 
-def test_a_result_is_found_by_its_name_while_its_key_is_the_same(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_result_is_found_by_its_name_while_its_key_is_the_same(tmp_path, capsys):
     with ResultStore[float](tmp_path, float, "counts") as store:
         store.add("a", "key", 1.0)
         store.add("b", "key", 2.0)

@@ -53,7 +53,7 @@ def level(car: Car) -> dict[str, float]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS, indirect=True)
-def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
+def test_steps_jumps_nan_and_silence_at_every_port(ported):
     values = [np.nan, np.inf, -np.inf, 1e6, -1e6, 0.0, 1.0, -1.0, 1e-300]
     with Car(ported, step=0.005) as car:
         ports = [name for name in ports_of(car) if name != "gear_request"]
@@ -80,7 +80,7 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS, indirect=True)
-def test_each_silent_or_non_finite_port_is_reported_once(ported: Path) -> None:
+def test_each_silent_or_non_finite_port_is_reported_once(ported):
     with Car(ported, step=0.002) as car:
         ports = ports_of(car)
         for port in ports:
@@ -118,9 +118,7 @@ def test_each_silent_or_non_finite_port_is_reported_once(ported: Path) -> None:
         (10.0, 0.003, 1.0, "follow derivatives for longer than 7.1 ms may shake it, {at_once} 2.5 ms"),
     ],
 )
-def test_a_step_that_is_long_for_a_tyre_is_reported_once_at_each_wheel(
-    ported: Path, speed: float, step: float, slope: float, message: str | None
-) -> None:
+def test_a_step_that_is_long_for_a_tyre_is_reported_once_at_each_wheel(ported, speed, step, slope, message):
     """By the tyres left out, in words of the front ones; in the first step no host knows a derivative."""
     with Car(ported, step=step) as car:
         car.reset(**{"initial.speed": speed, "step_size": min(step, 0.002)})
@@ -151,9 +149,7 @@ def test_a_step_that_is_long_for_a_tyre_is_reported_once_at_each_wheel(
         (600, 0, "are those of 0 s, and its wheel went 1"),
     ],
 )
-def test_a_tyre_that_answers_seldom_or_no_more_is_reported_once_at_each_wheel(
-    ported: Path, every: int, first: int, message: str | None
-) -> None:
+def test_a_tyre_that_answers_seldom_or_no_more_is_reported_once_at_each_wheel(ported, every, first, message):
     """Steps of 2 ms would be short enough, and the master gives forces at each; one rest of 3 m is none to tell."""
     with Car(ported, step=0.002) as car:
         car.reset(**{"initial.speed": 10.0, "step_size": 0.002})
@@ -169,7 +165,7 @@ def test_a_tyre_that_answers_seldom_or_no_more_is_reported_once_at_each_wheel(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
-def test_forces_that_stay_constant_before_time_0_are_reported(ported: Path) -> None:
+def test_forces_that_stay_constant_before_time_0_are_reported(ported):
     with Fmu(ported) as fmu:
         load = fmu.setter([f"wheel_{w}.hub_Fz" for w in WHEELS])
         fmu.initialise({"initial.speed": 10.0, "step_size": 0.002}, -5.0)
@@ -184,7 +180,7 @@ def test_forces_that_stay_constant_before_time_0_are_reported(ported: Path) -> N
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[2:], indirect=True)
 @pytest.mark.parametrize(("silent", "reported"), [("gear_request", 0), ("clutch", 1)])
-def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str, reported: int) -> None:
+def test_a_whole_number_is_set_where_it_changes_alone(ported, silent, reported):
     with Car(ported, step=0.002) as car:
         car.reset(**{"initial.speed": 10.0})
         inputs, most = level(car), [name for name in car.inputs if name != silent]
@@ -200,7 +196,7 @@ def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str,
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
-def test_a_wheel_in_the_air_and_a_standing_car_cause_no_warning(ported: Path) -> None:
+def test_a_wheel_in_the_air_and_a_standing_car_cause_no_warning(ported):
     """Tyres in the air have no force, and those of a car that stands stay as they are: 2 m are not far."""
     with Car(ported, step=0.002) as car:
         for speed, load, steps in ((25.0, 0.0, 300), (0.0, 3065.0, 2900)):
@@ -217,7 +213,7 @@ def test_a_wheel_in_the_air_and_a_standing_car_cause_no_warning(ported: Path) ->
 @pytest.mark.parametrize(
     ("ported", "normal"), [(CARS[0], (0.0, 0.0, 0.0)), (CARS[2], (0.0, 0.0, -1.0))], indirect=["ported"]
 )
-def test_an_invalid_normal_is_reported_at_each_wheel(ported: Path, normal: tuple[float, ...]) -> None:
+def test_an_invalid_normal_is_reported_at_each_wheel(ported, normal):
     with Car(ported, step=0.004) as car:
         for wheel in WHEELS:
             car.reset(**{"initial.speed": 10.0})
@@ -232,7 +228,7 @@ def test_an_invalid_normal_is_reported_at_each_wheel(ported: Path, normal: tuple
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[:1], indirect=True)
-def test_road_answers_from_python_are_those_of_the_closed_car_on_level_ground(ported: Path) -> None:
+def test_road_answers_from_python_are_those_of_the_closed_car_on_level_ground(ported):
     """Asked in turn every 2 ms, it rolls out as one on its own level road does: straight, at its height of rest."""
     requested = tuple(f"wheel_{w}.contact_{c}" for c in "xy" for w in WHEELS)
     with Car(ported, step=0.002) as car:

@@ -66,9 +66,7 @@ def car(rigid_fmu: Path):
         ),
     ],
 )
-def test_its_bits_are_those_of_the_fmu_by_a_plain_host(
-    fmu: str, inputs: tuple[str, ...], start: dict[str, float], request: pytest.FixtureRequest
-) -> None:
+def test_its_bits_are_those_of_the_fmu_by_a_plain_host(fmu, inputs, start, request):
     """All outputs, with changed parameters, through ports, beyond ranges, and beside inputs that are refused."""
     path, random = request.getfixturevalue(fmu), np.random.default_rng(1)
     input_rows = random.random((40, len(inputs))) * [0.5, *(len(inputs) - 1) * [200.0 if "braked" in fmu else 0.7]]
@@ -88,7 +86,7 @@ def test_its_bits_are_those_of_the_fmu_by_a_plain_host(
         assert car.time == pytest.approx(0.4)
 
 
-def test_a_new_start_and_a_saved_state_give_the_same_bits(car: Car, rigid_fmu: Path) -> None:
+def test_a_new_start_and_a_saved_state_give_the_same_bits(car, rigid_fmu):
     car.reset(**SPEED)
     first = drive(car, 20)
     saved = car.save()
@@ -103,7 +101,7 @@ def test_a_new_start_and_a_saved_state_give_the_same_bits(car: Car, rigid_fmu: P
         assert (drive(other, 20) == on).all()
 
 
-def test_ranges_are_drawn_by_the_seed(car: Car) -> None:
+def test_ranges_are_drawn_by_the_seed(car):
     ranges = {"initial.speed": (10.0, 20.0), "road.friction": (0.5, 0.9)}
     drawn = []
     for seed, order in ((1, ranges), (1, dict(reversed(ranges.items()))), (2, ranges)):
@@ -114,7 +112,7 @@ def test_ranges_are_drawn_by_the_seed(car: Car) -> None:
     assert all(10.0 <= a <= 20.0 and 0.5 <= b <= 0.9 for a, b in drawn)
 
 
-def test_warnings_are_those_of_the_fmu(car: Car) -> None:
+def test_warnings_are_those_of_the_fmu(car):
     car.reset(**SPEED)
     car.step([3.0, 0.0])
     message = "'steering' was set to 3 and is held at 1"
@@ -125,7 +123,7 @@ def test_warnings_are_those_of_the_fmu(car: Car) -> None:
     assert len([m for m in car.messages if message in m]) == 1
 
 
-def test_inconsistent_arguments_are_refused_in_one_sentence(car: Car, rigid_fmu: Path) -> None:
+def test_inconsistent_arguments_are_refused_in_one_sentence(car, rigid_fmu):
     cases = {
         "no start yet": lambda: car.step([0.0, 0.0]),
         "no input 'stering'; did you mean 'steering'[?]": lambda: Car(rigid_fmu, inputs=("stering",)),
@@ -166,9 +164,7 @@ def test_inconsistent_arguments_are_refused_in_one_sentence(car: Car, rigid_fmu:
         (1, {"initial.speed": float("nan")}, "'initial.speed' was set to nan"),
     ],
 )
-def test_a_start_that_there_is_not_is_one_sentence_and_no_start(
-    car: Car, seed: int, parameters: dict[str, object], message: str
-) -> None:
+def test_a_start_that_there_is_not_is_one_sentence_and_no_start(car, seed, parameters, message):
     with pytest.raises(HostError) as refusal:
         car.reset(seed, **parameters)
     assert message in str(refusal.value)
@@ -180,7 +176,7 @@ def test_a_start_that_there_is_not_is_one_sentence_and_no_start(
     assert car.read(("speed",)) == pytest.approx(15.0, abs=0.01)
 
 
-def test_a_car_without_a_start_or_closed_is_refused(rigid_fmu: Path) -> None:
+def test_a_car_without_a_start_or_closed_is_refused(rigid_fmu):
     car = Car(rigid_fmu, inputs=INPUTS)
     uses = (lambda: car.step([0.0, 0.0]), lambda: car.read(READS), car.save)
     for use in uses:
@@ -207,9 +203,7 @@ def test_a_car_without_a_start_or_closed_is_refused(rigid_fmu: Path) -> None:
         ({"step": "0.01"}, "The communication step of a car is '0.01'; it must be a positive number, in s."),
     ],
 )
-def test_options_of_another_type_are_refused_in_one_sentence(
-    options: dict[str, object], message: str, rigid_fmu: Path
-) -> None:
+def test_options_of_another_type_are_refused_in_one_sentence(options, message, rigid_fmu):
     if options.get("car") == "rigid":
         options = options | {"car": rigid_fmu}
     with pytest.raises(HostError, match=message):

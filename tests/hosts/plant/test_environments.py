@@ -1,7 +1,6 @@
 """Environments of Gymnasium: its checker, seeds, several at once, and a controller."""
 
 from contextlib import closing
-from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -21,7 +20,7 @@ def named(request: pytest.FixtureRequest) -> tuple[str, str]:
     return request.param, request.getfixturevalue("rigid_fmu" if request.param == LANE else "braked_fmu")
 
 
-def test_they_pass_the_checker(named: tuple[str, Path]) -> None:
+def test_they_pass_the_checker(named):
     name, path = named
     result = gymnasium.make(name, car=str(path)).unwrapped
     result.spec = None  # else the checker makes a second one by its name, of the car of the package
@@ -29,13 +28,13 @@ def test_they_pass_the_checker(named: tuple[str, Path]) -> None:
     result.close()
 
 
-def test_a_seed_gives_the_same_episode(named: tuple[str, Path]) -> None:
+def test_a_seed_gives_the_same_episode(named):
     name, path = named
     check_seeds(name, car=str(path))
 
 
 @pytest.mark.slow
-def test_the_driver_keeps_the_lane_and_zero_steering_leaves_it(rigid_fmu: Path) -> None:
+def test_the_driver_keeps_the_lane_and_zero_steering_leaves_it(rigid_fmu):
     ends = {}
     for gain in (1.0, 0.0):
         keeping = environments.LaneKeeping(str(rigid_fmu), speed=(12.0, 12.0), seconds=12.0)
@@ -51,7 +50,7 @@ def test_the_driver_keeps_the_lane_and_zero_steering_leaves_it(rigid_fmu: Path) 
 
 
 @pytest.mark.slow
-def test_an_invalid_action_is_refused_and_changes_nothing(braked_fmu: Path, rigid_fmu: Path) -> None:
+def test_an_invalid_action_is_refused_and_changes_nothing(braked_fmu, rigid_fmu):
     """Ports hold their last values and a car takes the first of several, which a policy that learns would not know."""
     for make, path in ((environments.AntiLockBraking, braked_fmu), (environments.LaneKeeping, rigid_fmu)):
         with closing(make(str(path))) as env:
@@ -67,7 +66,7 @@ def test_an_invalid_action_is_refused_and_changes_nothing(braked_fmu: Path, rigi
             assert rows[0][1] == rows[1][1]
 
 
-def test_options_of_a_reset_are_parameters_of_that_start(rigid_fmu: Path) -> None:
+def test_options_of_a_reset_are_parameters_of_that_start(rigid_fmu):
     with closing(environments.LaneKeeping(str(rigid_fmu))) as env:
         drawn, _ = env.reset(seed=1)
         observation, _ = env.reset(seed=1, options={"initial.speed": 10.0, "road.friction": (0.4, 0.5)})
@@ -90,15 +89,13 @@ def test_options_of_a_reset_are_parameters_of_that_start(rigid_fmu: Path) -> Non
         (environments.LaneKeeping, {"seconds": 0}, "An episode has 0 s; it must be a number, and a step or more."),
     ],
 )
-def test_an_environment_that_cannot_be_is_one_sentence(
-    made: type[environments.CarEnvironment], options: dict[str, object], message: str, rigid_fmu: Path
-) -> None:
+def test_an_environment_that_cannot_be_is_one_sentence(made, options, message, rigid_fmu):
     with pytest.raises(HostError, match=message):
         made(str(rigid_fmu), **options)
 
 
 @pytest.mark.slow
-def test_brakes_that_let_go_stop_earlier_than_locked_ones(braked_fmu: Path) -> None:
+def test_brakes_that_let_go_stop_earlier_than_locked_ones(braked_fmu):
     ways = {}
     for controlled in (True, False):
         braking = environments.AntiLockBraking(str(braked_fmu), speed=(15.0, 15.0), friction=(0.5, 0.5))

@@ -82,7 +82,7 @@ def pid_of(car: Car) -> int:
     return car._process.pid
 
 
-def test_it_begins_paused_and_its_steps_are_those_of_the_fmu(make: Made, fmu: Callable[[str], Path]) -> None:
+def test_it_begins_paused_and_its_steps_are_those_of_the_fmu(make, fmu):
     """Rates are of simulated time."""
     car = make(start={"initial.speed": 10.0})
     assert car.names[:4] == (*car.inputs, "chassis.x") == ("steering", "throttle", "brake", "chassis.x")
@@ -102,7 +102,7 @@ def test_it_begins_paused_and_its_steps_are_those_of_the_fmu(make: Made, fmu: Ca
     other.close()
 
 
-def test_run_pause_step_and_slow_motion_keep_the_schedule(make: Made) -> None:
+def test_run_pause_step_and_slow_motion_keep_the_schedule(make):
     car = make(paced=True, priority=True)
     assert "priority" in said(car, "priority").text
     car.command("run")
@@ -131,7 +131,7 @@ def test_run_pause_step_and_slow_motion_keep_the_schedule(make: Made) -> None:
     assert moment.count <= car.latest().count <= moment.count + 3
 
 
-def test_jumps_raise_the_epoch_and_are_reported(make: Made) -> None:
+def test_jumps_raise_the_epoch_and_are_reported(make):
     car = make(start={"initial.speed": 10.0})
     first = car.latest()
     moment = steps(car, 1000)
@@ -157,7 +157,7 @@ def test_jumps_raise_the_epoch_and_are_reported(make: Made) -> None:
     assert steps(car, 1).values[:3].tolist() == [0.0, 0.0, 0.5]
 
 
-def test_a_refused_step_pauses_and_a_rewind_runs_on(make: Made) -> None:
+def test_a_refused_step_pauses_and_a_rewind_runs_on(make):
     car = make("reach", step=0.2, paced=True)
     car.command("run")
     until(car, lambda m: m.count >= 3)
@@ -176,7 +176,7 @@ def test_a_refused_step_pauses_and_a_rewind_runs_on(make: Made) -> None:
     assert not car.latest().refused
 
 
-def test_nobody_takes_the_events_and_the_car_drives_on(make: Made) -> None:
+def test_nobody_takes_the_events_and_the_car_drives_on(make):
     car = make()
     assert car._messages is not None
     for _ in range(200):  # batches that the queue of commands holds
@@ -197,7 +197,7 @@ def for_ever(ask: Callable[[], None]) -> None:
         ask()
 
 
-def test_too_many_commands_are_refused(make: Made) -> None:
+def test_too_many_commands_are_refused(make):
     car = make(paced=True, step=0.5)
     for ask in (lambda: car.command("pause"), lambda: car.restart({})):
         with pytest.raises(HostError, match="not yet carried out"):
@@ -208,7 +208,7 @@ def test_too_many_commands_are_refused(make: Made) -> None:
 
 
 @POSIX
-def test_a_process_that_is_killed_is_one_sentence(make: Made) -> None:
+def test_a_process_that_is_killed_is_one_sentence(make):
     car = make(paced=True)
     car.command("run")
     until(car, lambda m: m.count > 5)
@@ -224,7 +224,7 @@ def test_a_process_that_is_killed_is_one_sentence(make: Made) -> None:
 
 
 @POSIX
-def test_close_ends_a_process_that_does_not_listen_beside_another_car(make: Made) -> None:
+def test_close_ends_a_process_that_does_not_listen_beside_another_car(make):
     """Ctrl-C is for the main process."""
     car, other = make(start={"initial.speed": 10.0}), make(start={"initial.speed": 5.0})
     pid, folder = pid_of(car), folder_of(car)
@@ -239,7 +239,7 @@ def test_close_ends_a_process_that_does_not_listen_beside_another_car(make: Made
     assert (moment.count, moment.values[speed]) == (300, pytest.approx(5.0, abs=0.5))
 
 
-def test_close_waits_for_the_thread_that_watches_the_process(make: Made, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_close_waits_for_the_thread_that_watches_the_process(make, monkeypatch):
     before = set(threading.enumerate())
     do = process.Isolated.do
 
@@ -254,7 +254,7 @@ def test_close_waits_for_the_thread_that_watches_the_process(make: Made, monkeyp
 
 
 @POSIX
-def test_no_orphan_is_left_when_the_main_process_is_killed(fmu: Callable[[str], Path], tmp_path: Path) -> None:
+def test_no_orphan_is_left_when_the_main_process_is_killed(fmu, tmp_path):
     script = tmp_path / "main.py"
     script.write_text(
         "import sys, time\nfrom pathlib import Path\nfrom hosts.simulator.car import Car, CarSettings\n"
@@ -283,21 +283,19 @@ def test_no_orphan_is_left_when_the_main_process_is_killed(fmu: Callable[[str], 
         ({"fmu": Path("nowhere.fmu")}, "There is no file"),
     ],
 )
-def test_a_start_that_is_impossible_is_refused(
-    fmu: Callable[[str], Path], settings: dict[str, object], sentence: str
-) -> None:
+def test_a_start_that_is_impossible_is_refused(fmu, settings, sentence):
     with pytest.raises(HostError, match=sentence):
         Car(CarSettings(**({"fmu": fmu("sledge"), "start": {}} | settings)))
 
 
-def test_an_fmu_that_refuses_its_start_leaves_no_process(fmu: Callable[[str], Path]) -> None:
+def test_an_fmu_that_refuses_its_start_leaves_no_process(fmu):
     before = set(multiprocessing.active_children())
     with pytest.raises(HostError, match="step_size"):
         Car(CarSettings(fmu("sledge"), {"step_size": 1e-30}, priority=False))
     assert set(multiprocessing.active_children()) == before
 
 
-def test_invalid_requests_and_commands_are_refused(make: Made) -> None:
+def test_invalid_requests_and_commands_are_refused(make):
     car = make()
     for values, sentence in (
         ({"wings": (1.0, 1.0)}, "no input 'wings'; it has: steering, throttle, brake"),

@@ -3,7 +3,6 @@
 import json
 import shutil
 import threading
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +33,7 @@ def counts(folder: Path) -> list[tuple[int, int]]:
 
 
 @pytest.mark.slow
-def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu: Callable[[str], Path], tmp_path: Path) -> None:
+def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu, tmp_path):
     folder = tmp_path / "drive"
     with Car(settings(fmu("sledge"), folder, world="a plane")) as car:
         car.want({"steering": (0.4, 1.0), "throttle": (1.0, 2.0)})
@@ -64,7 +63,7 @@ def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu: Callable[[str], Pat
 
 
 @pytest.mark.slow
-def test_states_between_lead_to_the_same_bits(fmu: Callable[[str], Path], tmp_path: Path) -> None:
+def test_states_between_lead_to_the_same_bits(fmu, tmp_path):
     """A part is found from the state that the car's process has saved as it is from the start."""
     folder = tmp_path / "drive"
     with Car(settings(fmu("sledge"), folder)) as car:
@@ -91,9 +90,7 @@ def test_states_between_lead_to_the_same_bits(fmu: Callable[[str], Path], tmp_pa
 
 
 @pytest.mark.slow
-def test_an_hour_of_the_prototype_has_200_megabytes_at_most_and_the_rest_is_found_again(
-    fmu: Callable[[str], Path], tmp_path: Path
-) -> None:
+def test_an_hour_of_the_prototype_has_200_megabytes_at_most_and_the_rest_is_found_again(fmu, tmp_path):
     """Every 105 steps of 2 ms all outputs, which the recording lacks at most rows."""
     folder, random, seen = tmp_path / "drive", np.random.default_rng(4), dict[int, bytes]()
     with Car(settings(fmu("prototype_car"), folder, step=0.002)) as car:
@@ -122,9 +119,7 @@ def test_an_hour_of_the_prototype_has_200_megabytes_at_most_and_the_rest_is_foun
 
 
 @pytest.mark.slow
-def test_unpaced_the_car_waits_for_a_slow_recorder(
-    fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_unpaced_the_car_waits_for_a_slow_recorder(fmu, tmp_path, monkeypatch):
     monkeypatch.setattr(car_module, "_MIN_ROWS", 16)
     monkeypatch.setattr(car_module, "_ROW_SECONDS", 0.0)
     with Car(settings(fmu("sledge"), tmp_path / "drive")) as car:
@@ -133,9 +128,7 @@ def test_unpaced_the_car_waits_for_a_slow_recorder(
     assert not [e for e in car.events() if e.kind == "overflow"]
 
 
-def test_in_real_time_it_does_not_wait_and_counts_lost_rows(
-    fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_in_real_time_it_does_not_wait_and_counts_lost_rows(fmu, tmp_path, monkeypatch):
     monkeypatch.setattr(car_module, "_MIN_ROWS", 16)
     monkeypatch.setattr(car_module, "_ROW_SECONDS", 0.0)
     stall, write = threading.Event(), Recorder.row
@@ -160,9 +153,7 @@ def test_in_real_time_it_does_not_wait_and_counts_lost_rows(
 
 
 @pytest.mark.slow
-def test_a_disk_that_is_full_ends_the_recording_and_not_the_drive(
-    fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_disk_that_is_full_ends_the_recording_and_not_the_drive(fmu, tmp_path, monkeypatch):
     def full(self: Recorder, *row: Any) -> None:
         raise FileError("the disk is full")
 

@@ -50,7 +50,7 @@ for k in range(10**9):
 
 @TABLES
 @pytest.mark.skipif(sys.platform == "win32", reason="it has no SIGKILL")
-def test_a_killed_program_leaves_its_recording(tmp_path: Path, table: str) -> None:
+def test_a_killed_program_leaves_its_recording(tmp_path, table):
     """What was written when it was killed, in the middle of whatever it did, is there."""
     folder = tmp_path / "drive"
     program = subprocess.Popen(
@@ -74,7 +74,7 @@ def test_a_killed_program_leaves_its_recording(tmp_path: Path, table: str) -> No
         assert len(drive.rows()) == len(rows) - 1
 
 
-def test_what_is_held_is_written_after_two_seconds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_held_is_written_after_two_seconds(tmp_path, monkeypatch):
     now = [100.0]
     monkeypatch.setattr("hosts.recordings.recording.clock.monotonic", lambda: now[0])
     recorder = Recorder(tmp_path / "drive", ["u"], {}, meta_of())
@@ -86,7 +86,7 @@ def test_what_is_held_is_written_after_two_seconds(tmp_path: Path, monkeypatch: 
     recorder.close()
 
 
-def test_every_bit_survives_both_tables(tmp_path: Path) -> None:
+def test_every_bit_survives_both_tables(tmp_path):
     values = [[0.1, -0.0, np.nan], [5e-324, np.inf, 1.0 / 3.0], [1e300, -1e-17, 2.0**53 + 2.0]]
     for table in ("parquet", "csv"):
         with Recorder(tmp_path / table, ["u", "a", "b"], {"a": "m"}, meta_of(0.1), table) as recorder:
@@ -100,7 +100,7 @@ def test_every_bit_survives_both_tables(tmp_path: Path) -> None:
     assert schema.field("a").metadata == {b"unit": b"m"}
 
 
-def test_a_table_that_grows_is_mostly_numbers(tmp_path: Path) -> None:
+def test_a_table_that_grows_is_mostly_numbers(tmp_path):
     """Directories of parts, one every two seconds, take less than their rows; with statistics and units far more."""
     names = [f"signal {k}" for k in range(200)]
     table = ParquetTable(tmp_path, names, dict.fromkeys(names, "m"))
@@ -114,7 +114,7 @@ def test_a_table_that_grows_is_mostly_numbers(tmp_path: Path) -> None:
     assert pq.read_schema(tmp_path / "inputs_outputs.parquet").field("signal 7").metadata == {b"unit": b"m"}
 
 
-def test_a_recording_is_read_while_its_parts_are_joined(tmp_path: Path) -> None:
+def test_a_recording_is_read_while_its_parts_are_joined(tmp_path):
     """A reader that has begun with the parts ends with the whole table."""
     recorder = Recorder(tmp_path / "drive", ["u"], {}, meta_of())
     for k in range(12_000):
@@ -133,9 +133,7 @@ def test_a_recording_is_read_while_its_parts_are_joined(tmp_path: Path) -> None:
     assert shares[-1] == 1.0
 
 
-def test_without_pyarrow_the_table_is_text_and_that_is_reported(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_pyarrow_the_table_is_text_and_that_is_reported(tmp_path, monkeypatch):
     monkeypatch.setattr("hosts.recordings.recording.find_spec", lambda name: None)
     with Recorder(tmp_path / "drive", ["u"], {}, meta_of()) as recorder:
         recorder.row(0, 0.0, 0, [1.0])
@@ -145,7 +143,7 @@ def test_without_pyarrow_the_table_is_text_and_that_is_reported(
 
 
 @pytest.mark.slow
-def test_invalid_recordings_are_refused_with_a_message(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_invalid_recordings_are_refused_with_a_message(fmus, tmp_path):
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     meta = json.loads((folder / "recording.json").read_text())
 
@@ -190,7 +188,7 @@ def _in_parts(folder: Path, names: list[str]) -> list[Path]:
     return sorted((folder / "parts").iterdir())
 
 
-def test_parts_in_another_order_or_of_another_recording_are_refused(tmp_path: Path) -> None:
+def test_parts_in_another_order_or_of_another_recording_are_refused(tmp_path):
     _, second, third = _in_parts(tmp_path / "drive", ["u", "y"])
     _, foreign, _ = _in_parts(tmp_path / "other", ["u", "z"])
     _, wider, _ = _in_parts(tmp_path / "wider", ["u", "y", "z"])
@@ -220,7 +218,7 @@ def _with_a_gap(fmu: Path, folder: Path) -> RecordedDrive:
     return read_recording(folder)
 
 
-def test_missing_rows_are_reported(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_missing_rows_are_reported(fmus, tmp_path):
     """By a view, which is drawn all the same; replay and manoeuvre are refused."""
     recorded = _with_a_gap(fmus["sledge"], tmp_path / "drive")
     assert len(recorded.rows()) == 16
@@ -234,9 +232,7 @@ def test_missing_rows_are_reported(fmus: dict[str, Path], tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
-def test_the_command_shows_repeats_and_makes_a_manoeuvre(
-    fmus: dict[str, Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_shows_repeats_and_makes_a_manoeuvre(fmus, tmp_path, capfd):
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     assert main(["--recording", str(folder)]) == 0
     shown = capfd.readouterr().out
@@ -261,7 +257,7 @@ def test_the_command_shows_repeats_and_makes_a_manoeuvre(
     assert "183 rows, the same bits in all of them" in output
 
 
-def test_options_of_driving_are_refused_beside_a_recording(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_options_of_driving_are_refused_beside_a_recording(tmp_path, capfd):
     for option in (
         ["--world", "hills"],
         ["--step", "0.001"],
@@ -277,7 +273,7 @@ def test_options_of_driving_are_refused_beside_a_recording(tmp_path: Path, capfd
         assert f"{option[0]} is for driving; with --recording nothing is driven, so leave it out." in errors
 
 
-def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus, tmp_path):
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     fmu_options = ViewRunOptions(None, None, None, FmuOptions([], []))
     (recording,), recordings, _ = recordings_of([folder], None, fmu_options)
@@ -296,9 +292,7 @@ def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], 
     assert recording.scene is not None
 
 
-def test_a_view_draws_straight_between_outputs_within_an_epoch(
-    fmus: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_view_draws_straight_between_outputs_within_an_epoch(fmus, tmp_path, monkeypatch):
     whole = read_recording(whole_drive(fmus["sledge"], tmp_path / "all"))
     drawn, other = whole.names[3:5]
     every = dict.fromkeys(whole.inputs, 1) | {name: 2 if name == drawn else 6 for name in whole.names[3:]}

@@ -38,11 +38,11 @@ def told(study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.Capture
 
 
 @pytest.mark.parametrize("case", CASES["file"], ids=lambda case: case["new"])
-def test_a_wrong_file_is_one_sentence(told: Callable[..., str], case: dict[str, str]) -> None:
+def test_a_wrong_file_is_one_sentence(told, case):
     assert told((case["old"], case["new"])).startswith(case["begins"])
 
 
-def test_unknown_signals_and_odd_intervals(told: Callable[..., str]) -> None:
+def test_unknown_signals_and_odd_intervals(told):
     signals = '[signals]\nnames = ["bob.w"]\ninterval = 0.05\n'
     assert told(more=signals) == (
         "study.toml: signals.names: the FMU has no input or output 'bob.w'; did you mean 'bob.y' or 'bob.x'?"
@@ -54,16 +54,14 @@ def test_unknown_signals_and_odd_intervals(told: Callable[..., str]) -> None:
 
 
 @pytest.mark.parametrize("case", CASES["table"], ids=lambda case: case["table"])
-def test_a_wrong_row_of_a_table_is_named(told: Callable[..., str], tmp_path: Path, case: dict[str, str]) -> None:
+def test_a_wrong_row_of_a_table_is_named(told, tmp_path, case):
     (tmp_path / "t.csv").write_text(case["table"])
     free = '"spring.free_length" = { range = [0.5, 0.8] }'
     error = told((SOBOL, 'method = "table"\nfile = "t.csv"'), (RANGE, ""), (free, ""))
     assert error.startswith(case["begins"])
 
 
-def test_wrong_options_and_study_files_are_refused(
-    study_file: Callable[..., Path], tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_wrong_options_and_study_files_are_refused(study_file, tuned, tmp_path, capsys):
     assert main([str(tmp_path / "none.toml")]) == 2
     assert capsys.readouterr().err == f"error: {tmp_path}/none.toml cannot be read: there is no such file.\n"
     assert main([str(tmp_path)]) == 2

@@ -1,7 +1,6 @@
 """One flipped bit in a file of rows or signals: a report names the file, and the study repeats those runs."""
 
 import random
-from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -42,7 +41,7 @@ def columns_of(part: Path) -> list[Any]:
 
 
 @pytest.mark.slow
-def test_no_bit_of_a_part_is_read_as_other_rows(study_file: Callable[..., Path], tmp_path: Path) -> None:
+def test_no_bit_of_a_part_is_read_as_other_rows(study_file, tmp_path):
     folder = tmp_path / "out"
     assert run_study(study_file(), folder, None, 1) is not None
     record = read_record(folder)
@@ -63,9 +62,7 @@ def test_no_bit_of_a_part_is_read_as_other_rows(study_file: Callable[..., Path],
 
 
 @pytest.mark.slow
-def test_a_damaged_file_is_reported_and_its_runs_are_made_again(
-    study_file: Callable[..., Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_damaged_file_is_reported_and_its_runs_are_made_again(study_file, tmp_path, capfd):
     study, folder = study_file(more=SIGNALS), tmp_path / "out"
     assert run_study(study, folder, None, 1) is not None
     rows = read_study(folder).drop(columns="wall_seconds")
@@ -91,9 +88,7 @@ def test_a_damaged_file_is_reported_and_its_runs_are_made_again(
     assert len(list((folder / "runs").glob(".damaged-part-*"))) == 1
 
 
-def test_the_runs_of_signals_that_have_gone_are_made_again(
-    study_file: Callable[..., Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_the_runs_of_signals_that_have_gone_are_made_again(study_file, tmp_path, capfd):
     file, folder = study_file(more=SIGNALS), tmp_path / "out"
     assert run_study(file, folder, None, 1) is not None
     samples = open_signals(folder)["bob.y"].to_numpy()
@@ -108,9 +103,7 @@ def test_the_runs_of_signals_that_have_gone_are_made_again(
     assert not (folder / "done").exists()
 
 
-def test_a_resumed_study_reads_each_part_once(
-    study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_resumed_study_reads_each_part_once(study_file, tmp_path, monkeypatch):
     file, folder = study_file(more=SIGNALS), tmp_path / "out"
     monkeypatch.setattr("hosts.study.outcome_table._MAX_ROWS", 4)
     assert run_study(file, folder, None, 1) is not None

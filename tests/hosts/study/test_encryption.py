@@ -1,9 +1,7 @@
 """A study opens no port; whether the traffic of a named scheduler is encrypted is checked and reported."""
 
 import threading
-from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
 
 import dask
 import psutil
@@ -27,7 +25,7 @@ def listening() -> set[int]:
 
 
 @pytest.mark.slow
-def test_a_study_on_this_machine_opens_no_port(study_file: Callable[..., Path], tmp_path: Path) -> None:
+def test_a_study_on_this_machine_opens_no_port(study_file, tmp_path):
     opened, ended, before = set[int](), threading.Event(), listening()
 
     def look() -> None:
@@ -45,9 +43,7 @@ def test_a_study_on_this_machine_opens_no_port(study_file: Callable[..., Path], 
 
 
 @pytest.mark.slow
-def test_another_scheduler_with_certificates_of_the_configuration(
-    study_file: Callable[..., Path], tmp_path: Path, in_process: None, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_another_scheduler_with_certificates_of_the_configuration(study_file, tmp_path, in_process, capfd):
     result = Security.temporary()
     names = {"ca-file": "tls_ca_file"}
     names |= {
@@ -75,7 +71,7 @@ def test_another_scheduler_with_certificates_of_the_configuration(
 
 
 @pytest.mark.slow
-def test_certificates_that_are_missing_are_one_sentence(tmp_path: Path) -> None:
+def test_certificates_that_are_missing_are_one_sentence(tmp_path):
     with pytest.raises(HostError, match=r"tls://127.0.0.1:9 needs certificates, .* has none: distributed.comm.tls"):
         connected("tls://127.0.0.1:9").__enter__()
     files = {"distributed.comm.tls.ca-file": str(tmp_path / "none"), "distributed.comm.tls.client.cert": "none"}
@@ -83,7 +79,7 @@ def test_certificates_that_are_missing_are_one_sentence(tmp_path: Path) -> None:
         connected("tls://127.0.0.1:9").__enter__()
 
 
-def test_an_address_without_end_is_not_quoted_whole(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_address_without_end_is_not_quoted_whole(capsys):
     _check_encryption(100_000 * "x")
     errors = capsys.readouterr().err
     assert "is used without TLS" in errors

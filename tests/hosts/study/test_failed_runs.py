@@ -58,9 +58,7 @@ def table_study(study_file: Callable[..., Path], folder: Path) -> Path:
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
-def test_runs_that_raise_crash_or_hang_are_rows_and_are_made_again(
-    study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_runs_that_raise_crash_or_hang_are_rows_and_are_made_again(study_file, tmp_path, monkeypatch, capsys):
     file = table_study(study_file, tmp_path)
     ended = run_study(file, tmp_path / "out", None, 2)
     assert ended is not None
@@ -95,7 +93,7 @@ def test_runs_that_raise_crash_or_hang_are_rows_and_are_made_again(
     assert repaired.loc[[3, 4, 5], "own"].tolist() == [53.0, 54.0, 55.0]
 
 
-def test_a_refused_step_is_a_reason(scene_fmu: Callable[..., Path]) -> None:
+def test_a_refused_step_is_a_reason(scene_fmu):
     fmu = scene_fmu(f"{TESTS / 'fmu' / 'scenes.py'}:reach")
     manoeuvre = Manoeuvre("pull", np.array([0.0, 1.0]), {"pull": np.array([0.0, 10.0])}, 1.0)
     job = Job("pull", manoeuvre, step=0.01, every=10, samples=11)

@@ -100,9 +100,7 @@ def check_complete(folder: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_kill_loses_only_the_runs_in_progress(
-    slow_study: Path, tmp_path: Path, in_process: None, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_kill_loses_only_the_runs_in_progress(slow_study, tmp_path, in_process, capsys):
     """Of those before, some are in a part and some in the journal alone; none is made again."""
     out, journal = tmp_path / "out", tmp_path / "out" / "done"
     process = command(slow_study, "--out", out, "--jobs", 1)
@@ -165,9 +163,7 @@ def own_scheduler(folder: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]:
 
 
 @pytest.mark.slow
-def test_a_cluster_loses_a_worker_the_command_and_the_scheduler(
-    slow_study: Path, tmp_path: Path, in_process: None
-) -> None:
+def test_a_cluster_loses_a_worker_the_command_and_the_scheduler(slow_study, tmp_path, in_process):
     """Each in the middle of a study, whose other runs are made without a cluster at last."""
     out = tmp_path / "out"
     with own_scheduler(tmp_path) as (address, scheduler):
@@ -235,7 +231,7 @@ def test_the_exit_code_depends_on_missing_rows_and_not_on_errors_of_dask(
 
 
 @pytest.mark.slow
-def test_ctrl_c_keeps_finished_runs(slow_study: Path, tmp_path: Path) -> None:
+def test_ctrl_c_keeps_finished_runs(slow_study, tmp_path):
     out = tmp_path / "out"
     process = command(slow_study, "--out", out, "--jobs", 2)
     wait_for_part(out, process, 1)
@@ -247,7 +243,7 @@ def test_ctrl_c_keeps_finished_runs(slow_study: Path, tmp_path: Path) -> None:
     assert 0 < len(rows(out)) < RUNS
 
 
-def test_a_worker_that_ends_too_early_is_reported_as_such() -> None:
+def test_a_worker_that_ends_too_early_is_reported_as_such():
     class Lost:
         def register_plugin(self, _: object) -> None:
             raise CommClosedError("in <TCP local=...>: Stream is closed")

@@ -67,7 +67,7 @@ SINE_RMS = math.sqrt(0.5 * 3.0**2 + 1.0)
         ("abs(min(chassis.ay))", 4.0, "m/s2"),
     ],
 )
-def test_closed_forms_and_units(result: Result, text: str, expected: float, unit: str) -> None:
+def test_closed_forms_and_units(result, text, expected, unit):
     measure = pickle.loads(pickle.dumps(parse_measure(text)))
     assert list(measure.columns(result.units, END).values()) == [unit]
     (actual,) = measure.evaluate(result)
@@ -75,7 +75,7 @@ def test_closed_forms_and_units(result: Result, text: str, expected: float, unit
     assert (actual.unit, actual.note) == (unit, "")
 
 
-def test_means_do_not_change_where_more_samples_lie(result: Result) -> None:
+def test_means_do_not_change_where_more_samples_lie(result):
     # The same ramp with 100 times as many samples in its second half; a plain mean would be 7.45.
     time = np.concatenate([np.linspace(0.0, 1.0, 11)[:-1], np.linspace(1.0, 2.0, 1001)])
     dense = Result(["x"], {"x": "m"}, time, 5.0 * time[:, None], 0.1, END, 0, [])
@@ -106,7 +106,7 @@ def test_means_do_not_change_where_more_samples_lie(result: Result) -> None:
         ("-" * 5000 + "max(chassis.ay)", "cannot be read|nested too deep"),
     ],
 )
-def test_forms_that_are_refused(text: str, sentence: str) -> None:
+def test_forms_that_are_refused(text, sentence):
     with pytest.raises(HostError, match=sentence):
         parse_measure(text)
 
@@ -121,12 +121,12 @@ def test_forms_that_are_refused(text: str, sentence: str) -> None:
         ("value(chassis.x, 2.5)", "ends at 2 s, before the 2.5 s of 'value"),
     ],
 )
-def test_what_no_run_can_yield(result: Result, text: str, sentence: str) -> None:
+def test_what_no_run_can_yield(result, text, sentence):
     with pytest.raises(HostError, match=sentence):
         parse_measure(text).columns(result.units, END)
 
 
-def test_measures_that_a_run_does_not_yield_are_nan_with_a_reason(result: Result) -> None:
+def test_measures_that_a_run_does_not_yield_are_nan_with_a_reason(result):
     def note(text: str, run: Result) -> str:
         (found,) = parse_measure(text).evaluate(run)
         assert math.isnan(found.value)
@@ -197,7 +197,7 @@ def functions(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_a_users_functions(functions: Path, result: Result) -> None:
+def test_a_users_functions(functions, result):
     peak = parse_measure("mine.py:peak", folder=functions)
     assert peak.columns(result.units) == {"peak": "m"}
     assert [m.value for m in peak.evaluate(result)] == [20.0]
@@ -220,9 +220,7 @@ def test_a_users_functions(functions: Path, result: Result) -> None:
         ("other", "gave b; other.units declares a"),
     ],
 )
-def test_a_function_that_fails_is_nan_with_a_reason(
-    functions: Path, result: Result, function: str, sentence: str
-) -> None:
+def test_a_function_that_fails_is_nan_with_a_reason(functions, result, function, sentence):
     (found,) = parse_measure(f"mine.py:{function}", folder=functions).evaluate(result)
     assert math.isnan(found.value)
     assert re.search(sentence, found.note), found.note
@@ -241,18 +239,18 @@ def test_a_function_that_fails_is_nan_with_a_reason(
         ("raise SystemExit(3)\n", "peak", "SystemExit"),
     ],
 )
-def test_files_that_are_refused(functions: Path, source: str, function: str, sentence: str) -> None:
+def test_files_that_are_refused(functions, source, function, sentence):
     (functions / "mine.py").write_text(source)
     with pytest.raises(HostError, match=sentence):
         parse_measure(f"mine.py:{function}", folder=functions)
 
 
-def test_no_file(tmp_path: Path) -> None:
+def test_no_file(tmp_path):
     with pytest.raises(HostError, match=r"in which the function f is to be, cannot be read: there is no such file"):
         parse_measure("none.py:f", folder=tmp_path)
 
 
-def test_digests_tell_changes(functions: Path) -> None:
+def test_digests_tell_changes(functions):
     before = parse_measure("mine.py:peak", folder=functions).digest
     (functions / "mine.py").write_text(FUNCTIONS.replace("TWICE *", "TWICE +"))
     assert parse_measure("mine.py:peak", folder=functions).digest != before

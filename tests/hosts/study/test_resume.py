@@ -52,7 +52,7 @@ def refused(folder: Path) -> str:
     return str(caught.value).replace(f"{folder}/", "")
 
 
-def test_another_fmu_is_refused(half: Path) -> None:
+def test_another_fmu_is_refused(half):
     fmu = half / "Tuned.fmu"
     with zipfile.ZipFile(fmu) as archive:
         content = {item.filename: archive.read(item) for item in archive.infolist()}
@@ -79,15 +79,13 @@ def test_another_fmu_is_refused(half: Path) -> None:
         ("runs = 16", "runs = 32", "sampling.runs was 16 and is 32."),
     ],
 )
-def test_a_changed_study_is_refused(half: Path, old: str, new: str, message: str) -> None:
+def test_a_changed_study_is_refused(half, old, new, message):
     text = (half / "study.toml").read_text()
     (half / "study.toml").write_text(text.replace(old, new))
     assert f"rows stay as they are: {message} Put it back" in refused(half)
 
 
-def test_only_missing_runs_are_made(
-    finished: Path, half: Path, in_process: None, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_only_missing_runs_are_made(finished, half, in_process, capsys):
     before = read_study(finished / "out")
     runs = half / "out" / "runs"
     again = [str(half / "study.toml"), "--out", str(half / "out"), "--no-report"]
@@ -106,21 +104,21 @@ def test_only_missing_runs_are_made(
     assert refused(half) == "out has rows of a study but not its study.json; give another --out."
 
 
-def test_two_programs_do_not_write_to_one_folder(half: Path) -> None:
+def test_two_programs_do_not_write_to_one_folder(half):
     with locked(half / "out", "It is locked."):
         assert refused(half) == (
             f"Another program runs a study in {half / 'out'}; wait for it, or give another --out."
         ).replace(f"{half}/", "")
 
 
-def test_no_scheduler_is_one_sentence(half: Path, in_process: None, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_scheduler_is_one_sentence(half, in_process, monkeypatch):
     monkeypatch.setattr("hosts.experiment.cluster._TIMEOUT", 0.5)
     assert refused(half).startswith("No scheduler of Dask answers at tcp://127.0.0.1:9: ")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
 @pytest.mark.slow
-def test_a_full_disk_keeps_the_written_rows(half: Path, in_process: None) -> None:
+def test_a_full_disk_keeps_the_written_rows(half, in_process):
     (half / "study.toml").write_text((half / "study.toml").read_text().replace("runs = 16", "runs = 32"))
     start = """
 import resource, signal, sys
@@ -158,7 +156,7 @@ with in_this_process():
     assert read_study(new).loc[table.index].equals(table)
 
 
-def test_a_run_is_repeated_as_a_drive(finished: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_run_is_repeated_as_a_drive(finished, capsys):
     out = finished / "out"
     assert main([str(out), "--run", "11"]) == 0
     lines = [line for line in capsys.readouterr().out.splitlines() if "run-11." in line]

@@ -1,7 +1,6 @@
 """A study from its file to its table."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +33,7 @@ def folder(tuned: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return ended.folder
 
 
-def test_rows_are_the_closed_form_of_each_point(folder: Path) -> None:
+def test_rows_are_the_closed_form_of_each_point(folder):
     table = read_study(folder)
     assert list(table.index) == list(range(16))
     assert (table["status"] == "done").all()
@@ -50,7 +49,7 @@ def test_rows_are_the_closed_form_of_each_point(folder: Path) -> None:
     assert table["simulated"].to_numpy() == pytest.approx(2.0)
 
 
-def test_pandas_opens_the_parts_with_units_and_origin(folder: Path) -> None:
+def test_pandas_opens_the_parts_with_units_and_origin(folder):
     table = pd.read_parquet(folder / "runs")
     assert table.attrs["units"]["spring.stiffness"] == "N/m"
     assert table.attrs["units"]["lowest"] == "m"
@@ -63,7 +62,7 @@ def test_pandas_opens_the_parts_with_units_and_origin(folder: Path) -> None:
     assert read_study(folder).attrs == table.attrs
 
 
-def test_xarray_opens_the_signals(folder: Path) -> None:
+def test_xarray_opens_the_signals(folder):
     data, table = open_signals(folder), read_study(folder)
     assert data["bob.y"].shape == (16, 41)
     assert data["time"].to_numpy() == pytest.approx(0.05 * np.arange(41))
@@ -81,7 +80,7 @@ def columns(folder: Path) -> dict[str, object]:
 
 
 @pytest.mark.slow
-def test_rows_have_the_bits_of_new_instances(folder: Path) -> None:
+def test_rows_have_the_bits_of_new_instances(folder):
     table = read_study(folder)
     file = folder.parent / "study.toml"
     study, _ = read_study_file(file)
@@ -94,15 +93,13 @@ def test_rows_have_the_bits_of_new_instances(folder: Path) -> None:
 
 
 @pytest.mark.slow
-def test_two_processes_of_their_own_give_the_same_bits(folder: Path, tmp_path: Path) -> None:
+def test_two_processes_of_their_own_give_the_same_bits(folder, tmp_path):
     assert run_study(folder.parent / "study.toml", tmp_path / "out", None, 2) is not None
     assert columns(tmp_path / "out") == columns(folder)
     assert open_signals(tmp_path / "out").equals(open_signals(folder))
 
 
-def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(
-    study_file: Callable[..., Path], tuned: Path, tmp_path: Path
-) -> None:
+def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(study_file, tuned, tmp_path):
     (tmp_path / "names.toml").write_text(
         '"chassis.z" = { name = "bob.y", factor = -1.0 }\n"rate" = { name = "spring.stiffness", factor = 10.0 }\n'
     )

@@ -31,9 +31,7 @@ def seek(study_file: Callable[..., Path], tmp_path: Path) -> Callable[..., int]:
 
 @pytest.mark.slow
 @pytest.mark.drawn
-def test_the_stiffness_for_a_lowest_place(
-    seek: Callable[..., int], tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_stiffness_for_a_lowest_place(seek, tuned, tmp_path, capsys):
     """At rest at y = -1 the mass swings about -(free length + m g / k), as far on the other side."""
     assert seek("--target", "lowest=-1200 mm") == 0
     message = capsys.readouterr().out
@@ -63,9 +61,7 @@ def test_the_stiffness_for_a_lowest_place(
 
 
 @pytest.mark.slow
-def test_a_value_that_cannot_be_met(
-    seek: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_value_that_cannot_be_met(seek, tmp_path, capsys):
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / f"{STEM}.ssv").write_text("of an earlier search")
     assert seek("--target", "lowest=-3") == 1
@@ -84,9 +80,7 @@ def test_a_value_that_cannot_be_met(
     assert "try another parameter (--by)." in message, "the FMU allows no smaller value"
 
 
-def test_what_changes_by_rounding_alone_does_not_change(
-    seek: Callable[..., int], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_changes_by_rounding_alone_does_not_change(seek, capsys):
     """The mass begins at rest at y = -1, its highest place."""
     assert seek("--target", "highest=-0.5") == 1
     message = capsys.readouterr().out
@@ -115,18 +109,14 @@ def test_what_changes_by_rounding_alone_does_not_change(
         (("--target", "lowest=1e999"), "spring.stiffness", "--target lowest=1e999: '1e999' is too large"),
     ],
 )
-def test_a_target_that_cannot_be_sought_is_refused_in_one_sentence(
-    seek: Callable[..., int], capsys: pytest.CaptureFixture[str], options: tuple[str, ...], by: str, message: str
-) -> None:
+def test_a_target_that_cannot_be_sought_is_refused_in_one_sentence(seek, capsys, options, by, message):
     assert seek(*options, by=by) == 2
     error = capsys.readouterr().err
     assert message in error
     assert error.count("\n") == 1
 
 
-def test_a_parameter_that_the_fmu_has_not_is_reported_before_its_range(
-    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_parameter_that_the_fmu_has_not_is_reported_before_its_range(study_file, tmp_path, capsys):
     old = '"spring.free_length" = { range = [0.5, 0.8] }'
     file = study_file(
         (old, '"front.bar" = { values = [1.0] }'),
@@ -139,14 +129,7 @@ def test_a_parameter_that_the_fmu_has_not_is_reported_before_its_range(
 
 
 @pytest.mark.parametrize(("kind", "message"), [("String", "it is a text; only"), ("Integer", "it is a whole number")])
-def test_what_is_no_real_number_is_not_sought(
-    study_file: Callable[..., Path],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    kind: str,
-    message: str,
-) -> None:
+def test_what_is_no_real_number_is_not_sought(study_file, tmp_path, monkeypatch, capsys, kind, message):
     """Told before a range that nobody gave."""
     before = Variables.settable
 
@@ -160,9 +143,7 @@ def test_what_is_no_real_number_is_not_sought(
     assert f"--by spring.stiffness: {message}" in capsys.readouterr().err
 
 
-def test_a_range_without_an_upper_end_is_refused(
-    seek: Callable[..., int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_range_without_an_upper_end_is_refused(seek, monkeypatch, capsys):
     before = Variables.settable
     monkeypatch.setattr(
         Variables,
@@ -173,7 +154,7 @@ def test_a_range_without_an_upper_end_is_refused(
     assert "--by pull: neither the study file nor the FMU gives a range; add --between" in capsys.readouterr().err
 
 
-def test_a_turn_is_two_pi_radians() -> None:
+def test_a_turn_is_two_pi_radians():
     """Frequencies are measured in rad/s and shown in Hz."""
     assert conversion("Hz", "rad/s") == pytest.approx(2.0 * math.pi)
     assert conversion("rad/s", "Hz") == pytest.approx(0.5 / math.pi)

@@ -1,6 +1,5 @@
 """Messages before a study: its plan, that of the example, and a measure that the trial runs could not compute."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +17,7 @@ from hosts.study.worker_data import Run, Work
 pytestmark = pytest.mark.usefixtures("in_process")
 
 
-def test_a_function_that_raises_is_reported_before_the_study(
-    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_function_that_raises_is_reported_before_the_study(study_file, tmp_path, capsys):
     (tmp_path / "own.py").write_text("def value(result):\n    raise ArithmeticError('no such number')\n")
     run_study(study_file(more='own = "own.py:value"\n'), tmp_path / "out", None, None, dry=True)
     errors = capsys.readouterr().err
@@ -29,18 +26,14 @@ def test_a_function_that_raises_is_reported_before_the_study(
 
 
 @pytest.mark.parametrize(("workers", "message"), [(1, "in all on one worker"), (2, "in all with 2 workers")])
-def test_the_plan_names_its_workers(
-    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], workers: int, message: str
-) -> None:
+def test_the_plan_names_its_workers(study_file, tmp_path, capsys, workers, message):
     run_study(study_file(), tmp_path / "out", None, workers, dry=True)
     assert message in capsys.readouterr().out
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("x", "reported"), [(550.0, 0), (0.0, 1)])
-def test_a_start_is_reported_where_a_run_has_it(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str], x: float, reported: int
-) -> None:
+def test_a_start_is_reported_where_a_run_has_it(tmp_path, capfd, x, reported):
     (tmp_path / "far.csv").write_text("x,-5,0,5\n500,0,0,0\n550,0,0,0\n600,0,0,0\n")
     start = {"road.file": road_value(str(tmp_path / "far.csv"), tmp_path)}
     job = Job("far", Manoeuvre("far", np.zeros(1), {}, 1.0, start))
@@ -54,13 +47,7 @@ EXAMPLE = Path(__file__).parents[3] / "examples" / "handling_study.toml"
 
 
 @pytest.mark.slow
-def test_the_example_is_a_plan(
-    prototype_fmu: Path,
-    tmp_path: Path,
-    in_process: None,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_the_example_is_a_plan(prototype_fmu, tmp_path, in_process, monkeypatch, capsys):
     monkeypatch.setattr("hosts.study.campaign.fmu_of_car", lambda car, *_: {"prototype": prototype_fmu}[car])
     assert main([str(EXAMPLE), "--dry-run", "--out", str(tmp_path / "out")]) == 0
     assert "192 points x 1 = 192 runs" in capsys.readouterr().out

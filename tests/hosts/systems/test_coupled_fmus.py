@@ -4,7 +4,6 @@ import math
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from itertools import product
 from pathlib import Path
 
@@ -37,7 +36,7 @@ def oscillate(partners: dict[str, Path], step: float, order: str) -> tuple[np.nd
         return system.run(1.0, ("mass.position", "spring.force")), system.messages
 
 
-def test_an_oscillator_of_two_fmus_is_the_scheme_that_its_order_makes(partners: dict[str, Path]) -> None:
+def test_an_oscillator_of_two_fmus_is_the_scheme_that_its_order_makes(partners):
     """Mass and spring in turn are the symplectic Euler method, at once a later one; both by their own recurrences."""
     h = 0.05
     for order in ("in turn", "at once"):
@@ -55,7 +54,7 @@ def test_an_oscillator_of_two_fmus_is_the_scheme_that_its_order_makes(partners: 
     assert 1.8 < errors[0] / errors[1] < 2.2
 
 
-def test_a_nan_is_reported_once_with_its_part(partners: dict[str, Path]) -> None:
+def test_a_nan_is_reported_once_with_its_part(partners):
     parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
     with CoupledFmus(parts, WIRES, step=0.1) as system:
         system.initialise(**{"mass.start": 1.0, "spring.break_at": 0.25})
@@ -65,7 +64,7 @@ def test_a_nan_is_reported_once_with_its_part(partners: dict[str, Path]) -> None
 
 
 @pytest.mark.parametrize(("first", "slopes"), [("source", [10.0, 0.0, 0.0]), ("sink", [0.0, 10.0, 0.0])])
-def test_a_followed_source_that_jumps_and_stays(partners: dict[str, Path], first: str, slopes: list[float]) -> None:
+def test_a_followed_source_that_jumps_and_stays(partners, first, slopes):
     """0, 1, 1, 1: what is known at the end is met there; else the step before is gone on with."""
     parts = {"source": partners["jump"], "sink": partners["half_spring"]}
     with CoupledFmus(
@@ -85,7 +84,7 @@ REFUSED = {"source.refuse_from": 0.15}
 CHAIN = {"mass.force": "source.value"}
 
 
-def test_after_a_refused_step_all_parts_are_where_they_were(partners: dict[str, Path]) -> None:
+def test_after_a_refused_step_all_parts_are_where_they_were(partners):
     parts = {"mass": partners["half_mass"], "source": partners["jump"]}
     with CoupledFmus(parts, CHAIN, step=0.1) as system:
         system.initialise()
@@ -103,7 +102,7 @@ def test_after_a_refused_step_all_parts_are_where_they_were(partners: dict[str, 
         assert system.read(("mass.position",)) == undisturbed[-1]
 
 
-def test_a_system_that_cannot_repeat_a_step_reports_it_and_restarts(partners: dict[str, Path]) -> None:
+def test_a_system_that_cannot_repeat_a_step_reports_it_and_restarts(partners):
     parts = {"mass": partners["half_mass"], "source": partners["stateless"]}
     with CoupledFmus(parts, CHAIN, step=0.1) as system:
         with pytest.raises(HostError, match="must be initialised before a step"):
@@ -118,7 +117,7 @@ def test_a_system_that_cannot_repeat_a_step_reports_it_and_restarts(partners: di
         assert system.run(0.2, ("mass.position",)).tolist() == one.tolist()
 
 
-def test_states_are_freed_where_a_later_part_cannot_save_its_own(partners: dict[str, Path], monkeypatch) -> None:
+def test_states_are_freed_where_a_later_part_cannot_save_its_own(partners, monkeypatch):
     parts = {"mass": partners["half_mass"], "source": partners["jump"]}
     with CoupledFmus(parts, CHAIN, step=0.1, inputs="repeated") as system:
         system.initialise()
@@ -131,7 +130,7 @@ def test_states_are_freed_where_a_later_part_cannot_save_its_own(partners: dict[
         assert len(freed) == 1
 
 
-def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> None:
+def test_what_a_system_cannot_do_is_one_sentence(partners):
     """Not after it is closed either, where the library of the FMU is gone."""
     parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
     with CoupledFmus(parts, WIRES, step=0.1) as system:
@@ -174,15 +173,13 @@ def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> N
         ({"connections": "spring.force"}, "The connections are 'spring.force'; they must be a dictionary"),
     ],
 )
-def test_options_of_another_type_are_refused_in_one_sentence(
-    partners: dict[str, Path], options: dict[str, object], message: str
-) -> None:
+def test_options_of_another_type_are_refused_in_one_sentence(partners, options, message):
     usual = {"parts": {"mass": partners["half_mass"]}, "connections": {}, "step": 0.1}
     with pytest.raises(HostError, match=message):
         CoupledFmus(**(usual | options))
 
 
-def test_an_angle_is_no_plain_number(partners: dict[str, Path], scene_fmu: Callable[..., Path]) -> None:
+def test_an_angle_is_no_plain_number(partners, scene_fmu):
     """Nor is what an FMU that tells no unit has, which passes."""
     sledge = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
     parts = {"sledge": sledge, "mass": partners["half_mass"]}
@@ -200,7 +197,7 @@ def test_an_angle_is_no_plain_number(partners: dict[str, Path], scene_fmu: Calla
         ({"spring.position": "mass.force"}, "The part 'mass' has no output 'force'"),
     ],
 )
-def test_invalid_wires_are_refused(partners: dict[str, Path], wires: dict[str, str], message: str) -> None:
+def test_invalid_wires_are_refused(partners, wires, message):
     parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
     with pytest.raises(HostError, match=message):
         CoupledFmus(parts, wires, step=0.1)
@@ -208,7 +205,7 @@ def test_invalid_wires_are_refused(partners: dict[str, Path], wires: dict[str, s
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", quick(("drive",), CASES, "proof"))
-def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str) -> None:
+def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name):
     """At 2 ms: wheel loads within 1 %, the path within 0.2 %; repeated steps halve the error or better."""
     load, path, messages = coupled(name, 0.002)
     assert load < 1e-2
@@ -223,14 +220,14 @@ def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str
 
 @pytest.mark.proof
 @pytest.mark.parametrize("name", ["yaw control", "torque vectoring", "two cars"])
-def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(name: str) -> None:
+def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(name):
     """Against the same as one."""
     held, again = (run(name, 0.004, inputs=inputs)[SYSTEMS[name].measure][-1] for inputs in ("held", "repeated"))
     assert abs(again - twin(name)[-1]) < 0.5 * abs(held - twin(name)[-1])
 
 
 @pytest.mark.slow
-def test_a_switching_law_is_late_by_a_step_for_all_kinds_of_inputs() -> None:
+def test_a_switching_law_is_late_by_a_step_for_all_kinds_of_inputs():
     """Against steps of 0.1 ms: held inputs are the nearer the shorter the step, others are not nearer."""
     held = [error(h, "held") for h in (0.002, 0.01)]
     assert held[0] < held[1] < 1e-2
@@ -239,13 +236,13 @@ def test_a_switching_law_is_late_by_a_step_for_all_kinds_of_inputs() -> None:
 
 
 @pytest.mark.proof
-def test_the_stored_distance_is_that_of_steps_of_a_tenth_of_a_millisecond() -> None:
+def test_the_stored_distance_is_that_of_steps_of_a_tenth_of_a_millisecond():
     assert braking_distance(SHORT) == pytest.approx(BRAKING_DISTANCE, rel=1e-6)
     assert 20.0 < BRAKING_DISTANCE < 23.0, "it would coast 30 m"
 
 
 @pytest.mark.slow
-def test_gears_requested_by_another_program_are_held_for_all_kinds_of_inputs() -> None:
+def test_gears_requested_by_another_program_are_held_for_all_kinds_of_inputs():
     """A whole number has no derivative."""
     assert 1e-6 < abs(distance_with_shifts(0.01) / distance_with_shifts(0.002) - 1.0) < 2e-3
     assert (
@@ -254,7 +251,7 @@ def test_gears_requested_by_another_program_are_held_for_all_kinds_of_inputs() -
 
 
 @pytest.mark.slow
-def test_a_silent_partner_or_one_that_gives_nan_is_reported(partners: dict[str, Path]) -> None:
+def test_a_silent_partner_or_one_that_gives_nan_is_reported(partners):
     """Three ports that nobody sets, and one whose partner breaks: it holds the last value, and the car drives on."""
     parts = {"car": car_fmu("prototype", "torque"), "spring": partners["half_spring"]}
     wires = {"spring.position": "car.chassis.x", "car.wheel_RL.drive_torque": "spring.force"}
@@ -270,7 +267,7 @@ def test_a_silent_partner_or_one_that_gives_nan_is_reported(partners: dict[str, 
 
 
 @pytest.mark.slow
-def test_repeated_steps_that_diverge_at_a_stiff_hitch_are_reported() -> None:
+def test_repeated_steps_that_diverge_at_a_stiff_hitch_are_reported():
     """At 10 ms each pass makes the force of the ball larger: it ends at the range of the ports, which is said."""
     load, _, messages = coupled("trailer", 0.01, inputs="repeated")
     assert load > 0.01
@@ -280,7 +277,7 @@ def test_repeated_steps_that_diverge_at_a_stiff_hitch_are_reported() -> None:
 
 
 @pytest.mark.slow
-def test_planes_of_a_road_that_is_stepped_before_the_car_go_from_answer_to_answer(monkeypatch) -> None:
+def test_planes_of_a_road_that_is_stepped_before_the_car_go_from_answer_to_answer(monkeypatch):
     """Behind the car they go on as in the last step, 3 % off, which is told."""
     load, _, messages = coupled("road", 0.01, inputs="followed")
     assert load < 5e-3
@@ -292,7 +289,7 @@ def test_planes_of_a_road_that_is_stepped_before_the_car_go_from_answer_to_answe
 
 
 @pytest.mark.slow
-def test_as_one_model_car_and_trailer_start_as_each_stands_alone() -> None:
+def test_as_one_model_car_and_trailer_start_as_each_stands_alone():
     pose = mbs.Pose(speed=10.0)
     whole = mbs.Simulation(trailer.with_trailer(), pose=pose).sensors
     for model in (trailer.car_with_hitch().model(), trailer.trailer()):
@@ -305,7 +302,7 @@ def test_as_one_model_car_and_trailer_start_as_each_stands_alone() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("master", "name"), quick(BY_OTHERS, product(MASTERS, (*CASES, *SYSTEMS)), "proof"))
-def test_other_masters_run_the_ssp_as_the_own_one_does(name: str, master: str, tmp_path: Path) -> None:
+def test_other_masters_run_the_ssp_as_the_own_one_does(name, master, tmp_path):
     """They step all at once; to round-off, as libcosim counts its time in nanoseconds."""
     step, count = 0.004, 60
     if name in CASES:
@@ -326,7 +323,7 @@ def test_other_masters_run_the_ssp_as_the_own_one_does(name: str, master: str, t
 
 
 @pytest.mark.slow
-def test_on_split_friction_the_car_is_steered_while_it_brakes() -> None:
+def test_on_split_friction_the_car_is_steered_while_it_brakes():
     """With locked wheels it turns round."""
     free, locked = (run("brakes on split friction", 0.004, on=on) for on in (True, False))
     assert free["car.speed"][-1] < 0.1
@@ -338,7 +335,7 @@ def test_on_split_friction_the_car_is_steered_while_it_brakes() -> None:
 
 
 @pytest.mark.slow
-def test_yaw_control_passes_the_sine_with_dwell_in_which_the_car_spins() -> None:
+def test_yaw_control_passes_the_sine_with_dwell_in_which_the_car_spins():
     """Limits of FMVSS 126: yaw rate over its peak 35 % and 20 % 1 and 1.75 s after the steering; 1.83 m aside."""
     end = 0.5 + 1.0 / 0.7 + 0.5
     yaw_rates = []
@@ -354,14 +351,14 @@ def test_yaw_control_passes_the_sine_with_dwell_in_which_the_car_spins() -> None
 
 
 @pytest.mark.slow
-def test_torque_vectoring_turns_the_car_more() -> None:
+def test_torque_vectoring_turns_the_car_more():
     """Towards the yaw rate that is wanted, 12 m/s * 0.125 rad / (1.68 m + 0.0015 s2/m (12 m/s)2) = 0.79 rad/s."""
     rates = [float(run("torque vectoring", 0.004, on=on)["car.chassis.wz"][-1]) for on in (False, True)]
     assert 1.05 * rates[0] < rates[1] < 0.79
 
 
 @pytest.mark.slow
-def test_the_car_behind_keeps_its_distance_when_the_one_ahead_brakes() -> None:
+def test_the_car_behind_keeps_its_distance_when_the_one_ahead_brakes():
     columns = run("two cars", 0.01)
     assert columns["ahead.speed"][-1] < 8.0
     assert columns["controller.gap"].min() > 8.0
@@ -370,7 +367,7 @@ def test_the_car_behind_keeps_its_distance_when_the_one_ahead_brakes() -> None:
 
 
 @pytest.mark.slow
-def test_the_code_of_the_page_stops_at_its_stated_position(tmp_path: Path) -> None:
+def test_the_code_of_the_page_stops_at_its_stated_position(tmp_path):
     root = Path(__file__).parents[3]
     page = (root / "docs" / "systems.md").read_text(encoding="utf-8")
     code = page.split("```python\n")[1].split("```")[0]

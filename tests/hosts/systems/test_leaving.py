@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -29,7 +28,7 @@ print("stepped")
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("valgrind") is None, reason="valgrind is not installed; .ci/run installs it")
 @pytest.mark.parametrize("end", quick(("closed",), ("closed", "left open"), "proof"))
-def test_the_record_of_python_is_freed_once(partners: dict[str, Path], end: str) -> None:
+def test_the_record_of_python_is_freed_once(partners, end):
     """Seen by valgrind: with PythonFMU 0.7 alone one run of about 40 ends with a damaged heap."""
     memory = ("--num-callers=8", "--undef-value-errors=no", "--leak-check=no")  # what is freed, in half the time
     command = ["valgrind", *memory, sys.executable, "-c", PROGRAM, str(partners["half_mass"]), end]
@@ -40,9 +39,7 @@ def test_the_record_of_python_is_freed_once(partners: dict[str, Path], end: str)
     assert "finalizePythonInterpreter" not in completed.stderr
 
 
-def test_what_was_unpacked_goes_with_a_process_that_does_not_close(
-    scene_fmu: Callable[..., Path], tmp_path: Path
-) -> None:
+def test_what_was_unpacked_goes_with_a_process_that_does_not_close(scene_fmu, tmp_path):
     """A script or a notebook that only ends must not fill the folder for temporary files, 4 MB for each start."""
     fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
     environment = os.environ | {"TMPDIR": str(tmp_path), "TEMP": str(tmp_path), "PYTHONPATH": str(ROOT)}
@@ -59,9 +56,7 @@ def test_what_was_unpacked_goes_with_a_process_that_does_not_close(
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
-def test_it_stays_where_a_forked_process_ends_and_closing_twice_is_closing(
-    scene_fmu: Callable[..., Path], tmp_path: Path
-) -> None:
+def test_it_stays_where_a_forked_process_ends_and_closing_twice_is_closing(scene_fmu, tmp_path):
     fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
     environment = os.environ | {"TMPDIR": str(tmp_path), "PYTHONPATH": str(ROOT)}
     program = f"""{PROGRAM}

@@ -28,7 +28,7 @@ def halves(partners: dict[str, Path]) -> dict[str, Path]:
     return {"mass": partners["half_mass"], "spring": partners["half_spring"]}
 
 
-def test_fmpy_reads_the_connections(partners: dict[str, Path], tmp_path: Path) -> None:
+def test_fmpy_reads_the_connections(partners, tmp_path):
     file = write_ssp(tmp_path / "oscillator.ssp", halves(partners), WIRES, {"mass.start": 0.5})
     system = fmpy.ssp.ssd.read_ssd(str(file)).system
     assert [c.name for c in system.elements] == ["mass", "spring"]
@@ -44,9 +44,7 @@ def description(file: Path) -> Any:
 
 @pytest.mark.parametrize("version", SCHEMAS)
 @pytest.mark.parametrize("wires", [WIRES, {}])
-def test_the_description_fits_the_schema(
-    partners: dict[str, Path], tmp_path: Path, wires: dict[str, str], version: str
-) -> None:
+def test_the_description_fits_the_schema(partners, tmp_path, wires, version):
     """With wires and a part that has none, and without any."""
     parts = halves(partners) | {"alone": partners["jump"]}
     document = description(write_ssp(tmp_path / "system.ssp", parts, wires, {"mass.start": 0.5}, version=version))
@@ -58,7 +56,7 @@ def test_the_description_fits_the_schema(
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="the small FMUs are compiled for this machine")
 @pytest.mark.parametrize(("version", "kind"), [("1.0", "Real"), ("2.0", "Float64")])
-def test_parts_of_fmi_3(tmp_path: Path, version: str, kind: str) -> None:
+def test_parts_of_fmi_3(tmp_path, version, kind):
     """Types are those of the version; both fit its schema, and the package `pyssp_standard` reads what was wired."""
     fmu = planted_fmu(tmp_path, "NONE", True)
     file = write_ssp(
@@ -76,7 +74,7 @@ def test_parts_of_fmi_3(tmp_path: Path, version: str, kind: str) -> None:
         assert (wire.end_element, wire.end_connector) == ("other", "u")
 
 
-def test_two_fmus_of_one_file_name_stay_two(partners: dict[str, Path], tmp_path: Path) -> None:
+def test_two_fmus_of_one_file_name_stay_two(partners, tmp_path):
     parts = {"one": partners["jump"], "two": partners["stateless"]}
     assert parts["one"].name == parts["two"].name
     file = write_ssp(tmp_path / "two.ssp", parts, {}, {})
@@ -85,7 +83,7 @@ def test_two_fmus_of_one_file_name_stay_two(partners: dict[str, Path], tmp_path:
             assert archive.read(component.source) == parts[component.name].read_bytes()
 
 
-def test_start_values_of_all_types(partners: dict[str, Path], tmp_path: Path) -> None:
+def test_start_values_of_all_types(partners, tmp_path):
     start = {"all.file": "a.road", "all.count": 3.0, "all.on": True, "all.size": 2}
     file = write_ssp(tmp_path / "all.ssp", {"all": partners["settings"]}, {}, start)
     with zipfile.ZipFile(file) as archive:
@@ -111,15 +109,13 @@ def test_start_values_of_all_types(partners: dict[str, Path], tmp_path: Path) ->
         ("../all", "a.ssp", {}, r"A part is named '\.\./all'; its name must be of letters"),
     ],
 )
-def test_impossible_options_are_refused_and_write_nothing(
-    partners: dict[str, Path], tmp_path: Path, name: str, file: str, start: dict[str, float | str], message: str
-) -> None:
+def test_impossible_options_are_refused_and_write_nothing(partners, tmp_path, name, file, start, message):
     with pytest.raises(HostError, match=message):
         write_ssp(tmp_path / file, {name: partners["settings"]}, {}, start)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners: dict[str, Path], tmp_path: Path) -> None:
+def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners, tmp_path):
     """Text that XML has no character for would make an SSP that nobody reads."""
     with pytest.raises(HostError, match="The file of an SSP is 1; it must be a path"):
         write_ssp(1, halves(partners), WIRES, {})  # type: ignore[arg-type]
@@ -132,7 +128,7 @@ def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners: dict[str, P
     assert write_ssp(str(tmp_path / "a.ssp"), halves(partners), WIRES, {}, name="<&>").is_file()  # type: ignore[arg-type]
 
 
-def test_an_older_file_stays_where_the_new_one_fails(partners: dict[str, Path], tmp_path: Path, monkeypatch) -> None:
+def test_an_older_file_stays_where_the_new_one_fails(partners, tmp_path, monkeypatch):
     file = write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {})
     before = file.read_bytes()
     monkeypatch.setattr(zipfile.ZipFile, "write", lambda *_: (_ for _ in ()).throw(RuntimeError("stopped")))

@@ -2,7 +2,6 @@
 
 import shutil
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
@@ -15,13 +14,7 @@ from tests.hosts.test_view import shown
 
 
 @pytest.mark.slow
-def test_a_run_on_the_proving_ground_is_viewed_on_it(
-    proving_ground: SimpleNamespace,
-    prototype_fmu: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_run_on_the_proving_ground_is_viewed_on_it(proving_ground, prototype_fmu, tmp_path, monkeypatch, capsys):
     """From another folder, with the cones of its driver; when the world has gone that is said."""
     for file in (proving_ground.road, proving_ground.json):
         shutil.copy(file, tmp_path)
