@@ -37,6 +37,8 @@ def test_roads_of_the_package_have_nothing_odd() -> None:
     ("road", "message"),
     [
         (waves(factor=1000.0), "mm instead of m in heights"),
+        (waves(factor=100.0), "cm instead of m in heights"),
+        (replace(waves(), frictions=90.0), "percent instead of a ratio in frictions"),
         (waves(spacing=500.0), "mm instead of m in coordinates or"),
         (waves(step=0.01), "step of the heights is 0.01 m"),
         (waves(step=0.25), "step of the heights is 0.25 m"),
@@ -126,6 +128,7 @@ THINGS = {
     "a band": ({"bands": [{"at": [5.0, 0.0, 0.0], "length": 4.0, "left": -1.0, "right": 1.0, "surface": "ice"}]},
                "left and right exchanged in bands.0"),
     "an area": ({"areas": [{"name": "a", "at": [500.0, 0.0], "radius": 5.0}]}, "areas.0 points of the grid"),
+    "an area in mm": ({"areas": [{"name": "a", "at": [2e4, 0.0], "radius": 5.0}]}, "mm instead of m in areas.0"),
     "a cone": ({"cones": [{"at": [[10.0, 0.0], [1e4, 0.0]]}]}, "cones.0 distance outside of the world is 9950 m"),
     "a sign of a text": ({"signs": [{"at": [0.0, 900.0, 0.0], "text": "stop"}]}, "signs.0 distance outside"),
     "a line": ({"lines": [{"points": [[0.0, 0.0], [0.0, 4000.0]]}]}, "lines.0 distance outside"),

@@ -24,6 +24,10 @@ ODD: dict[str, tuple[Factors, str]] = {
     "a shift in degrees": ({"PHY1": DEG}, "degrees instead of radians in PHY1"),
     "a lift in percent": ({"PVY1": 100.0}, "lateral force at no slip"),
     "load in kg": ({"FNOMIN": 1.0 / 9.80665}, "kilograms instead of newtons in FNOMIN"),
+    "stiffness in kg/m": ({"VERTICAL_STIFFNESS": 1.0 / 9.80665}, "kilograms instead of newtons in VERTICAL"),
+    "a range in kg": ({"FZMAX": 1.0 / 9.80665}, "kilograms instead of newtons in FZMAX"),
+    "the diameter": ({"UNLOADED_RADIUS": 2.0}, "the diameter instead of the radius"),
+    "the sign of the trail": ({"QDZ1": -1.0}, "the sign of QDZ1"),
     "friction in percent": ({"PDY1": 100.0}, "percent instead of a ratio in PDY1"),
     "ten times the stiffness": ({"PKY1": 10.0}, "cornering stiffness over load"),
     "aspect in percent": (

@@ -52,6 +52,23 @@ PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
     "bump for rebound": ("hatchback", lambda: turned("hatchback", "front.damper.table"), "bump and rebound exchanged"),
     "no final drive": ("saloon", lambda: times("saloon", "drive.ratios", 0.27), "ratios without a final drive"),
     "final drive twice": ("saloon", lambda: times("saloon", "drive.ratios", 4.0), "twice in drive.ratios"),
+    "torque in kgf m": (
+        "commonroad_vanagon",
+        lambda: times("commonroad_vanagon", "drive.max_torque", 0.102),
+        "kilograms instead of newtons in drive",
+    ),
+    "damping in kgf s/m": (
+        "saloon",
+        lambda: times("saloon", "rear.damper.damping", 0.102),
+        "kilograms instead of newtons in rear.damper",
+    ),
+    "both wheels": (
+        "saloon",
+        lambda: times("saloon", "front.wheel.spin_inertia", 2.0)
+        | times("saloon", "front.wheel.diametral_inertia", 2.0),
+        "both wheels instead of one",
+    ),
+    "half a wheel": ("saloon", lambda: times("saloon", "front.wheel.spin_inertia", 0.5), "half of the wheel"),
     "x for z": ("saloon", lambda: {"chassis.inertia": at("saloon", "chassis.inertia")[::-1]}, "x and z exchanged"),
     "damping in lbf s/in": (
         "saloon",

@@ -95,6 +95,12 @@ PLANTED = {
     "time twice as fast": (timed(0.5), "time twice as fast"),
     "time in ms": (timed(1e3), "ms instead of s"),
     "ax and ay": (swapped("chassis.ax", "chassis.ay"), "'ax' and 'ay' exchanged"),
+    "x and y": (swapped("chassis.x", "chassis.y"), "'x' and 'y' exchanged"),
+    "gravity in ax": (
+        lambda d: d | {"chassis.ax": replace(d["chassis.ax"], values=d["chassis.ax"].values + 9.81)},
+        "an offset of 9.8",
+    ),
+    "wz late": (late("chassis.wz", 0.6), "s (within 0.02 s) of 'wz'"),
     "ay late": (late("chassis.ay", 0.9), "a delay of 0.9"),
     "-9999": (missing("chassis.ay"), "-9999 in the place of no value in"),
     "a frozen yaw rate": (
