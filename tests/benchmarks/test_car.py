@@ -6,9 +6,7 @@ import pytest
 
 from benchmarks import frame
 from benchmarks.car import __main__ as car
-from benchmarks.car import measures
 from benchmarks.car.accuracy import STEPS
-from benchmarks.car.measures import MEASURES
 from benchmarks.paper.kerb import residual_moments
 from mbs.vehicle import Fidelity
 
@@ -41,18 +39,6 @@ def test_rows_and_files(tmp_path, capsys):
 def test_a_car_without_references_is_reported(capsys):
     assert car.main(["references", "--car", "bus"]) == 2
     assert "There are no references of a car 'bus'; there are: prototype" in capsys.readouterr().err
-
-
-def test_measures_of_a_car(tmp_path, capsys, monkeypatch):
-    """What a car has is held by `benchmarks.figures`; here where it is written."""
-    file = tmp_path / "handling.json"
-    values = {m.name: 0.5 + k for k, m in enumerate(MEASURES)}
-    monkeypatch.setattr(measures, "measure", lambda car: values)
-    assert car.main(["handling", "--cars", "hatchback", "--json", str(file)]) == 0
-    rows = json.loads(file.read_text(encoding="utf-8"))["rows"]
-    assert {row["measure"]: row["hatchback"] for row in rows} == values
-    assert all(set(row) == {"measure", "unit", "hatchback", "usual", "meaning"} for row in rows)
-    assert "| roll gradient, deg/g |" in capsys.readouterr().out
 
 
 def test_the_stiffness_of_a_frame_is_measured_and_written(tmp_path):

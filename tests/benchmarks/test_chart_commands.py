@@ -19,7 +19,6 @@ from benchmarks.methods.stability_margins import margins
 from benchmarks.methods.work_precision import time_at_error, work_blocks
 from benchmarks.paper import __main__ as paper
 from benchmarks.references.cases import CASES
-from benchmarks.shared.pages import replace
 from mbs import Settings
 from mbs.settings.settings import METHODS as KERNEL
 
@@ -130,15 +129,6 @@ def test_what_goes_against_the_rule_is_counted_and_named():
     assert "silently wrong: s at 0.3 s (0.3)" in exceptions
     assert "false alarm: s at 0.02 s (0.02)" in exceptions
     assert "estimate 1.0e-02" in exceptions
-
-
-def test_written_sentences_are_wrapped_and_tables_are_not():
-    row = "| " + "x" * 200 + " |"
-    page = replace("<!-- begin a -->\nold\n<!-- end a -->", {"a": f"{row}\n- {'word ' * 60}"})
-    lines = page.splitlines()
-    assert row in lines
-    assert max(len(line) for line in lines if line != row) <= 120
-    assert sum(line.startswith(("- ", "  ")) for line in lines) == 3
 
 
 @pytest.mark.slow

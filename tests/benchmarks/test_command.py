@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import manoeuvres
-from benchmarks.shared.command import Part, pyplot, run, save_chart, watched
+from benchmarks.shared.command import Part, pyplot, run, save_chart
 from benchmarks.shared.pages import table
 from mbs import Settings
 from mbs.simulation.step_time import step_time
@@ -103,22 +103,6 @@ def test_what_is_not_good_ends_with_one_and_wrong_options_with_two(capsys):
         assert message in capsys.readouterr().err
 
 
-def test_a_part_that_writes_has_no_rows(capsys):
-    assert run("it", "Text.", PARTS, ["writer"]) == 0
-    assert capsys.readouterr().out == "has written\n"
-    with pytest.raises(SystemExit):
-        run("it", "Text.", PARTS, ["writer", "--json", "x"])
-
-
-def test_rows_without_a_page_are_printed_with_all_columns_or_as_their_text(capsys):
-    rows = [{"a": 1.25, "b": "x"}, {"a": None, "b": "yz"}]
-    assert run("it", "Text.", {"only": Part("two", lambda options: rows)}, []) == 0
-    assert capsys.readouterr().out.split()[:8] == ["a", "b", "----", "--", "1.25", "x", "-", "yz"]
-    part = Part("two", lambda options: rows, words=lambda rows: f"{len(rows)} rows")
-    assert run("it", "Text.", {"only": part}, []) == 0
-    assert capsys.readouterr().out.startswith("2 rows\n\n")
-
-
 def test_only_the_steps_are_between_two_looks_at_the_clock():
     ticks = itertools.count()
     system = manoeuvres.system_of("drop")
@@ -131,20 +115,3 @@ def test_inputs_have_their_first_values_before_the_start():
     falls = {"throttle": (np.array([0.0, 0.0, 1.0]), np.array([0.0, 2.0, 0.5]))}
     with pytest.raises(ValueError, match=r"throttle.* is 2 .* t = 0 s"):
         step_time(system, DURATION, H, 1, time.perf_counter, falls)
-
-
-def test_the_bar_shows_itself_during_a_first_item_that_takes_long(capsys, monkeypatch):
-    monkeypatch.setattr("ali3.bars.DELAY", 0.05)
-    for k in watched(range(2)):
-        if k == 0:
-            time.sleep(0.4)
-            assert "0 %" in capsys.readouterr().err
-    assert "100 %" in capsys.readouterr().err
-
-
-def test_the_same_chart_gives_the_same_bytes(tmp_path, capsys):
-    files = [tmp_path / "new" / name for name in ("one.png", "other.png")]
-    for file in files:
-        drawn(ROWS, file)
-    assert files[0].read_bytes() == files[1].read_bytes()
-    assert f"written: {files[1]}" in capsys.readouterr().out

@@ -3,7 +3,6 @@
 import pytest
 
 from benchmarks.car import error_limits
-from benchmarks.shared.figures import rows_of
 
 
 @pytest.mark.parametrize("steps", error_limits.STEPS_IN_A_PERIOD)
@@ -12,13 +11,6 @@ def test_the_period_error_is_that_of_the_trapezoidal_rule(steps):
     row = error_limits.frequency(steps)
     phase = 2.0 * 3.141592653589793 / steps
     assert row["frequency_error"] == pytest.approx(row["closed_form"], rel=0.2 * phase**2 + 1e-3)
-
-
-def test_rows_of_each_table_have_its_columns():
-    result = error_limits.trust_blocks([{"table": "frequency", **error_limits.frequency(20)}])["trust frequency"]
-    (row,) = rows_of(result)
-    assert row["steps in a period"] == "20"
-    assert float(row["frequency error"]) == pytest.approx(0.0081, rel=0.02)
 
 
 def test_a_kerb_at_speed_is_right_with_divided_steps():

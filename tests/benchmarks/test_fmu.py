@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks import fmu
-from benchmarks.car import fmu_calls, plant_steps, wasm_times
-from benchmarks.shared.figures import rows_of
+from benchmarks.car import fmu_calls
 
 SCENE = Path(__file__).parents[2] / "examples" / "motor_pendulum.py"
 
@@ -38,21 +37,3 @@ def test_every_host_has_its_figures(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert all(f"{host} " in printed for host in hosts)
     assert {(r["fidelity"], r["host"]) for r in content["rows"]} == {(f, h) for f in ("0", "2") for h in hosts}
     assert all(r["best_us"] > 0.0 for r in content["rows"])
-
-
-def test_fmu_calls_webassembly_and_cars_in_python():
-    calls = [{"quantity": "step", "kind": "python", "value": 38.1}]
-    step, *_ = rows_of(fmu_calls.fmu_blocks(calls)["fmu calls"])
-    assert list(step.values()) == ["one step of 2 ms", "–", "38.1"]
-    hosts = [
-        {"fidelity": "2", "what": "inner", "host": host, "best_us": us}
-        for host, us in (("native", 245.3), ("Node", 313.0))
-    ]
-    assert rows_of(wasm_times.wasm_blocks(hosts)["wasm"]) == [
-        {"fidelity, calls": "2, inner", "native": "245", "Node": "313"}
-    ]
-    ways = [
-        {"environment": "E", "step_ms": 20.0, "way": way, "steps_a_second": 2009.2, "us_of_processor": us}
-        for way, us in (("FMPy", 472.3), ("Async", None))
-    ]
-    assert [row["E, 20 ms"] for row in rows_of(plant_steps.plant_blocks(ways)["plant"])] == ["2009 (472)", "2009"]

@@ -84,15 +84,12 @@ def test_a_table_that_begins_late_holds_its_first_row_and_is_reported(tmp_path: 
         ('"time","u"\n0,0\n2,1\n1,1\n', r"line 4: time goes back from 2 s to 1 s"),
         ('"time","u"\n0,0\n1,nan\n', r"line 3, column 'u': 'nan' is not a finite number"),
         ('"time","u"\n0,zero\n', r"line 2, column 'u': 'zero' is not a number"),
-        (f'"time","u"\n0,{140_000 * "1"}\n1,1\n', r"line 2: a cell has 140000 characters"),
-        ('"time","u"\n0,0,0\n', r"line 2: 3 values where the heading has 2 columns"),
         ('"u","time"\n0,0\n', r"the heading is 'u, time'; it must be"),
         ('"time","u","u"\n0,0,0\n', r"has the column 'u' twice"),
         ('"time [s]","u"\n0,0\n1,1\n', r"the heading 'time \[s\]' has a unit; here it is 'time' alone"),
         ('"time","u"\n1.7e9,0\n1700000003,1\n', r"goes from 1700000000 to 1700000003 s; a run begins at 0 and ends"),
         ('"time","u"\n-1,0\n1,1\n', r"begins at -1 s; a run begins at 0: add 1 s to all its times"),
         ('# hold: u\n"time","u"\n0,0\n1,0\n', r"line 1: 'hold:' is not a key of a table; did you mean 'held:'"),
-        ("", r"contains no values"),
         ('"time","u"\n0,0\n', r"does not say how long"),
         ('# start: speed\n"time","u"\n0,0\n1,0\n', r"line 1: 'speed' is not of the form"),
         ('# start: v=1\n# start: v=2\n"time","u"\n0,0\n1,0\n', r"line 2: the start value 'v' is given twice"),
@@ -104,11 +101,7 @@ def test_bad_tables_are_refused(tmp_path: Path, text: str, message: str) -> None
 
 
 def test_files_that_are_no_tables_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "folder.csv").mkdir()
-    (tmp_path / "m.csv").write_bytes(bytes(range(128, 256)))
     for name, message in (
-        (str(tmp_path / "folder.csv"), r"folder\.csv is a folder; it must be a file\.$"),
-        (str(tmp_path / "m.csv"), "is not text in UTF-8"),
         ("loop", r"no manoeuvre 'loop'.*slalom"),
         ("nowhere.csv", r"no file nowhere\.csv"),
     ):
@@ -233,7 +226,6 @@ def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
         ("[inputs]\ntime = [0, 1, 1, 1]\nu = [0, 1, 2, 3]\n", r"more than two rows at 1 s; a jump has two"),
         ("stop_time = 1\n[state]\nfile = 'a'\n", r"state.time is missing; it must be a number, s"),
         ("stop_time = 1\n[state]\nfile = 'a.state'\ntime = 0\n", r"the state: 'a\.state' cannot be read"),
-        ("stop_time = \n", r"is not a TOML file"),
         ('held = [["u"]]\n[inputs]\ntime = [0, 1]\nu = [0, 1]\n', r"m\.toml"),
         ("[inputs]\nu = [0, 1]\ntime = 5\n", r"m\.toml"),
         ("[inputs]\ntime = [-2, 1]\nu = [0, 1]\n", r"m\.toml begins at -2 s; a run begins at 0: add 2 s"),

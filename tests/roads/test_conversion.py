@@ -53,7 +53,6 @@ def test_a_table_without_coordinates(tmp_path):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("", "contains no values"),
         ("1,2\n", "1 rows"),
         ("1,2\n3\n", "line 2: 1 values where the first line has 2 columns"),
         ("1,2\n3,x\n", "line 2: 'x' is not a number"),
@@ -108,7 +107,6 @@ def test_bad_arrays_are_refused(tmp_path):
         ("b.npz", "no array 'heights'"),
         ("text.npy", "cannot be read as an array"),
         ("text.npz", "is not an archive of NumPy arrays"),
-        ("nothing.npy", "there is no such file"),
         ("a.xlsx", "is not read as a road"),
     ):
         with pytest.raises(RoadFileError, match=sentence):
@@ -196,7 +194,6 @@ def test_descriptions(tmp_path):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("kind = ", "not a TOML file"),
         ("", "kind is missing; it must be one of 'plane', 'kerb', "),
         ('kind = "hill"', "kind is 'hill'; it must be one of 'plane', 'kerb', "),
         ('kind = "plane"\ngrade = 0.1', "grade is not known; did you mean 'grade_y'?"),
@@ -239,7 +236,6 @@ def test_the_command(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["nothing.csv"], "there is no such file"),
         (["a.csv", "b.txt"], "give it the suffix .road"),
         (["plane.toml", "--origin", "1", "2"], "defines its whole road; --origin"),
         (["plane.toml", "--range", "1", "2"], "--range applies only to inputs that become a grid"),

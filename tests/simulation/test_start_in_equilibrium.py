@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mbs import Model, Pose, Simulation, SimulationError, System, compile, simulate
+from mbs import Pose, Simulation, SimulationError, System, compile, simulate
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.scenes import prototype_car
@@ -144,11 +144,3 @@ def test_quasi_static_stresses_far_from_the_origin() -> None:
     for name in (n for n in runs[0] if n.startswith(("wheel_FL.Fz", "bending_moment", "stress"))):
         assert np.array_equal(runs[0][name], runs[1][name]), name
     assert runs[1]["wheel_FL.Fz"][0] == runs[0]["wheel_FL.Fz"][0]
-
-
-def test_a_model_whose_springs_hold_nothing_is_refused_at_compile() -> None:
-    m = Model("falling")
-    m.body("stone", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
-    m.start_in_equilibrium = True
-    with pytest.raises(ValueError, match="no static equilibrium"):
-        compile(m)

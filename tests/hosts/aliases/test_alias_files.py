@@ -50,7 +50,6 @@ def test_start_values_keep_their_kind(file):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("steering = ", "is not a TOML file: "),
         ('steering = "StrAngle"', "'steering': the FMU has no variable 'StrAngle'; did you mean 'StrAng'?"),
         ("steering = 3", "'steering' must be a name of the FMU"),
         ('chassis.x = "X"', "a name with a dot needs quotation marks"),
@@ -69,11 +68,3 @@ def test_each_error_is_one_sentence(file, text, message):
         read_aliases(file(text), NAMES)
     assert message in str(refusal.value)
     assert "\n" not in str(refusal.value)
-
-
-def test_a_file_that_cannot_be_read(tmp_path):
-    with pytest.raises(HostError, match=r"alias file .*none\.toml cannot be read: there is no such file"):
-        read_aliases(tmp_path / "none.toml", NAMES)
-    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(HostError, match="is not text in UTF-8"):
-        read_aliases(tmp_path / "bytes.toml", NAMES)

@@ -35,14 +35,11 @@ GOOD = 'format = "ALi3 device"\nversion = 1\n'
     ("text", "message"),
     [
         ("", "it must have format = .* and version = "),
-        ("version = ", "Invalid value"),
-        ("\udcff", "is not text in UTF-8"),
         (GOOD.replace("1", "2"), "it must have format = .* and version = 1"),
         (GOOD + "colour = 1", "'colour' is unknown"),
         (GOOD + "inputs = 3", "inputs = 3 is not a table"),
         (GOOD + "[inputs.brake]\nsource = 'axle'", "'axle' is not a source"),
         (GOOD + "[settings]\nrotation = 'much'", "rotation = 'much'; it must be a number"),
-        ("#" * 1_000_001, "at most 1000000"),
     ],
 )
 def test_a_damaged_file_is_named_with_its_fault(tmp_path, text, message):
