@@ -277,7 +277,7 @@ def _write_parameters(parameters: ParameterSet, file: Path) -> None:
     if write_beside(parameters, file):
         print(f"{file}: {len(parameters.entries)} parameters, to be edited and set by --parameters", flush=True)
     else:
-        print(f"{file}: differs from what a build writes, and is kept", flush=True)
+        print(f"{file}: differs from what a build writes, and is not overwritten", flush=True)
 
 
 def _able(kind: str, platform: str) -> bool:

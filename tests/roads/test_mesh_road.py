@@ -120,7 +120,7 @@ def test_pieces_that_lie_apart_are_reported(tmp_path: Path) -> None:
     both = np.concatenate([points, points[:, :] * [0.5, 0.5, 1.0] + [40.0, 1.0, 0.0]])
     file = saved(tmp_path / "a.ply", both, np.concatenate([triangles, triangles + len(points)]))
     with pytest.warns(
-        RoadWarning, match=r"is in 2 pieces, the smallest has 3[0-3].* m2; between them their borders go on"
+        RoadWarning, match=r"is in 2 pieces, the smallest has 3[0-3].* m2; between them their borders continue"
     ):
         read_road(file)
 
