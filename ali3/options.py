@@ -94,7 +94,7 @@ _FILE_SUFFIXES = (
 SHARED: dict[str, Option] = {
     "--out": Option("DIR", "output folder", folder),
     "--json": Option("FILE", "also write all numbers there", Path),
-    "--picture": Option("FILE", "draw the input as PNG", Path),
+    "--picture": Option("FILE", "draw what was read as PNG", Path),
     "--list": Option("", "list the choices, and stop"),
     "--again": Option("", "redo what earlier calls have completed"),
     "--no-open": Option("", "do not open a browser"),
@@ -116,7 +116,7 @@ SHARED: dict[str, Option] = {
     "--parameters": Option("SSV", "parameter set (SSV file) that is applied before the start; repeatable", Path),
     "--set": Option(
         "NAME=VALUE",
-        "value of a parameter or input at the start, in the unit of the FMU or with one, as 20kN/m; wins over "
+        "value of a parameter or input at the start, in the unit of the FMU or its own, such as 20kN/m; overrides "
         "parameter sets; repeatable",
         name_and_text,
     ),
@@ -129,7 +129,7 @@ SHARED: dict[str, Option] = {
     "--road": Option(
         "FILE",
         "road under a car: a road file, the name of one in the FMU (plane.road, kerb.road, rough.road, split.road, "
-        "washboard.road), or what 'ali3 road' makes one of",
+        "washboard.road), or any INPUT of 'ali3 road'",
     ),
     "--confined": Option(
         "", "run the FMU without network, home and other files: by bubblewrap, on Linux; otherwise the command stops"

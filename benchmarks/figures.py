@@ -145,7 +145,7 @@ def road_step_tables() -> list[RemadeTable]:
     answers = edge_answers.edge_table([edge_answers.measure(car, edge) for car, edge in edge_answers.EDGES])
     return [
         RemadeTable("docs/roads.md", loads, "faces", ("height, m",)),
-        RemadeTable("docs/fmu.md", answers, "edges", ("car", "edge, m")),
+        RemadeTable("docs/ports.md", answers, "edges", ("car", "edge, m")),
     ]
 
 
@@ -160,7 +160,7 @@ def output_count() -> list[RemadeTable]:
     """Number of outputs of the rigid car's FMU, whose cost is on the page on FMUs."""
     table = variable_table(mbs.compile(prototype_car.build()).meta, pose=True, step_size=0.002)
     count = sum(v.causality == "output" for v in table)
-    return [RemadeTable("docs/fmu.md", f"The rigid car has {count} outputs")]
+    return [RemadeTable("docs/fmu_hosts.md", f"The rigid car has {count} outputs")]
 
 
 def trust_sentences() -> list[RemadeTable]:

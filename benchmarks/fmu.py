@@ -60,7 +60,7 @@ PARTS = {
             "repeats": (5, "timed runs of a figure, at most 64"),
             "instances": (1000, "at once"),
         },
-        pages=("fmu.md",),
+        pages=("fmu_hosts.md",),
         blocks=fmu_calls.fmu_blocks,
     ),
     "wasm": Part(
@@ -71,7 +71,7 @@ PARTS = {
             "repeats": (3, "timed runs a round"),
             "rounds": (3, "in which all hosts take turns"),
         },
-        pages=("fmu.md",),
+        pages=("fmu_hosts.md",),
         blocks=wasm_times.wasm_blocks,
     ),
     "plant": Part(
@@ -89,7 +89,7 @@ PARTS = {
         "errors over the communication step: inputs held, on derivatives, asked for within steps",
         _held,
         names=held_inputs.MANOEUVRES,
-        pages=("fmu.md",),
+        pages=("fmu_hosts.md",),
         blocks=held_inputs.blocks,
         chart=held_inputs.draw,
     ),

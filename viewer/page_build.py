@@ -86,6 +86,6 @@ def _run(command: list[str], folder: Path, failure: str) -> None:
     if process.returncode != 0:
         output = " ".join((process.stderr.strip() or process.stdout.strip()).split())[:_MAX_OUTPUT]
         raise RuntimeError(
-            f"The page that draws cannot be built: {failure} ({output}); with a network, {REMEDY} brings what is "
-            "needed, and a wheel of ali3 carries the page."
+            f"The page that draws cannot be built: {failure} ({output}); with a network, {REMEDY} installs what "
+            "is needed; a wheel of ali3 contains the page."
         )

@@ -36,7 +36,7 @@ def _is_bool(value: Any) -> bool:
 
 OPTIONS: dict[str, Option] = {
     "camera": Option(lambda v: isinstance(v, str), "the name of a camera", "camera at the start"),
-    "time": Option(_is_number_between(-math.inf, math.inf), "a time in s", "where the slider stands at the start"),
+    "time": Option(_is_number_between(-math.inf, math.inf), "a time in s", "initial position of the slider"),
     "speed": Option(_is_number_between(0.05, 10.0), "a number from 0.05 to 10", "of playing; 1 is real time"),
     "play": Option(_is_bool, "True or False", "whether it plays when the page is opened"),
     "loop": Option(_is_bool, "True or False", "whether it begins again at the end"),

@@ -79,7 +79,7 @@ def _cycle_errors(scene: Mapping[str, Any]) -> Iterator[str]:
     while remaining:
         ready = [name for name, frame in remaining.items() if resolved.issuperset(frames_of(frame))]
         if not ready:
-            yield f"{place(('frames', next(iter(remaining))))} stands on itself through other frames."
+            yield f"{place(('frames', next(iter(remaining))))} depends on itself through other frames."
             return
         resolved.update(ready)
         for name in ready:

@@ -130,7 +130,7 @@ PARTS = {
     "edges": Part(
         "wheel loads up edges that a partner at the road port answers",
         lambda options: [edge_answers.measure(car, edge) for car, edge in watched(edge_answers.EDGES)],
-        pages=("fmu.md",),
+        pages=("ports.md",),
         blocks=lambda rows: {"edges": edge_answers.edge_table(rows)},
     ),
     "references": Part(

@@ -86,15 +86,16 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     parser.add_argument(
         "--poses",
         choices=("wheels", "all"),
-        help="what draws as outputs, after all others: wheels, the poses of the wheels of a car, which are always "
-        "there; all, those of every body too and what bends; default: what bends, and all poses where it needs them",
+        help="poses as outputs for drawing, after all others: wheels (those of a car's wheels, always present) or "
+        "all (of every body, and amplitudes of flexible parts); default: the amplitudes, and all poses if the "
+        "drawing needs them",
     )
     parser.add_argument(
         "--ports",
         metavar="LIST",
         help="inputs of a CAR that replace parts of it by other programs, such as torque,brakes=pressure: torque "
-        "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force), road, "
-        "forces (=earth or =vehicle), wind, tyre, gear, clutch, and outputs, which has none",
+        "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force), "
+        "road, forces (=earth or =vehicle), wind, tyre, gear, clutch, and outputs (no inputs)",
     )
     parser.add_argument(
         "--names",
@@ -105,8 +106,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     parser.add_argument(
         "--plain",
         action="store_true",
-        help="without the C that is generated for the algebra of this one model: the same bits, more time a step, "
-        "less for the build, a smaller file",
+        help="without generated C code for the algebra of the model: the same bits, slower steps, a faster build, a "
+        "smaller file",
     )
     add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
@@ -276,7 +277,7 @@ def _write_parameters(parameters: ParameterSet, file: Path) -> None:
     if write_beside(parameters, file):
         print(f"{file}: {len(parameters.entries)} parameters, to be edited and set by --parameters", flush=True)
     else:
-        print(f"{file}: differs from what a build writes, and is kept", flush=True)
+        print(f"{file}: differs from what a build writes, and is not overwritten", flush=True)
 
 
 def _able(kind: str, platform: str) -> bool:

@@ -1,6 +1,6 @@
 """Standard tests with cars side by side: ali3 catalogue FMU|CAR... [--tests NAME,...] [--out DIR].
 
-Cars are FMUs, each with each parameter set that is given. The folder gets measures.csv, measures.json, a table of each
+Each FMU is run with each parameter set. The folder gets measures.csv, measures.json, a table of each
 run and report.html. Exit code 1: a test could not be done, or a limit is not kept.
 """
 
@@ -33,8 +33,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
         default=[],
         type=Path,
         metavar="SSV",
-        help="parameter set; each makes a car of its own of every FMU, 'as-is' stands for the FMU without one; "
-        "repeatable",
+        help="parameter set, which makes one more car of every FMU; 'as-is' is the FMU without one; repeatable",
     )
     add_option(parser, "--set", action="append")
     parser.add_argument(
@@ -52,7 +51,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
         "--limits",
         type=Path,
         metavar="FILE",
-        help="a TOML file with a table [limits], such as a study file: what measures must keep, beside the limits of "
+        help="a TOML file with a table [limits], such as a study file: limits of measures, in addition to those of "
         "standards",
     )
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")

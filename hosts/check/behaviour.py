@@ -14,7 +14,7 @@ _SUBSTEP_TOLERANCE = 0.05  # of the range of an output, by which runs with other
 _NEARLY_EQUAL = 1e-4  # of the largest value of an output: a usual tolerance of solvers
 _MAX_INSTANCES = 30
 _CREATION_TIME = 5.0  # s, in which they are made
-_ALTERED = "FMI speaks of states of the same FMU alone: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
+_ALTERED = "FMI defines states of the same FMU only: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
 
 
 def check_run(subject: Subject) -> Finding:
@@ -88,7 +88,7 @@ def check_reset(subject: Subject) -> Finding:
         instance.run(len(first) - 1)
         instance.reset()
         if not first_difference(subject, first[:-1], instance.start().run(len(first) - 1)):
-            message = "not as at the first start once it has asked to end; set all back in it"
+            message = "not as at the first start after it has requested the end; reset everything"
             return Finding("reset", "note", f"{message} {subject.clause('2.1.6', '2.3.1')}")
     if differs:
         message = f"not as at the first start: {differs}; set all back in it"

@@ -1,7 +1,7 @@
 """Checks a co-simulation FMU (FMI 2.0 or 3.0) and prints a verdict: ali3 check FMU|CAR.
 
-In place of that: its parameters (--show-parameters), its results against a table (--reference), or hours of driving by
-chance (--soak).
+Instead of the check: its parameters (--show-parameters), its results against a table (--reference), or hours of random
+driving (--soak).
 """
 
 from __future__ import annotations
@@ -82,8 +82,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     )
     reference = parser.add_argument_group(
         "against a reference, instead of the check",
-        "Columns of the table that are inputs drive the FMU, straight between the rows; those that are outputs are "
-        "compared. A result of 'ali3 run' is such a table.",
+        "Columns that are inputs drive the FMU, linear between the rows; columns that are outputs are compared. A "
+        "result of 'ali3 run' is such a table.",
     )
     reference.add_argument(
         "--reference", type=Path, metavar="CSV|DIR", help="compare results with this table, or all tables of a folder"
@@ -103,12 +103,12 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 km away, with jumps, sudden "
         "turns, roll-overs, resets and rewinds, all in one process. Every step is checked.",
     )
-    soak.add_argument("--soak", action="store_true", help="drive a car like this, for hours")
+    soak.add_argument("--soak", action="store_true", help="drive a car at random for hours")
     soak.add_argument("--drives", type=count, metavar="N", help="how many; default: 10 seeds of every fidelity")
     add_option(soak, "--seed", "1; further drives have the following ones")
     add_option(soak, "--stop-time", "1000")
     add_option(soak, "--fidelity", "0 and 2; with --reference that of the FMU", action="append")
-    add_option(soak, "--step", "0.002; with --reference that of the FMU, or what divides its times")
+    add_option(soak, "--step", "0.002; with --reference that of the FMU, or one that divides the times of the table")
     add_option(soak, "--world", "roads with ramps, and those in the FMU", action="append")
     add_option(soak, "--jobs", "the number of available cores")
     add_option(

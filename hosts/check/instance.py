@@ -121,7 +121,7 @@ class NotInstantiatedError(HostError):
 REAL = ("Real", "Float64")
 WHOLE = ("Integer", "Int32")
 """`REAL`, `WHOLE`: types of variables whose values are checked."""
-NOT_ALLOWED = "FMI does not allow its calls, and says not what follows: FMI 2.0, 4.2.4, and FMI 3.0, 2.3"
+NOT_ALLOWED = "FMI does not allow its calls, and does not say what follows: FMI 2.0, 4.2.4, and FMI 3.0, 2.3"
 _DISCARD = 2
 _TERMINATED = 3
 

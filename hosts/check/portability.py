@@ -246,9 +246,8 @@ def check_far_time(subject: Subject) -> Finding:
         return Finding("far from zero", "good", f"a start at {_FAR_TIME:g} s is refused")
     status = _step_status(instance, _FAR_TIME, subject.step)
     if status < _ERROR:
-        message = (
-            f"a step of {subject.step:g} s at {_FAR_TIME:g} s is taken, its clock stands; FMI does not speak of it"
-        )
+        step = f"a step of {subject.step:g} s at {_FAR_TIME:g} s"
+        message = f"{step} is accepted, but its time does not change; FMI does not define this"
         return Finding("far from zero", "note", f"{message} {subject.clause('4.2.2', '4.2.1')}")
     return Finding("far from zero", "good", f"a step of {subject.step:g} s at {_FAR_TIME:g} s is refused")
 

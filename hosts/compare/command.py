@@ -1,7 +1,7 @@
 """Compares an FMU with the log of a test drive: ali3 compare FMU|CAR LOG [--fit NAME[=LOW:HIGH]].
 
 The measured inputs are replayed, the outputs compared: errors, a rating like ISO/TS 18571, delay and drift. With --fit
-parameters are sought with which the FMU comes nearest to the log, and how well the log determines them.
+parameters are fitted to the log, with intervals of 95 %.
 """
 
 import argparse

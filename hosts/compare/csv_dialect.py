@@ -84,8 +84,8 @@ def unit_message(cell: str) -> str:
     if match is None or known_unit(match["unit"]) is None:
         return ""
     return (
-        f"{brief(cell.strip())} has its unit behind its number; cells are numbers alone, and the unit stands in the "
-        f"heading, such as 'name [{match['unit']}]'."
+        f"{brief(cell.strip())} has a unit after the number; write numbers alone, and the unit in the heading, "
+        f"such as 'name [{match['unit']}]'."
     )
 
 

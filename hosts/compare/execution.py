@@ -96,7 +96,7 @@ def _compare_unfitted(options: argparse.Namespace, task: Task, replay: Replay) -
     first_note = len(task.notes)
     if result.refusal:
         end = task.segments[0].length
-        problems.append(f"{sentence_of(result.refusal)} Of {end:.4g} s only what lies before is compared.")
+        problems.append(f"{sentence_of(result.refusal)} Of {end:.4g} s only the time before is compared.")
     if message := result.not_finite():
         problems.append(message)
     finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}

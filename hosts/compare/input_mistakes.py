@@ -82,8 +82,8 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
     _, correlation, mistake = min(alike, key=lambda one: one[0])  # signals of near speeds correlate, too
     return (
         f"'{speed.source}' ({speed.name}) looks like {mistake.words}: with a car that starts so the other "
-        f"signals are like those of the simulation (correlation {correlation:.2f} and more), as none is now. "
-        f'unit = "{mistake.unit}" in the alias file.'
+        f"signals are like those of the simulation (correlation {correlation:.2f} and more), as none is with "
+        f'the present unit. unit = "{mistake.unit}" in the alias file.'
     )
 
 

@@ -91,7 +91,7 @@ def log_for(
             )
     driven = {n: s for n, s in signals.items() if n in inputs}
     if parameters := [n for n in driven if n in tunable]:
-        notes.append(f"Tunable parameters that the log drives, each kept up to its next row: {', '.join(parameters)}.")
+        notes.append(f"Tunable parameters that the log drives, each held until its next row: {', '.join(parameters)}.")
     if replaced := [n for n in overridden if n in raw.table.columns]:
         notes.append(f"In the log, and set or sought instead: {', '.join(replaced)}.")
     held = frozenset(n for n in driven if n in parameters or n in (record.held or ()))

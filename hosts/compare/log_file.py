@@ -85,7 +85,7 @@ class RawLog:
         """The error of a cell, with its line; of a row that repeats the heading an error that says so."""
         cells = self.table.iloc[row].astype(str).str.strip()
         if all(str(cell).startswith(str(column)) for cell, column in zip(cells, self.table.columns, strict=True)):
-            message = "the heading stands there again; cut the log there, each drive is compared by itself."
+            message = "the heading occurs again; split the log there and compare each drive by itself."
             return HostError(f"The log {self.path}, line {self.line(row)}: {message}")
         return HostError(f"The log {self.path}, line {self.line(row)}, column '{name}': {message}")
 

@@ -95,11 +95,11 @@ def _remedy(steps: NDArray[np.float64], k: int) -> str:
     """The remedy for decreasing times, as a clause. `k`: index of the first decrease."""
     median, decrease = float(np.median(np.abs(steps))), -float(steps[k])
     if (steps <= 0.0).all():
-        return "the last row stands first: turn the order of the rows round"
+        return "the rows run backwards in time: reverse their order"
     if decrease <= _UNSORTED * median:
-        return "rows stand in another order than their times: sort them"
+        return "the rows are not in the order of their times: sort them"
     if abs(decrease - _HOUR) <= _UNSORTED * median:
-        return "a clock was put back by an hour there: stamps with their zone, such as +02:00, go on"
+        return "a clock was set back by an hour there: write times with their zone, such as +02:00"
     return "cut the log there, each drive is compared by itself"
 
 

@@ -34,7 +34,7 @@ def check_inputs(fmu: NamedFmu, inputs: Mapping[str, Signal], longest_gap: float
         if steps[k] > max(longest_gap, 1.5 * interval):
             raise HostError(
                 f"The log has no samples of the {label} from {begin:.6g} s to {end:.6g} s ({steps[k]:.3g} s; usual are "
-                f"{interval:.3g} s): compare what lies before (--to {begin:.6g}) or after (--from {end:.6g}), or "
+                f"{interval:.3g} s): compare the time before (--to {begin:.6g}) or after (--from {end:.6g}), or "
                 f"bridge it by a straight line with --longest-gap {math.ceil(100.0 * steps[k]) / 100.0:g}."
             )
         if steps[k] > _GAP * interval:

@@ -99,7 +99,9 @@ def _register_and_check(client: Client, plugin: ExperimentPlugin, key: str) -> N
     except Exception as error:
         message = f"{type(error).__name__}: {(str(error).strip().splitlines() or ['no words'])[-1]}"
         if isinstance(error, (OSError, KilledWorker)):
-            raise HostError(f"A worker has ended or was cut off before it had what is run ({message}).") from None
+            raise HostError(
+                f"A worker has ended or was disconnected before it had received what to run ({message})."
+            ) from None
         if isinstance(error, UserError):
             raise HostError(f"A worker cannot take what is run: {error}") from None
         raise HostError(

@@ -58,12 +58,12 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(
         prog=prog,
         description="Drive a car in real time: from a page in the browser, by keys, gamepad or a steering wheel.\n"
-        "Ctrl-C ends with a report of the step times. With --recording: say what a recording holds, repeat\n"
-        "it, or make a manoeuvre of it.",
+        "Ctrl-C ends with a report of the step times. With --recording: print the content of a recording,\n"
+        "repeat it, or save it as a manoeuvre.",
     )
     add_fmu(parser, "?", "dist/PrototypeCar.fmu, otherwise prototype; of a recording: the one that was recorded")
     add_option(parser, "--world", "proving_ground")
-    parser.add_argument("--place", metavar="NAME", help="of the world, where the car starts; default: its first")
+    parser.add_argument("--place", metavar="NAME", help="place in the world where the car starts; default: its first")
     add_option(parser, "--step", "0.002", default=0.002)
     add_option(parser, "--fidelity", "that of the FMU")
     add_setting_options(parser)

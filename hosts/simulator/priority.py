@@ -23,10 +23,8 @@ def request_priority() -> str:
         thread = kernel.SetThreadPriority(ctypes.c_void_p(kernel.GetCurrentThread()), _THREAD_PRIORITY_TIME_CRITICAL)
         if process and thread:
             return "Real-time priority: class high, thread time critical."
-        return "Windows allowed no priority above the usual, so that steps may come late."
-    message = (
-        _set_fifo() or _set_nice() or "This system allowed no priority above the usual, so that steps may come late."
-    )
+        return "Windows allowed no priority above normal, so steps may be late."
+    message = _set_fifo() or _set_nice() or "This system allowed no priority above normal, so steps may be late."
     return f"{message} {_lock_memory()}".strip()
 
 

@@ -1,7 +1,7 @@
 """Runs many variants of a car or another FMU: ali3 study STUDY.toml [--scheduler ADDRESS] [--out DIR].
 
-The study file names an FMU or a car, manoeuvres, parameters and what is measured. Started again, the command makes the
-runs that are missing. A folder of results takes the place of the file to repeat a run or to write the report.
+The study file names an FMU or a car, manoeuvres, parameters and measures. Started again, the command makes the missing
+runs. Give a folder of results in place of the file to repeat a run or to write the report.
 """
 
 import argparse
@@ -35,13 +35,14 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
         "--target",
         action="append",
         metavar="MEASURE=VALUE",
-        help="find the value of a parameter that gives a measure, such as 'understeer_gradient=1.3 deg/g', by few runs",
+        help="find the value of a parameter with which a measure has this value, such as 'understeer_gradient=1.3 "
+        "deg/g'",
     )
     parser.add_argument("--by", metavar="PARAMETER", help="the parameter of --target")
     parser.add_argument(
         "--between",
         metavar="LOW:HIGH",
-        help="of the parameter of --target, in the unit of the FMU, such as --between=-5:5; default: that of the "
+        help="range of the parameter of --target, in the unit of the FMU, such as --between=-5:5; default: that of the "
         "study file, otherwise of the FMU",
     )
     options = parser.parse_args(arguments)

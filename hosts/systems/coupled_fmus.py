@@ -160,8 +160,8 @@ class CoupledFmus(Closable):
                 self._state = "moved in part"
                 if self._cannot_save:
                     raise type(error)(
-                        f"{error} The system cannot go on, as the part '{self._cannot_save[0]}' cannot save its state; "
-                        "initialise it again."
+                        f"{error} The system cannot continue, because the part '{self._cannot_save[0]}' cannot "
+                        "save its state; initialise it again."
                     ) from None
                 restore()
                 for p, last in zip(self._parts, lasts, strict=True):

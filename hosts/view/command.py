@@ -1,7 +1,7 @@
 """Shows results and FMUs in a page: ali3 view RESULT|FMU|CAR [...] [--live] [--png FILE --at T] [--mp4 FILE].
 
-Results are those of the command run and recordings of the simulator; an FMU is run first. Several are shown over each
-other. With --live the page holds the FMUs themselves and runs them, side by side and with the same inputs.
+Results are those of the command run and recordings of the simulator; an FMU is run first. Several are shown together.
+With --live the page holds the FMUs themselves and runs them, side by side and with the same inputs.
 """
 
 import argparse
@@ -45,14 +45,18 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(fmu, "--road")
     add_option(fmu, "--confined")
     add_option(fmu, "--world", "none")
-    live = parser.add_argument_group("live: an FMU of ali3 build runs in the page")
+    live = parser.add_argument_group("FMUs that run in the page")
     live.add_argument("--live", action="store_true", help="the page runs the FMUs; results are drawn beside them")
     live.add_argument("--title", metavar="TEXT", help="of the page; default: the names of the models")
     live.add_argument(
-        "--name", action="append", default=[], metavar="TEXT", help="over a picture; once for each FMU, in their order"
+        "--name",
+        action="append",
+        default=[],
+        metavar="TEXT",
+        help="text over a picture; once for each FMU, in their order",
     )
     live.add_argument("--paused", action="store_true", help="the page waits until it is started")
-    shown = parser.add_argument_group("shown: what was recorded")
+    shown = parser.add_argument_group("display of results")
     shown.add_argument("--geometry", type=Path, metavar="FILE", help="FMU (or scene) with which results are drawn")
     add_option(shown, "--from", dest="begin")
     add_option(shown, "--to", dest="end")
@@ -61,10 +65,12 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     shown.add_argument("--at", type=quantity("s"), metavar="T", help="time at the start, and of the picture, s")
     shown.add_argument("--arrows", action="store_true", help="draw forces as arrows")
     shown.add_argument("--stress", action="store_true", help="colour flexible frames by their stress")
-    shown.add_argument("--deformation", type=number, metavar="N", help="deformations are magnified N times; default: 1")
+    shown.add_argument("--deformation", type=number, metavar="N", help="magnify deformations N times; default: 1")
     shown.add_argument("--png", type=Path, metavar="FILE", help="write a picture at the time --at, and no page")
     shown.add_argument("--mp4", type=Path, metavar="FILE", help="write a film, and no page")
-    shown.add_argument("--gltf", type=Path, metavar="FILE", help="write the first as an animation, .glb or .gltf")
+    shown.add_argument(
+        "--gltf", type=Path, metavar="FILE", help="write the first result as an animation, .glb or .gltf"
+    )
     shown.add_argument("--size", type=int, nargs=2, default=(1280, 720), metavar=("W", "H"), help="pixels of pictures")
     return parser
 

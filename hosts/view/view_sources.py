@@ -30,7 +30,7 @@ from hosts.view.result_tables import Table, read_table
 
 _CAR_MANOEUVRE = "double_lane_change"  # of a car if none is given
 _LARGEST_WIDTH = 10.0  # m, of a vehicle
-_MARKS_OF_MANOEUVRE = "what the manoeuvre has on the ground"
+_MARKS_OF_MANOEUVRE = "marks of the manoeuvre on the ground"
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ def state_beside_kinks(evaluator: Evaluator, side: int | None) -> State:
             warnings.warn(
                 f"A force has a kink at the state: its slope divided by the mass is {ahead / mass:.4g} 1/s if the "
                 f"velocity of {names[i]!r} rises and {behind / mass:.4g} 1/s if it falls. The linear model takes "
-                "the first; side=1 says that it is meant, side=-1 takes the other.",
+                "the first; side=1 confirms this choice, side=-1 takes the other.",
                 LinearisationWarning,
                 stacklevel=3,
             )

@@ -50,8 +50,8 @@ def locked_gears(model: Model) -> str:
                     names = ", ".join(f"'{gear}'" for gear in sorted((path[wheel] ^ path[other]) | {name}))
                     message = (
                         f"The gears {names} form a ring that is locked: '{model.coordinates[other].name}' would have "
-                        f"to turn {turn / turns[other]:g} times as far as by the other way round, so none of their "
-                        "wheels turns; check the ratios and their signs."
+                        f"to turn {turn / turns[other]:g} times as far as along the other path of the ring, so none of "
+                        "their wheels turns; check the ratios and their signs."
                     )
         if message and any(wheel in model.coordinate_rates for wheel in connected):
             raise ModelError(message)

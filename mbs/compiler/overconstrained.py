@@ -337,8 +337,7 @@ def _raise_immobile(
 ) -> None:
     names = ", ".join(f"'{c.joint.name}'" for c in loops.conditions)
     start = (
-        f"The loop of the joints {names} has more conditions than its motion allows and stands still as drawn, "
-        "although "
+        f"The loop of the joints {names} has more conditions than its motion allows and cannot move as drawn, although "
     )
     allowed = f"{tolerance * loops.size:.3g} m and {tolerance:.3g} rad are allowed. Draw it more exactly"
     stay = "; with tolerance=0 it is taken as drawn and stands still."

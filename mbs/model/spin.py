@@ -133,7 +133,7 @@ class SpinVocabulary(BodyVocabulary):
         growth = number(leaning, f"The leaning of the {subject}")
         x, y, z = wheel.axis_reference
         if abs(asin(min(max(z, -1.0), 1.0))) > MAX_ELEVATION:
-            raise ModelError(f"The axis of the {subject} '{wheel.name}' stands upright; its azimuth is not known.")
+            raise ModelError(f"The axis of the {subject} '{wheel.name}' is vertical; its azimuth is not defined.")
         frame = tuple(wheel.carrier.vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
         new = WrittenAxis(wheel.name, wheel, (frame[0], frame[1], frame[2]), (atan2(-x, y), asin(z)), growth)
         return self.enter("written axis", self.written_axes, new)

@@ -161,8 +161,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         if scene is None:
             if self.drawing is None:
                 raise ValueError(
-                    "This trajectory does not know what is drawn of it; give the System as the scene, as in "
-                    "animate(run, scene=system)."
+                    "This trajectory has no drawing; give the System as the scene, as in animate(run, scene=system)."
                 )
             scene = self.drawing.scene
         elif not isinstance(scene, Mapping):
@@ -186,7 +185,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                 "to_csv(..., poses=True) wrote."
             )
         if every > 1:
-            recording.notes.append(f"Poses were kept of one of {every} samples of the run.")
+            recording.notes.append(f"Poses were stored for one of {every} samples of the run.")
         return recording
 
     def _drawn_roads(self, roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
@@ -282,7 +281,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         if flag(poses, "The poses of to_csv", ValueError):
             if self.poses.every > 1:
                 raise ValueError(
-                    f"Poses were kept of one of {self.poses.every} samples; write "
+                    f"Poses were stored for one of {self.poses.every} samples; write "
                     f"run.thinned({self.poses.every}).to_csv(..., poses=True)."
                 )
             columns, units = self.poses.recorded(columns, units)

@@ -150,14 +150,14 @@ def _fill_gaps(heights: Values, road: GridRoad, source: str) -> Values:
         gap = f"a gap of {areas[region]:.3g} m2 at x = {x0 + i * dx:.6g} m, y = {y0 + j * dy:.6g} m"
         if areas[region] < MAX_HOLE:
             raise RoadFileError(f"{source} has {gap} in its surface, with no triangle above or below; close the hole.")
-        warning = f"{source} has {gap}; it is taken as what the road goes round and filled from its border."
+        warning = f"{source} has {gap}; it is taken as an island in the road and filled from its border."
         warnings.warn(warning, RoadWarning, stacklevel=4)
     components, component_count = ndimage.label(~missing, np.ones((3, 3)))
     if component_count > 1:
         smallest_area = np.bincount(components.ravel())[1:].min() * dx * dy
         warning = (
             f"{source} is in {component_count} pieces, the smallest has {smallest_area:.3g} m2; "
-            "between them their borders go on."
+            "between them their borders continue."
         )
         warnings.warn(warning, RoadWarning, stacklevel=4)
     nearest = ndimage.distance_transform_edt(missing, sampling=(dx, dy), return_distances=False, return_indices=True)

@@ -44,7 +44,7 @@ def draw_road(
     axes[2].set_ylabel("height, m")
     axes[2].legend(loc="upper right", fontsize="small")
     axes[2].grid(True, alpha=0.3)
-    figure.suptitle(f"{name} (beyond its border the values there go on)" if isinstance(road, GridRoad) else name)
+    figure.suptitle(f"{name} (beyond its border the values continue)" if isinstance(road, GridRoad) else name)
     save_figure(figure, file)
 
 

@@ -78,8 +78,8 @@ def choose(
     if not best:
         raise SimulationError(
             f"None of {', '.join(runs)} reaches the end of the run from t = {task.t0:g} to {task.t_end:g} s, not even "
-            f"at {coarse:g} instead of the tolerance of {tolerance:g} that was asked for; name a method to see where "
-            "and why it fails.",
+            f"at {coarse:g} instead of the tolerance of {tolerance:g} requested; name a method to see where and "
+            "why it fails.",
             task.t0,
             Status.NOT_CONVERGED,
         )

@@ -17,7 +17,9 @@ LOOK_AHEAD = 1e-3  # of the run: time for which drives are followed beyond the l
 def _tolerance_text(run: ControlledRun, tolerance: float) -> str:
     """Tolerance of a run, and the requested one if it differs."""
     return (
-        f"{tolerance:g}" if run.tolerance == tolerance else f"{run.tolerance:g} (in a run on the way to {tolerance:g})"
+        f"{tolerance:g}"
+        if run.tolerance == tolerance
+        else f"{run.tolerance:g} (in an intermediate run towards {tolerance:g})"
     )
 
 

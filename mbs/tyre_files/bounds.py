@@ -51,6 +51,6 @@ def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
     ratio = numbers.get("DREFF", 0.0) * atan(numbers.get("BREFF", 0.0)) + numbers.get("FREFF", 0.0)
     if not 0.0 <= ratio <= 1.0:
         raise text.fault(
-            f"DREFF atan(BREFF) + FREFF is {ratio:.3g}; under FNOMIN it is the way from the free to the rolling radius "
-            "over the deflection and must lie between 0 and 1."
+            f"DREFF atan(BREFF) + FREFF is {ratio:.3g}; under FNOMIN it is the distance from the free to "
+            "the rolling radius over the deflection and must lie between 0 and 1."
         )

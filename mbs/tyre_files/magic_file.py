@@ -255,7 +255,9 @@ def _combination(text: PropertyText, numbers: dict[str, float], notes: list[str]
     """Method of combined slip: "weighting", or "ellipse" by FE_METHOD or if weighting coefficients are missing."""
     mode = abs(numbers.get("USE_MODE", 4.0)) % 10.0
     if mode in (0.0, 1.0, 2.0, 3.0):
-        notes.append(f"USE_MODE is {numbers['USE_MODE']:g}; slips are combined nevertheless, by what the file has.")
+        notes.append(
+            f"USE_MODE is {numbers['USE_MODE']:g}; slips are combined nevertheless, by the coefficients of the file."
+        )
     elif mode != 4.0:
         notes.append(f"USE_MODE is {numbers['USE_MODE']:g}; slips are combined as by 4, without turn slip.")
     missing = [key for key in _WEIGHTING_COEFFICIENTS if not numbers.get(key)]

@@ -98,7 +98,7 @@ def _parse(text: str, name: str) -> PropertyText:
             sections.setdefault(section, {})
             continue
         if not section:
-            raise TyreFileError(f"{where}: {brief(line)} stands before any section; a section begins as [UNITS].")
+            raise TyreFileError(f"{where}: {brief(line)} is before any section; a section begins as [UNITS].")
         entry = _ENTRY.fullmatch(line)
         if entry is None:
             if not all(_NUMBER.fullmatch(part) for part in re.split(r"[\s,;]+", line)):

@@ -1,6 +1,6 @@
 """Command `ali3 car`: copies a car of the package to a folder, or checks a car file and prints its plausibility.
 
-With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints what its axles are as
+With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints their values as
 drawn. With --cheapest: measures error and cost of each fidelity and step, and names the cheapest within tolerances.
 """
 
@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         "inputs over time, speed=V, m/s at its start; default: path=1 loads=3, three drives",
     )
     add_option(parser, "--json", "none")
-    add_option(parser, "--picture", "none; the points of the file, from the side and above")
+    add_option(parser, "--picture", "none; points of the file, from the side and above")
     options = parser.parse_args(arguments)
     if not options.list and options.car is None:
         parser.error("a CAR is needed, or --list")

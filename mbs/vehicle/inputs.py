@@ -56,7 +56,7 @@ def new_port(
 def brake_port(b: CarBuilder, wheel: str) -> Input:
     """Add the input of the brake of a wheel: its torque or its pressure, by the kind of the port."""
     if b.ports.brakes == "torque":
-        text = "largest torque that the brake of the wheel can hold, which turns neither way by itself"
+        text = "largest torque that the brake of the wheel can hold, which turns in neither direction by itself"
         return new_port(b, f"wheel_{wheel}.brake_torque_demand", 0.0, MAX_TORQUE, "N.m", text)
     text = "pressure in the brake of the wheel"
     return new_port(b, f"wheel_{wheel}.brake_pressure", 0.0, MAX_PRESSURE, "Pa", text)

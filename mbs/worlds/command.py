@@ -21,13 +21,13 @@ inputs:
   .csv, .txt   heights, a row for each x, a column for each y; with coordinates in the first row and the first column
                where the first cell is not a number
   .npy, .npz   NumPy arrays: heights[i, j] at x number i and y number j; .npz also frictions, origin, spacing
-  .crg         OpenCRG; the grid says how far it is off
+  .crg         OpenCRG; the error of the grid is printed
   .stl, .obj, .ply, .off, .glb, .gltf
                a mesh of triangles, metres, z up (glTF: y up); scale and axis in a description
   .png         8 or 16 bits of grey, seen from above with x to the right and y up
 
 worlds: DIR gets NAME.road, what wheels feel (road.file of an FMU), and NAME.json, what is drawn and where a car may
-start. A world is kept and copied when it is asked for again; ALI3_CACHE names the folder.
+start. A world is stored in the folder ALI3_CACHE, and copied when it is requested again.
 """
 _ROAD_OPTIONS = ("input", "output", "frictions", "origin", "spacing", "range", "friction_range", "part", "start")
 
@@ -41,13 +41,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     parser.add_argument(
         "--frictions",
         metavar="NUMBER|FILE",
-        help="of a grid: one number, or a file of its shape; default: as INPUT says, otherwise 0.9",
+        help="frictions of a grid: one number, or a file of its shape; default: as INPUT says, otherwise 0.9",
     )
     parser.add_argument(
-        "--origin", type=_length, nargs=2, metavar=("X", "Y"), help="of a grid: its first point, m; default: 0 0"
+        "--origin", type=_length, nargs=2, metavar=("X", "Y"), help="first point of a grid, m; default: 0 0"
     )
     parser.add_argument(
-        "--spacing", type=_length, nargs=2, metavar=("DX", "DY"), help="of a grid: distances of its points, m"
+        "--spacing", type=_length, nargs=2, metavar=("DX", "DY"), help="distances of the points of a grid, m"
     )
     parser.add_argument(
         "--start",
@@ -62,9 +62,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     )
     add_option(parser, "--picture", "none; the road with its starts, or a map of the world")
     parser.add_argument(
-        "--part", type=Path, metavar="FILE", help="write the road as an entry of a scene's roads, JSON: what draws it"
+        "--part", type=Path, metavar="FILE", help="write the drawing of the road as JSON, an entry of a scene's roads"
     )
-    parser.add_argument("--thin", action="store_true", help="of a world: reduced to few and round numbers, for a page")
+    parser.add_argument("--thin", action="store_true", help="reduce a world to fewer points, for a page")
     add_option(parser, "--json", "none")
     add_option(parser, "--world", "none, the road of INPUT")
     add_option(parser, "--out", "out/worlds")

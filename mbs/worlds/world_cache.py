@@ -90,7 +90,7 @@ def _store(folder: Path, cache: Path, entry: Path) -> None:
             (target / COMPLETE_MARK).touch()
         forget_oldest(cache, MAX_ENTRIES)
     except OSError as error:
-        print(f"The world is not kept for the next time: {str(error).rstrip('.')}.", file=sys.stderr)
+        print(f"The world is not stored for the next time: {str(error).rstrip('.')}.", file=sys.stderr)
 
 
 def add_file(key: str, name: str, make: Callable[[Path], None], out: Path) -> None:

@@ -89,7 +89,7 @@ def test_the_report_names_the_joint_and_the_distance():
 @pytest.mark.parametrize("loop", ["Bennett", "redundant crank"])
 def test_beyond_the_tolerance_the_loop_is_refused_with_joint_distance_and_remedy(loop):
     build = LOOPS[loop]
-    with pytest.raises(ModelError, match=r"stands still as drawn.*'.*' by .* m.* are allowed\. Draw it more exactly"):
+    with pytest.raises(ModelError, match=r"cannot move as drawn.*'.*' by .* m.* are allowed\. Draw it more exactly"):
         compile(build(drawn.shifted(1e-3, seed=1)))
 
 

@@ -25,6 +25,7 @@ DOCUMENTS = [*(ROOT / page for page in PAGES), *sorted((ROOT / "docs").rglob("*.
 TEXTS = {file: file.read_text(encoding="utf-8") for file in DOCUMENTS}
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+FORCE_LAWS = (ROOT / "docs" / "force_laws.md").read_text(encoding="utf-8")
 FILE = r"[\w./]+\.(?:c|h|py|md|cff)"
 
 
@@ -224,7 +225,7 @@ def test_the_pages_name_every_method_and_the_readme_counts_methods_and_scenes():
 def test_theory_names_functions_that_exist():
     listed = [
         (file, names)
-        for file, names in re.findall(rf"`({FILE})`(?: \||,)((?:[,\s]*`\w+`)+)", THEORY)
+        for file, names in re.findall(rf"`({FILE})`(?: \||,)((?:[,\s]*`\w+`)+)", THEORY + FORCE_LAWS)
         if file.endswith((".c", ".h", ".py"))
     ]
     results = [(file, name) for file, names in listed for name in re.findall(r"`(\w+)`", names)]

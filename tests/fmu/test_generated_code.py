@@ -22,8 +22,8 @@ STEPS = 60
 STEP = 0.01  # s
 PULLS = {"crane": ("torque", 4.0), "reach": ("pull", 0.3), "answered": ("push", 40.0), "towed": ("left.push", 2.0)}
 """An angle and a spring, a driving function, contacts, no rows."""
-CODE = "take the code that was generated for it."
-LOOPS = "take the loops of the kernel"
+CODE = "use the code that was generated for it."
+LOOPS = "use the loops of the kernel"
 
 
 def packed(fmu: Path) -> dict[str, bytes]:

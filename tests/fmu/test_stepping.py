@@ -60,7 +60,7 @@ def test_a_communication_point_may_be_off_by_the_round_off_of_a_host(crane, host
         driven = host(crane).start()
         assert driven.step(0.0, 0.01) == OK
         assert driven.step(0.01 + off, 0.01) == status
-        assert status == OK or "stands at 0.01" in driven.messages[-1]
+        assert status == OK or "of this instance is 0.01 s" in driven.messages[-1]
         assert driven.step(0.01 if status == ERROR else 0.02, 0.01) == OK
 
 

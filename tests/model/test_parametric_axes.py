@@ -79,7 +79,7 @@ def test_an_axis_is_fixed_and_does_not_stand_upright():
     m = Model("upright")
     body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(0.1, 0.1, 0.1))
     wheel = {"centre": (0.0, 0.0, 0.0), "mass": 1.0, "spin_inertia": 0.1, "diametral_inertia": 0.05}
-    with pytest.raises(ModelError, match="'steep' stands upright"):
+    with pytest.raises(ModelError, match="'steep' is vertical"):
         m.written_axis(m.spin("steep", carrier=body, axis=(0.0, 0.0, 1.0), **wheel))
     axis = m.written_axis(m.spin("level", carrier=body, axis=(0.0, 1.0, 0.0), **wheel))
     with pytest.raises(ModelError, match="cannot change while it moves"):

@@ -106,7 +106,7 @@ def test_beside_the_mesh_the_heights_of_its_border_continue(tmp_path):
     with pytest.warns(RoadWarning) as caught:
         road = read_road(file, spacing=(0.25, 0.25))
     gap, off = (str(warning.message) for warning in caught)
-    assert re.search(r"has a gap of 9\d\d m2 .* what the road goes round", gap)
+    assert re.search(r"has a gap of 9\d\d m2 .* an island in the road", gap)
     assert "by 21.9 mm at most" in off
     assert np.isfinite(road.heights).all()
     assert road.heights[90, 90] == pytest.approx(-0.25, abs=0.04)
@@ -120,7 +120,7 @@ def test_pieces_that_lie_apart_are_reported(tmp_path):
     both = np.concatenate([points, points[:, :] * [0.5, 0.5, 1.0] + [40.0, 1.0, 0.0]])
     file = saved(tmp_path / "a.ply", both, np.concatenate([triangles, triangles + len(points)]))
     with pytest.warns(
-        RoadWarning, match=r"is in 2 pieces, the smallest has 3[0-3].* m2; between them their borders go on"
+        RoadWarning, match=r"is in 2 pieces, the smallest has 3[0-3].* m2; between them their borders continue"
     ):
         read_road(file)
 

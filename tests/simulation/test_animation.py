@@ -90,7 +90,7 @@ def test_thinned_poses_are_reported(monkeypatch):
     monkeypatch.setattr(poses_module, "MAX_SAMPLES", 200)
     run = mbs.simulate(mbs.compile(pendulum.build()), 3.0, 0.005)
     recording = run.recording()
-    assert recording.notes == ["Poses were kept of one of 4 samples of the run."]
+    assert recording.notes == ["Poses were stored for one of 4 samples of the run."]
     np.testing.assert_array_equal(recording.columns["rod.tension"], run["rod.tension"][::4])
     with pytest.raises(ValueError, match=r"run\.thinned\(4\)\.to_csv"):
         run.to_csv("unused.csv", poses=True)

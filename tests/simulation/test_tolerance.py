@@ -306,7 +306,7 @@ def test_a_loose_tolerance_still_has_two_runs_to_compare(tolerance: float, metho
 
 
 def test_a_refused_run_names_the_tolerance_that_was_asked_for() -> None:
-    with pytest.raises(mbs.SimulationError, match=r"0\.02 \(in a run on the way to 0\.001\)"):
+    with pytest.raises(mbs.SimulationError, match=r"0\.02 \(in an intermediate run towards 0\.001\)"):
         mbs.simulate(printed_model(), 0.5, inputs={"torque": 4.0}, tolerance=1e-3, method="ali3p_no_projection")
 
 

@@ -201,7 +201,7 @@ def test_impossible_values_are_refused_in_one_sentence(tmp_path: Path, change: t
         (b"\xff\xfe[\0U\0", "not text of single bytes"),
         (b"a" * 1_000_001, "it must have at most 1000000"),
         (b"[UNITS]\n" + b"x" * 1001, "it must have at most 1000"),
-        (b"PK\x03\x04 zip", "stands before any section"),
+        (b"PK\x03\x04 zip", "is before any section"),
     ],
 )
 def test_what_is_no_text_of_such_a_file_is_refused(tmp_path: Path, content: bytes, sentence: str) -> None:

@@ -122,7 +122,7 @@ def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys
     assert main([*arguments, "loads=5", "--json", str(result)]) == 0
     printed = capsys.readouterr().out
     assert "saloon: errors against fidelity 0 with steps of 0.5 ms, the largest of: turn" in printed
-    assert "Cheapest within 1 % of the way and 5 % of the wheel loads: fidelity " in printed
+    assert "Cheapest within 1 % of the path and 5 % of the wheel loads: fidelity " in printed
     content = json.loads(result.read_text())
     assert content["reference"] == {"fidelity": 0, "h_s": 0.0005}
     assert content["tolerances"] == {"path": 0.01, "load": pytest.approx(0.05)}

@@ -130,7 +130,7 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
             "rim",
             "frames['spinning wheel'].parent is 'rim', which is not a frame",
         ),
-        (("frames", "spinning wheel", "parent"), "spinning wheel", "frames['spinning wheel'] stands on itself"),
+        (("frames", "spinning wheel", "parent"), "spinning wheel", "frames['spinning wheel'] depends on itself"),
         (("frames", "arm", "points"), [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "frames.arm.points lie on a line"),
         (("frames", "body", "start"), [[0, 0, 0], [0, 0, 0, 0]], "frames.body.start[1] is [0, 0, 0, 0]; it must not"),
         (("meshes", "triangle", "positions"), "!", "meshes.triangle.positions is not base64."),

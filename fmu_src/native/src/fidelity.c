@@ -26,11 +26,11 @@ static void attach_generated(ali3_system *system, size_t number, char *text, siz
   const ali3_generated *code = slave_the_table.generated[number];
   char why[200];
   if (code == NULL)
-    snprintf(text, size, "Its steps take the loops of the kernel, as no code was generated for it");
+    snprintf(text, size, "Its steps use the loops of the kernel, as no code was generated for it");
   else if (ali3_system_attach(system, code, why, sizeof why) == ALI3_OK)
-    snprintf(text, size, "Its steps take the code that was generated for it");
+    snprintf(text, size, "Its steps use the code that was generated for it");
   else
-    snprintf(text, size, "Its steps take the loops of the kernel: %s", why);
+    snprintf(text, size, "Its steps use the loops of the kernel: %s", why);
 }
 
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {

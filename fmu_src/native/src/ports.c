@@ -42,12 +42,12 @@ static void warn_stopped(slave *s, const slave_variable *first, size_t n_ports) 
   const double last_set = s->rhythm[i].last_set, held = s->value[i];
   if (n_ports == 1)
     slave_log(s, SLAVE_WARNING,
-              "The port '%s' was given a number again and again until %.6g s and none since; it holds %g%s. This is "
+              "The port '%s' received numbers until %.6g s and none since; it holds %g%s. This is "
               "reported once.",
               first->name, last_set, held, first->unit);
   else
     slave_log(s, SLAVE_WARNING,
-              "%zu ports were given numbers again and again and get none any more, '%s' since %.6g s. Each holds its "
+              "%zu ports received numbers and get none any more, '%s' since %.6g s. Each holds its "
               "last one, as '%s' holds %g%s. This is reported once.",
               n_ports, first->name, last_set, first->name, held, first->unit);
 }

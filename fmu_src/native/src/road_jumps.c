@@ -23,7 +23,7 @@ static void check_turn(slave *s, size_t i) {
   s->input_flags[i] |= SLAVE_TURNED;
   slave_log(
       s, SLAVE_WARNING,
-      "At %.6g s the normal of the answer '%s' turned at once from (%.3g, %.3g, %.3g) to (%.3g, %.3g, %.3g), and with "
+      "At %.6g s the normal of the answer '%s' jumped from (%.3g, %.3g, %.3g) to (%.3g, %.3g, %.3g), and with "
       "it the load of its wheel. A wheel that touches ground and edge bears on both: answer with the plane whose depth "
       "and normal are the sum of both depths along their normals, or take shorter communication steps. This is "
       "reported once.",
@@ -64,7 +64,7 @@ static void check_bend(slave *s, size_t i) {
   if (!(fabs(end) + 0.25 * fabs(start) > limit)) return; /* the end of a step has more effect than its start */
   s->input_flags[i + 1] |= SLAVE_TURNED;
   slave_log(s, SLAVE_WARNING,
-            "At %.6g s the answer on the road '%s' tells that the last one was off by %.2g mm at its wheel at the end "
+            "At %.6g s the answer on the road '%s' shows that the last one was off by %.2g mm at its wheel at the end "
             "of its step, and that it is off by %.2g mm itself%s; where the road goes on so, loads are off by 1 %% or "
             "more. It holds for %.1f steps ahead of its wheel, where 1 is best. Ask at the point ahead, with "
             "ports.road_lead = 1 where an answer holds in the step that follows the question, with 2 where all "

@@ -118,7 +118,7 @@ static bool check_step(slave *s, double time, double step, double now) {
   if (!(fabs(time) < HUGE_VAL && step > 0.0 && step < HUGE_VAL))
     slave_log(s, SLAVE_ERROR, "A step from %g s over %g s: a finite time and a positive step are needed.", time, step);
   else if (fabs(time - now) > TIME_TOLERANCE)
-    slave_log(s, SLAVE_ERROR, "The step starts at %.10g s, but this instance stands at %.10g s.", time, now);
+    slave_log(s, SLAVE_ERROR, "The step starts at %.10g s, but the time of this instance is %.10g s.", time, now);
   else if (time + step > s->calls.stop_time + TIME_TOLERANCE)
     slave_log(s, SLAVE_ERROR, "The step from %g s over %g s goes beyond the stop time %g s.", time, step,
               s->calls.stop_time);

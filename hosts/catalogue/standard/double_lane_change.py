@@ -88,7 +88,7 @@ class Passage:
             return f"a cone is hit by {-self.least_clearance:.3g} m"
         if self.result.refusal:
             return self.result.refusal
-        return self.not_driven and f"the car does not come through: {self.not_driven}"
+        return self.not_driven and f"the car does not pass the course: {self.not_driven}"
 
     def at(self, quantity: str, x: float) -> float:
         """Value of an output when the car's front reaches a position x of the course, m; NaN if it does not."""

@@ -37,7 +37,7 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
     file : Path
         TOML: ``"ALi3 name" = "name in the FMU"`` or ``"ALi3 name" = { name = "...", factor = 1.0, offset = 0.0 }``:
         value in the FMU = factor * ALi3 value + offset; with ``unit``, the unit of the FMU, this value is in SI units.
-        ``"ALi3 name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/fmu.md``.
+        ``"ALi3 name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/other_names.md``.
     variables : Variables or collection of str
         Variables of the FMU; with names alone, units are not checked.
 

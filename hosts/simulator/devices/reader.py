@@ -76,7 +76,7 @@ class Reader:
         self._thread = threading.Thread(target=self._run, name="devices", daemon=True)
         self._thread.start()
         if not self._ready.wait(_START_TIME):
-            self.tell(f"SDL has not found out within {_START_TIME:g} s which devices there are; it goes on looking.")
+            self.tell(f"SDL has not found out within {_START_TIME:g} s which devices there are; it continues to look.")
 
     def close(self) -> None:
         """Stop all motors and threads."""
@@ -189,7 +189,7 @@ class Reader:
 
         def fail(reason: str) -> None:
             device.force_problem = reason
-            self.tell(f"{device.label} goes on without force: {reason}.")
+            self.tell(f"{device.label} continues without force: {reason}.")
 
         device.start_force(self._torque, fail)
 
@@ -222,7 +222,7 @@ class Reader:
         try:
             self.files.write(device.id, mapping, device.joystick.name, device.joystick.serial)
         except UserError as error:
-            self.tell(f"{error} What was set for {device.label} holds until it is pulled out.")
+            self.tell(f"{error} What was set for {device.label} holds until it is unplugged.")
 
 
 def _unique_labels(name: str) -> Iterator[str]:

@@ -158,7 +158,7 @@ def _check_contact(height: float, n_z: float, R: float, subject: str) -> None:
     """Raise `ModelError` for a wheel that lies flat, or that does not touch the plane as drawn."""
     height_ratio = float(np.sqrt(max(0.0, 1.0 - n_z**2)))
     if height_ratio < FLAT:
-        raise ModelError(f"The wheel of {subject} lies flat, its axle is upright; it rolls only where it stands.")
+        raise ModelError(f"The wheel of {subject} lies flat, its axle is upright; it rolls only upright.")
     gap = float(height - R * height_ratio)
     if abs(gap) > MAX_GAP * R:
         position = f"{gap:.4g} m above" if gap > 0.0 else f"{-gap:.4g} m below"

@@ -80,7 +80,7 @@ class Automatic(Section, of=AutomaticDrive):
         inputs = b.inputs["throttle"].index, 1, b.inputs["selector"].index
         request = clutch = None
         if b.ports.gear is not None:
-            text = "forward gear that is asked for; 0: as the drive shifts by itself"
+            text = "requested forward gear; 0: the drive shifts by itself"
             request = new_port(b, "gear_request", 0.0, float(len(self.ratios)), "1", text, whole=True).index
         if b.ports.clutch is not None:
             text = "clutch pedal: 0 released, 1 pressed, where nothing of the drive's torque is left"

@@ -137,7 +137,10 @@ STEER = (
     _quantity("ackermann_error", "angle", "Ackermann error", "size of the outer wheel's steer angle less Ackermann's"),
     _quantity("ackermann", "percent", "Ackermann", "difference of the steer angles over that of Ackermann's"),
     _quantity(
-        "turning_circle", "size", "turning circle", "diameter of the way of the outer front contact centre without slip"
+        "turning_circle",
+        "size",
+        "turning circle",
+        "diameter of the path of the outer front contact centre without slip",
     ),
 )
 """Further quantities of the axle on curves of steering."""

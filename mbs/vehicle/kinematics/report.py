@@ -70,7 +70,7 @@ def report(options: argparse.Namespace) -> int:
         write_json(options.json, _content(car_kinematics, car_compliance))
     print(f"\n{folder / 'kinematics.html'} and {len(car_kinematics.curves)} CSV files beside it", flush=True)
     if tables:
-        print(f'{", ".join(tables)}: where the wheels stand, as kind = "curves" reads it', flush=True)
+        print(f'{", ".join(tables)}: wheel positions, as kind = "curves" reads it', flush=True)
     return 1 if any(curve.notes for curve in car_kinematics.curves.values()) else 0
 
 

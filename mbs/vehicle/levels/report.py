@@ -26,7 +26,7 @@ DEFAULT_TOLERANCES = {"path": 1.0, "loads": 3.0}
 """Percent."""
 OUTPUTS = {"path": "path", "loads": "load", "moments": "moment"}
 """Key of an error in a row by its name in the command line."""
-TITLES = {"path": "of the way", "load": "of the wheel loads", "moment": "of the moments in the frame"}
+TITLES = {"path": "of the path", "load": "of the wheel loads", "moment": "of the moments in the frame"}
 
 
 def report(options: argparse.Namespace) -> int:

@@ -71,7 +71,7 @@ def test_hit_or_stopped_is_not_clean() -> None:
     assert not hit.is_clean
     assert "hit by 0.1 m" in hit.failure
     assert not stopped.is_clean
-    assert "come through" in stopped.failure
+    assert "pass the course" in stopped.failure
 
 
 def test_the_limit_is_found_by_bisection(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -85,7 +85,7 @@ def test_a_heading_that_is_repeated_is_reported_by_its_line(fmu, tmp_path):
     heading = "time [ms],pull,bob.x\n"
     lines = (heading + rows("{ms},{f},{x}")).splitlines()
     again = [*lines[:4], "", heading.strip(), *lines[4:]]
-    with pytest.raises(HostError, match=r"log\.csv, line 6: the heading stands there again; cut the log there"):
+    with pytest.raises(HostError, match=r"log\.csv, line 6: the heading occurs again; split the log there"):
         read(fmu, tmp_path, "\n".join(again))
     again[5] = "time [ms],pull,"  # cut behind a cell that is empty
     with pytest.raises(HostError, match=r"log\.csv, line 6, column"):
@@ -102,7 +102,7 @@ def test_a_heading_that_is_repeated_is_reported_by_its_line(fmu, tmp_path):
 def test_units_behind_numbers_are_reported(fmu, tmp_path, form):
     mark = ";" if ";" in form else ","
     text = mark.join(("time", "pull", "bob.x")) + "\n" + rows(form)
-    with pytest.raises(HostError, match=r"line 2.*: '0\.0 ?[sN]' has its unit behind its number; .* 'name \[[sN]\]'"):
+    with pytest.raises(HostError, match=r"line 2.*: '0\.0 ?[sN]' has a unit after the number; .* 'name \[[sN]\]'"):
         read(fmu, tmp_path, text)
 
 
@@ -235,9 +235,9 @@ def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(fmu, tmp_pa
 
 BAD = [
     ("time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,", "0.05,", 1), "", "goes back from 0.19 s to 0.05 s"),
-    ("\n".join(["time,pull,bob.x", *rows("{t},{f},{x}").splitlines()[::-1]]), "", "the last row stands first"),
+    ("\n".join(["time,pull,bob.x", *rows("{t},{f},{x}").splitlines()[::-1]]), "", "the rows run backwards in time"),
     ("time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,", "0.18,", 1), "", "sort them"),
-    ("stamp;bob.x\n" + stamped("{0};{1}", -3600.0), '[time]\nname = "stamp"', "put back by an hour"),
+    ("stamp;bob.x\n" + stamped("{0};{1}", -3600.0), '[time]\nname = "stamp"', "set back by an hour"),
     (
         "stamp;bob.x\n" + stamped("{0};{1}").replace("2024-10-27T", "27.10.2024 "),
         '[time]\nname = "stamp"',

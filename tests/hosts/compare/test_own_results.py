@@ -30,7 +30,7 @@ def test_held_inputs_and_parameters_that_change(tuned, tmp_path, capsys):
     capsys.readouterr()
     assert main([str(tuned), str(log), "--step", "0.05", "--out", str(tmp_path / "compared")]) == 0
     output = capsys.readouterr().out
-    assert "Tunable parameters that the log drives, each kept up to its next row: spring.stiffness." in output
+    assert "Tunable parameters that the log drives, each held until its next row: spring.stiffness." in output
     assert _largest(tmp_path / "compared" / log.name) < 1e-9
 
 

@@ -11,7 +11,8 @@ from pathlib import Path
 
 from benchmarks.shared.pages import table
 from tests.hosts.odd_fmus import planted_fmu
-from tests.hosts.test_check_planted import ALSO, PLANTS, found
+from tests.hosts.one_check import one_check
+from tests.hosts.test_check_planted import ALSO, PLANTS
 
 _BY_FMPY = """
 import sys, fmpy
@@ -28,8 +29,8 @@ def looked_at(case: tuple[str, bool]) -> tuple[str, tuple[bool, ...]]:
     check, verdict, message = PLANTS.get(plant) or ("messages", "note" if three else "BAD", ALSO[plant])
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         fmu = planted_fmu(Path(folder), plant, three)
-        _, lines = found(fmu)
-        ours = lines[check][0] == verdict and message in lines[check][1]
+        actual, words = one_check(fmu, check)
+        ours = actual == verdict.lower() and message in words
         command = [sys.executable, "-c", _BY_FMPY, str(fmu)]
         done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60, cwd=folder)
     problems = next((line for line in done.stdout.splitlines() if line.isdigit()), "0")

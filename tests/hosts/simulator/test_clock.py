@@ -76,7 +76,7 @@ def test_the_obtained_priority_is_reported(monkeypatch: pytest.MonkeyPatch) -> N
         monkeypatch.setattr(room, name, lambda name=name, message=message: tried.append(name) or message)
     if sys.platform == "win32":
         pytest.skip("the calls of POSIX")
-    assert "no priority above the usual" in request_priority()
+    assert "no priority above normal" in request_priority()
     assert tried == ["_set_fifo", "_set_nice", "_lock_memory"]
     monkeypatch.setattr(room, "_set_nice", lambda: "nice.")
     assert request_priority() == "nice."

@@ -249,6 +249,8 @@ def test_a_worker_that_ends_too_early_is_reported_as_such():
             raise CommClosedError("in <TCP local=...>: Stream is closed")
 
     brought = UnpackedFmu("a", "none.fmu", "", "", lambda path: None)  # type: ignore[arg-type, return-value]
-    with pytest.raises(HostError, match="A worker has ended or was cut off before it had what is run") as caught:
+    with pytest.raises(
+        HostError, match="A worker has ended or was disconnected before it had received what to run"
+    ) as caught:
         send_experiment(Lost(), brought, Path(__file__))  # type: ignore[arg-type]
     assert "version" not in str(caught.value)

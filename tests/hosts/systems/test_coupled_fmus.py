@@ -109,7 +109,7 @@ def test_a_system_that_cannot_repeat_a_step_reports_it_and_restarts(partners):
             system.step()
         system.initialise(**REFUSED)
         one = system.run(0.2, ("mass.position",))
-        with pytest.raises(StepRefusedError, match="cannot go on, as the part 'source' cannot save its state"):
+        with pytest.raises(StepRefusedError, match="cannot continue, because the part 'source' cannot save its state"):
             system.step()
         with pytest.raises(HostError, match="again after one that only some parts made"):
             system.step()

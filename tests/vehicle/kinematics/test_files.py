@@ -60,7 +60,7 @@ def test_two_readers_find_the_same_numbers(made, found):
 @pytest.mark.slow
 def test_tables_of_the_command_are_axles_by_their_curves(made):
     folder, printed = made
-    assert "front_table.csv, rear_table.csv: where the wheels stand" in printed
+    assert "front_table.csv, rear_table.csv: wheel positions" in printed
     assert len(read_curves(folder, "rear_table.csv", "key", 1.0).travel) > 4
     parallel = read_curves(folder, "front_parallel.csv", "key", 1.0)
     assert parallel.has_right_wheel

@@ -216,7 +216,7 @@ def test_a_folder_that_cannot_be_written_is_reported_and_the_mapping_holds(attac
     run.devices._reader.files.folder = blocked / "devices"
     run.devices.assign(run.only()["id"], "brake", {"source": "axis 1"})
     assert run.only()["mapping"]["brake"]["source"] == "axis 1"
-    assert run.said("holds until it is pulled out")
+    assert run.said("holds until it is unplugged")
 
 
 @pytest.mark.parametrize(

@@ -158,7 +158,7 @@ def test_pulled_out_the_motor_is_closed_and_a_new_one_opened_when_it_is_back(pus
 def test_an_error_of_the_torque_ends_the_force_with_one_sentence(pushed, haptics):
     _, torque, run = pushed
     torque.value = ValueError("no car")
-    until(lambda: run.said("Wheel goes on without force: ValueError: no car."))
+    until(lambda: run.said("Wheel continues without force: ValueError: no car."))
     until(lambda: not haptics.open)
     assert haptics.levels[-1] == 0
     assert run.only()["force"] is False
@@ -167,7 +167,7 @@ def test_an_error_of_the_torque_ends_the_force_with_one_sentence(pushed, haptics
 def test_a_refused_update_is_reported_once_and_the_wheel_still_steers(pushed, haptics):
     wheel, _, run = pushed
     haptics.refuse = {"UpdateEffect"}
-    until(lambda: run.said("goes on without force: its motor refuses a constant force: SDL says"))
+    until(lambda: run.said("continues without force: its motor refuses a constant force: SDL says"))
     until(lambda: not haptics.open)
     wheel.axis(0, -1.0)
     until(lambda: run.arbiter.value("device Wheel", "steering"))
@@ -203,7 +203,7 @@ def test_a_motor_that_cannot_is_reported_and_closed(attach, start, haptics, refu
     haptics.refuse, haptics.can = {refused}, can
     attach()
     run = start(Torque(6.0))
-    until(lambda: run.said(f"Wheel goes on without force: {message}"))
+    until(lambda: run.said(f"Wheel continues without force: {message}"))
     assert not haptics.open
     with pytest.raises(HostError, match="Wheel has no force: its motor"):
         run.devices.test_force(run.only()["id"])
