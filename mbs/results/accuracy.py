@@ -21,7 +21,7 @@ from mbs.system.system import System
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 MAX_COST = float(MOST_PARTS * MOST_PARTS)  # largest cost of refined runs, in runs, unless `estimate_error` is a number
 GOAL_ERROR = AGREED * WRONG_ERROR  # target of a suggested step, and largest error of the energy
-CLEAR = 0.03  # of the range: largest error, by order one, of a run that is right
+CLEAR = WRONG_ERROR - GOAL_ERROR  # of the range: largest error, by order one, of a run that is right
 RIGHT = "A refined run, in which they do not, shows that what is compared is right all the same."
 COARSER, FINER = "coarser", "finer"
 
@@ -47,7 +47,7 @@ class Accuracy:
     check_cost: float = 0.0
     """Cost of the check: ratio of the steps of all further runs to the steps of the run."""
     order: float | None = None
-    """Order of the errors, from the energies of the two runs or, if these are not measured, order of the method."""
+    """Order of the method, by which the difference from the last further run is scaled."""
     units: dict[str, float] = field(default_factory=dict)
     """Ratio of the largest estimated error to the largest range, by compared unit ("1": coordinates of the System)."""
     sensors: dict[str, float] = field(default_factory=dict)

@@ -1,6 +1,5 @@
 """Observed order of convergence and extrapolation of runs with shorter steps."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -12,29 +11,14 @@ from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results.accuracy import Accuracy
 from mbs.results.comparison import Compared, differences
-from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings
-
-MIN_ORDER = 0.5  # measured: below it, differences do not show the error
-
-
-def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
-    """Order of the errors: the order of the energy errors if both runs measured them, at most the method's.
-
-    `ratio`: ratio of the step of the coarse run to the step of the fine one.
-    """
-    method_order = float(METHOD_TABLE[method].order)
-    first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if method_order > 2.0 or not (second > 0.0 and first > second):  # the quadrature of the work is of lower order
-        return method_order
-    return min(method_order, max(1.0, math.log(first / second) / math.log(ratio)))
 
 
 def observed_order(
     first_difference: float, near_difference: float, near_divisor: int, finest_divisor: int, method_order: float
 ) -> float:
-    """Observed order of three runs, from `MIN_ORDER` to `method_order`.
+    """Observed order of three runs, from one, the order behind an abrupt event, to `method_order`.
 
     `first_difference`, `near_difference`: differences of the first run, and of that with its step over `near_divisor`,
     from the run with its step over `finest_divisor`.
@@ -48,7 +32,7 @@ def observed_order(
 
     if residual(method_order) <= 0.0:
         return method_order
-    return float(brentq(residual, MIN_ORDER, method_order)) if residual(MIN_ORDER) < 0.0 else MIN_ORDER
+    return float(brentq(residual, 1.0, method_order)) if residual(1.0) < 0.0 else 1.0
 
 
 def may_change_verdict(known: Accuracy, errors: Mapping[str, float]) -> bool:
