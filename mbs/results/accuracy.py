@@ -21,7 +21,7 @@ from mbs.system.system import System
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 MAX_COST = float(MOST_PARTS * MOST_PARTS)  # largest cost of refined runs, in runs, unless `estimate_error` is a number
 GOAL_ERROR = AGREED * WRONG_ERROR  # target of a suggested step, and largest error of the energy
-CLEAR = WRONG_ERROR - GOAL_ERROR  # of the range: largest error, by order one, of a run that is right
+CLEAR = 0.03  # of the range: largest error, by order one, of a run that is right
 RIGHT = "A refined run, in which they do not, shows that what is compared is right all the same."
 COARSER, FINER = "coarser", "finer"
 

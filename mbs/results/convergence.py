@@ -1,18 +1,11 @@
-"""Observed order of convergence and extrapolation of runs with shorter steps."""
+"""Observed order of convergence, and whether the error of a refined run could change a verdict."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping
 
-import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from mbs.kernel.header.limits import WRONG_ERROR
-from mbs.kernel.header.structures import ComparedFields
 from mbs.results.accuracy import Accuracy
-from mbs.results.comparison import Compared, differences
-from mbs.settings.methods import METHOD_TABLE
-from mbs.settings.settings import Settings
 
 
 def observed_order(
@@ -44,24 +37,3 @@ def may_change_verdict(known: Accuracy, errors: Mapping[str, float]) -> bool:
     margins = [(error - WRONG_ERROR, errors.get(unit, 0.0)) for unit, error in known.units.items()]
     surely_wrong = any(margin >= error for margin, error in margins)
     return not surely_wrong and any(-margin < error for margin, error in margins)
-
-
-def extrapolate_error(
-    known: Accuracy,
-    tables: Sequence[Mapping[str, NDArray[np.float64]]],
-    compared: Mapping[str, Compared],
-    before: Mapping[str, ComparedFields] | None,
-    length: float,
-) -> tuple[Accuracy, dict[str, float]]:
-    """Error against the limit of refined runs, by Richardson's extrapolation with the order of the default method.
-
-    That order holds after abrupt events too: stops are located, and parts of steps shrink with the step.
-
-    `tables`: samples (n,), by name, of the run and of the last two refined ones, of which the last has half the step;
-    `before`, `length`: as in `Comparison`. Result: the sizes of the sensors too, see `Comparison.sizes`.
-    """
-    run, coarse, fine = tables
-    weight = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)
-    limit = {name: fine[name] + weight * what.change(coarse[name], fine[name]) for name, what in compared.items()}
-    units, sensors, sizes = differences(run, limit, compared, before, length)
-    return replace(known, units=units, sensors=sensors), sizes

@@ -23,7 +23,7 @@ from mbs.results.comparison import (
     shows_motion,
     sizes_of,
 )
-from mbs.results.convergence import extrapolate_error, may_change_verdict, observed_order
+from mbs.results.convergence import may_change_verdict, observed_order
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import is_smooth, unresolved_fraction
@@ -194,12 +194,6 @@ class RefinedRuns:
         ):
             parts *= 2
             verdict = self.refine(parts)
-            if parts > 2 * self.parts:
-                runs = (self.run, self._refined[parts // 2], self._refined[parts])
-                verdict, self._sizes = extrapolate_error(
-                    verdict, [self._table(r) for r in runs], self.compared, self.before, self.length
-                )
-                self.known = verdict
             if parts == MOST_PARTS // 2 * self.parts and (verdict.error or 0.0) > WRONG_ERROR:
                 break
         if not self.divisor and parts == MOST_PARTS * self.parts and self._is_unsure(verdict, parts):
