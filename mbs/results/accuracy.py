@@ -47,7 +47,7 @@ class Accuracy:
     check_cost: float = 0.0
     """Cost of the check: ratio of the steps of all further runs to the steps of the run."""
     order: float | None = None
-    """Order of the errors, from the energies of the two runs or, if these are not measured, order of the method."""
+    """Order of the method, by which the difference from the last further run is scaled."""
     units: dict[str, float] = field(default_factory=dict)
     """Ratio of the largest estimated error to the largest range, by compared unit ("1": coordinates of the System)."""
     sensors: dict[str, float] = field(default_factory=dict)

@@ -63,10 +63,6 @@ class Compared:
         }
         return JudgedFields(UNITS[self.unit], sum(bit for bit, is_set in bits.items() if is_set))
 
-    def change(self, one: Array, other: Array) -> Array:
-        """Differences ``other - one`` of samples (n,), of angles along the smaller arc."""
-        return np.asarray((other - one + np.pi) % (2.0 * np.pi) - np.pi if self.wrapped else other - one)
-
     def gap(self, one: Array, other: Array) -> float:
         """Largest difference of samples (n,), of angles along the smaller arc."""
         comparison = Comparison({"": self}, 1.0)

@@ -1,40 +1,17 @@
-"""Observed order of convergence and extrapolation of runs with shorter steps."""
+"""Observed order of convergence, and whether the error of a refined run could change a verdict."""
 
-import math
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping
 
-import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from mbs.kernel.header.limits import WRONG_ERROR
-from mbs.kernel.header.structures import ComparedFields
 from mbs.results.accuracy import Accuracy
-from mbs.results.comparison import Compared, differences
-from mbs.results.run_report import Report
-from mbs.settings.methods import METHOD_TABLE
-from mbs.settings.settings import Settings
-
-MIN_ORDER = 0.5  # measured: below it, differences do not show the error
-
-
-def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
-    """Order of the errors: the order of the energy errors if both runs measured them, at most the method's.
-
-    `ratio`: ratio of the step of the coarse run to the step of the fine one.
-    """
-    method_order = float(METHOD_TABLE[method].order)
-    first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if method_order > 2.0 or not (second > 0.0 and first > second):  # the quadrature of the work is of lower order
-        return method_order
-    return min(method_order, max(1.0, math.log(first / second) / math.log(ratio)))
 
 
 def observed_order(
     first_difference: float, near_difference: float, near_divisor: int, finest_divisor: int, method_order: float
 ) -> float:
-    """Observed order of three runs, from `MIN_ORDER` to `method_order`.
+    """Observed order of three runs, from one, the order behind an abrupt event, to `method_order`.
 
     `first_difference`, `near_difference`: differences of the first run, and of that with its step over `near_divisor`,
     from the run with its step over `finest_divisor`.
@@ -48,7 +25,7 @@ def observed_order(
 
     if residual(method_order) <= 0.0:
         return method_order
-    return float(brentq(residual, MIN_ORDER, method_order)) if residual(MIN_ORDER) < 0.0 else MIN_ORDER
+    return float(brentq(residual, 1.0, method_order)) if residual(1.0) < 0.0 else 1.0
 
 
 def may_change_verdict(known: Accuracy, errors: Mapping[str, float]) -> bool:
@@ -60,24 +37,3 @@ def may_change_verdict(known: Accuracy, errors: Mapping[str, float]) -> bool:
     margins = [(error - WRONG_ERROR, errors.get(unit, 0.0)) for unit, error in known.units.items()]
     surely_wrong = any(margin >= error for margin, error in margins)
     return not surely_wrong and any(-margin < error for margin, error in margins)
-
-
-def extrapolate_error(
-    known: Accuracy,
-    tables: Sequence[Mapping[str, NDArray[np.float64]]],
-    compared: Mapping[str, Compared],
-    before: Mapping[str, ComparedFields] | None,
-    length: float,
-) -> tuple[Accuracy, dict[str, float]]:
-    """Error against the limit of refined runs, by Richardson's extrapolation with the order of the default method.
-
-    That order holds after abrupt events too: stops are located, and parts of steps shrink with the step.
-
-    `tables`: samples (n,), by name, of the run and of the last two refined ones, of which the last has half the step;
-    `before`, `length`: as in `Comparison`. Result: the sizes of the sensors too, see `Comparison.sizes`.
-    """
-    run, coarse, fine = tables
-    weight = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)
-    limit = {name: fine[name] + weight * what.change(coarse[name], fine[name]) for name, what in compared.items()}
-    units, sensors, sizes = differences(run, limit, compared, before, length)
-    return replace(known, units=units, sensors=sensors), sizes

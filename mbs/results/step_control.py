@@ -6,8 +6,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-WARNING_FACTOR = 3.0
-"""Largest multiple of the tolerance without a warning, as estimates may be wrong by this factor."""
+from mbs.kernel.header.limits import MOST_PARTS
+
+FINER = 0.5 * MOST_PARTS
+"""Least ratio of the tolerances of two successive runs, largest number of further runs, and largest multiple of the
+tolerance without a warning."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +56,8 @@ class Control:
 
     @property
     def kept(self) -> bool:
-        """Whether the estimated error is at most `WARNING_FACTOR` times the tolerance, or there is no estimate."""
-        return not self.error > WARNING_FACTOR * self.tolerance
+        """Whether the estimated error is at most `FINER` times the tolerance, or there is no estimate."""
+        return not self.error > FINER * self.tolerance
 
     def __str__(self) -> str:
         steps = (

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.polyline import needed_points
+from mbs.kernel.header.limits import WRONG_ERROR
 
 Array = NDArray[np.float64]
 Table = tuple[Array, Array]
-MIN_DEPARTURE = 0.05  # of the range of the table; smaller departures from a line are noise
 MAX_DEPARTURE = 0.01  # of the range of the table: largest departure from a line in the parts of a divided step
 AT_END = 1e-6  # steps: distance below which a time counts as the end of a step, or as another break
 ROUND_OFF = 1e-6  # of the largest value: range of a constant with round-off (2e-7 in single precision)
@@ -22,8 +22,8 @@ BLOCK = 4096  # steps whose samples are in memory at a time
 def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> Array:
     """Times, s, at which steps of `h` from `t0` are divided.
 
-    A step in which a table departs from a straight line by more than `MIN_DEPARTURE` is divided until its parts
-    depart by no more than `MAX_DEPARTURE`.
+    A step in which a table departs from a straight line by more than `WRONG_ERROR` of its range, which is more than
+    noise, is divided until its parts depart by no more than `MAX_DEPARTURE`.
     """
     return distinct_times([_table_breaks(t, x, _range(x), t0, t_end, h) for t, x in tables], t_end, h)
 
@@ -79,7 +79,7 @@ def sample_function(
     x = _evaluate(function, t)
     valid = max(1, int(np.argmin(np.r_[np.abs(x) < HUGE, False])))
     t, x = t[:valid], x[:valid]
-    departs = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])) > MIN_DEPARTURE * _range(np.append(x, other_values))
+    departs = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])) > WRONG_ERROR * _range(np.append(x, other_values))
     curved = np.flatnonzero(np.r_[departs, False] | np.r_[False, departs])
     a, b = (np.stack([t[curved + i], x[curved + i]]) for i in (0, 1))
     tables = [np.stack([t, x])]
@@ -117,7 +117,7 @@ def _table_breaks(t: Array, x: Array, size: float, t0: float, t_end: float, h: f
     ends = t0 + h * (step + np.array([[AT_END], [1.0 - AT_END]]))
     begin, end = np.interp(ends, t, x)
     is_inside = (np.abs(phase - np.round(phase)) > AT_END) & (t > t0) & (t < t_end)
-    is_break = is_inside & (np.abs(x - begin - (phase - step) * (end - begin)) > MIN_DEPARTURE * size)
+    is_break = is_inside & (np.abs(x - begin - (phase - step) * (end - begin)) > WRONG_ERROR * size)
     numbers = np.unique(step[is_break])
     for number in numbers[_is_rough(t, x, size, t0 + h * numbers, h)] if rough else numbers:
         first, last = np.searchsorted(step, [number, number + 1.0])
@@ -132,17 +132,17 @@ def _is_rough(t: Array, x: Array, size: float, begins: Array, h: float) -> NDArr
     """Whether a signal has a jump, a kink or a narrow peak in each step that begins at `begins` (n,), s.
 
     It has one if the error of its best cubic exceeds the error at a kink in the middle of a step with the departure
-    `MIN_DEPARTURE` from a straight line, an eighth of the departure.
+    `WRONG_ERROR` from a straight line, an eighth of the departure.
     """
     phases = np.linspace(AT_END, 1.0 - AT_END, SAMPLES + 1)
     cubic, _ = np.linalg.qr(np.vander(2.0 * phases - 1.0, 4))
     values = np.interp(begins[:, None] + h * phases, t, x)
     errors = np.abs(values - values @ cubic @ cubic.T).max(axis=1, initial=0.0)
-    return np.asarray(errors > MIN_DEPARTURE / 8.0 * size, bool)
+    return np.asarray(errors > WRONG_ERROR / 8.0 * size, bool)
 
 
 def _find_jumps(t: Array, x: Array, size: float, h: float) -> list[tuple[float, float]]:
-    jumps = np.flatnonzero((np.diff(t) <= _jump_width(t[-1], h)) & (np.abs(np.diff(x)) > MIN_DEPARTURE * size))
+    jumps = np.flatnonzero((np.diff(t) <= _jump_width(t[-1], h)) & (np.abs(np.diff(x)) > WRONG_ERROR * size))
     return [(float(t[k]), float(t[k + 1])) for k in jumps]
 
 

@@ -51,8 +51,7 @@ def largest_difference(known: Accuracy, method: str, ratio: float) -> float:
 
     `ratio`: ratio of the step of the coarser run to the step of the run.
     """
-    order = known.order or float(METHOD_TABLE[method].order)
-    return 0.0 if known.error is None else known.error * (ratio**order - 1.0)
+    return 0.0 if known.error is None else known.error * (ratio ** METHOD_TABLE[method].order - 1.0)
 
 
 class TooFarError(Exception):

@@ -23,7 +23,7 @@ from mbs.results.comparison import (
     shows_motion,
     sizes_of,
 )
-from mbs.results.convergence import MIN_ORDER, extrapolate_error, may_change_verdict, measured_order, observed_order
+from mbs.results.convergence import may_change_verdict, observed_order
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import is_smooth, unresolved_fraction
@@ -194,12 +194,6 @@ class RefinedRuns:
         ):
             parts *= 2
             verdict = self.refine(parts)
-            if parts > 2 * self.parts:
-                runs = (self.run, self._refined[parts // 2], self._refined[parts])
-                verdict, self._sizes = extrapolate_error(
-                    verdict, [self._table(r) for r in runs], self.compared, self.before, self.length
-                )
-                self.known = verdict
             if parts == MOST_PARTS // 2 * self.parts and (verdict.error or 0.0) > WRONG_ERROR:
                 break
         if not self.divisor and parts == MOST_PARTS * self.parts and self._is_unsure(verdict, parts):
@@ -211,14 +205,14 @@ class RefinedRuns:
     def _is_unsure(self, known: Accuracy, parts: int) -> bool:
         """Whether the error of the finest run itself could change the verdict.
 
-        It is estimated with order one from two refined runs, and with the least order from a single one.
+        It is estimated with order one from two refined runs. A single one shows no order: it may be off by as much as
+        the first run is with order one, and by their difference.
         """
-        has_coarser = parts // 2 in self._refined
-        unit_differences, _ = self._differences(
-            self._refined[parts // 2] if has_coarser else self.run, self._refined[parts]
-        )
-        factor = 1.0 if has_coarser else 1.0 / (2.0**MIN_ORDER - 1.0)
-        return may_change_verdict(known, {unit: factor * difference for unit, difference in unit_differences.items()})
+        other, factor = self._refined.get(parts // 2), 1.0
+        if other is None:
+            other, factor = self.run, (parts + 1.0) / (parts - 1.0)
+        gaps, _ = self._differences(other, self._refined[parts])
+        return may_change_verdict(known, {unit: factor * gap for unit, gap in gaps.items()})
 
     def _differences(self, one: Run, other: Run) -> tuple[dict[str, float], dict[str, float]]:
         """Differences of two runs: per unit, relative to the range in the other run, and per sensor."""
@@ -339,9 +333,6 @@ class RefinedRuns:
         tables = self._table(coarse), self._table(fine)
         units, sensors, self._sizes = differences(*tables, self.compared, self.before, self.length)
         order = float(METHOD_TABLE[run.settings.method].order)
-        before, after = coarse[0].report, fine[0].report
-        if round(ratio) < 4 and before is not None and after is not None:  # with larger ratios the order hardly matters
-            order = measured_order(run.settings.method, before, after, max(ratio, 1.0 / ratio))
         factor = 1.0 / abs(1.0 - ratio**-order)
         return replace(
             run.accuracy,

@@ -117,7 +117,7 @@ def simulate(
     AccuracyWarning
         Constraint forces did more than 5 % of the work in the motion, or the refined run shows that positions, lengths,
         angles or forces of elements are off by more than 5 % of the largest range in their unit; with a tolerance, the
-        estimated error is more than three times the tolerance. Equal steps end more than 1 % of the duration before
+        estimated error is more than four times the tolerance. Equal steps end more than 1 % of the duration before
         `t_end`.
     BendingWarning
         A flexible body deforms more than its linear modes allow.

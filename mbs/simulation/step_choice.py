@@ -8,9 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.progress import Progress
-from mbs.kernel.header.limits import AGREED
 from mbs.results.comparison import INSTANTS
-from mbs.results.convergence import MIN_ORDER
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
@@ -62,8 +60,7 @@ def choose_step(
             order = _measured_order(differences, METHOD_TABLE[method].order_of_changing_steps)
             error = differences[-1] / (2.0**order - 1.0)
             last_estimate = error, order
-            are_equal = max(differences[-2:]) <= AGREED * tolerance  # runs that are equal to round-off show no order
-            if error <= tolerance and (order > MIN_ORDER or are_equal):
+            if error <= tolerance:
                 return StepChoice(h, error, order, len(runs))
         if (t_end - simulation.time) / h > MAX_STEPS / 2:
             break

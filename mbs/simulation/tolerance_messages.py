@@ -6,7 +6,7 @@ from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.header.limits import STILL, WRONG_ERROR
 from mbs.results.accuracy import GOAL_ERROR, AccuracyWarning
 from mbs.results.simulation_error import SimulationError
-from mbs.results.step_control import WARNING_FACTOR, Control
+from mbs.results.step_control import FINER, Control
 from mbs.results.trajectory import Trajectory
 from mbs.simulation.controlled_run import ControlledRun
 from mbs.simulation.refusal import end_of_motion_text, refusal
@@ -72,7 +72,7 @@ def warn_of_tolerance(control: Control, estimate: float) -> None:
     forced = f", {control.forced} steps of the least size exceeded their part of it" if control.forced else ""
     warnings.warn(
         f"The error of this run is estimated as {control.error:.1e} of the model's length, more than "
-        f"{WARNING_FACTOR:g} times the tolerance of {control.tolerance:g}, after {control.runs} runs{forced}. Small "
+        f"{FINER:g} times the tolerance of {control.tolerance:g}, after {control.runs} runs{forced}. Small "
         f"errors grow in this motion, or round-off is reached: shorten the time, accept a larger tolerance or name "
         f"another method than {control.method!r}.",
         AccuracyWarning,

@@ -13,7 +13,7 @@ from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.header.limits import AGREED, WRONG_ERROR
 from mbs.results.comparison import INSTANTS
 from mbs.results.simulation_error import SimulationError
-from mbs.results.step_control import Control
+from mbs.results.step_control import FINER, Control
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.input_signals import Signal
@@ -30,9 +30,6 @@ from mbs.simulation.stepped_system import SteppedSystem
 from mbs.simulation.tolerance_messages import refused_error, stalled_error, warn_of_tolerance
 
 Array = NDArray[np.float64]
-FINER = 4.0
-"""Least ratio of the tolerances of two successive runs, whose difference shows the error."""
-MAX_RUNS = 5
 OTHER_METHOD_FAILURES = (
     Status.NOT_CONVERGED,
     Status.TOO_DEAR,
@@ -152,7 +149,7 @@ def _run_method(
     runs_made: _RunsMade,
     reason: str,
 ) -> _MethodRun:
-    """Run by one method until the estimated error is within the tolerance, at most `MAX_RUNS` times.
+    """Run by one method until the estimated error is within the tolerance, after a coarse run at most `FINER` times.
 
     The difference of a coarse run and a finer one gives the error of the latter, as errors fall about in proportion to
     the step errors unless the two runs are far apart. If the error is too large because the motion amplifies errors, up
@@ -166,7 +163,7 @@ def _run_method(
         coarser = _finish(ControlledRun(start(), task, settings, coarse), target, bar, 0.0, times, first)
         runs, wall = runs + 1, wall + coarser.wall
     error, run, step_factor = math.inf, None, 1.0
-    for number in range(1, MAX_RUNS):
+    for number in range(1, round(FINER) + 1):
         next_run = ControlledRun(start(), task, settings, run_tolerance, step_factor)
         try:
             next_run = _finish(next_run, target, bar, min(0.5, 0.3 * number), times, first)

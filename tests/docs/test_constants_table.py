@@ -15,7 +15,8 @@ MODULES = {
 SOURCES = ("mbs/kernel/src/sensors/comparison.c", "fmu_src/native/src/half_steps.c")
 ELSE = {"SYSTEM_VERSION", "STATE_VERSION", "POSE", "LONGEST_SETTLING", "SETTLING_WORK", "OPEN", "FARTHEST", "FASTEST"}
 """Numbers of the header that are not of the check; any other is."""
-NOT_TUNED = {"comparison.c KINDS", "comparison.c PI"}
+NOT_TUNED = {"comparison.c KINDS", "comparison.c PI", "step_control FINER", "half_steps.c MOST_LATE"}
+"""Counts, pi, what follows from another number, and the size of a buffer, which changes no verdict."""
 WORTH = {"%": 0.01, "s": 1.0, "rad": 1.0, "": 1.0}
 
 
@@ -61,6 +62,7 @@ def test_the_numbers_of_the_check_are_those_of_the_page() -> None:
     code = {name: value for name, value in (in_python() | in_c()).items() if name not in NOT_TUNED}
     page = on_the_page()
     assert sorted(code) == sorted(page)
+    assert len(code) <= 1 + 12  # what is wrong is a definition
     assert {name: round(value, 12) for name, value in page.items()} == {n: round(v, 12) for n, v in code.items()}
 
 

@@ -13,36 +13,13 @@ from benchmarks.references.cases import system_of
 from mbs.kernel.header.enumerations import Status
 from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.results.accuracy import RIGHT, Accuracy
-from mbs.results.comparison import Compared
-from mbs.results.convergence import extrapolate_error, may_change_verdict, observed_order
+from mbs.results.convergence import may_change_verdict, observed_order
 from mbs.simulation.fixed_steps import estimate_accuracy
 from mbs.simulation.refined_run import RefinedRuns, Run
-
-T = np.linspace(0.0, 1.0, 101)
-FORCE = 1000.0 * np.cos(3.0 * T)
-
-
-def repeat(step: float, order: float) -> dict[str, np.ndarray]:
-    """Forces of which 60 N are wrong with the step 1."""
-    return {"a": FORCE + 60.0 * step**order * np.sin(7.0 * T), "b": 0.5 * FORCE}
 
 
 def by(**units: float) -> Accuracy:
     return Accuracy(None, None, 0.0, compared_step=0.1, order=2.0, units=units)
-
-
-@pytest.mark.parametrize("order", [2.0, 1.0, 1.5])
-def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
-    """By Richardson: with the order that is taken to the last digit, with others but for what the orders differ by."""
-    run, coarse, fine = (repeat(h, order) for h in (1.0, 0.25, 0.125))
-    actual, _ = extrapolate_error(
-        by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Compared("N", load=True)), None, 1.0
-    )
-    error = 0.125**order - (0.25**order - 0.125**order) / 3.0
-    true = float(np.abs(run["a"] - FORCE).max())
-    assert abs(error) < (1e-15 if order == 2.0 else 0.084)
-    assert actual.sensors["a"] == pytest.approx(true * (1.0 - error), rel=1e-12)
-    assert actual.units["N"] == pytest.approx(actual.sensors["a"] / np.abs(FORCE).max(), rel=2e-3)
 
 
 def test_a_run_is_wrong_only_where_a_sensor_is() -> None:
@@ -62,23 +39,14 @@ def test_a_unit_that_a_refined_run_does_not_judge_changes_no_verdict() -> None:
     assert may_change_verdict(by(N=0.04), {"N": 0.02})
 
 
-def test_the_limit_of_an_angle_that_turns_over_lies_on_the_smaller_arc() -> None:
-    """Of two refined runs one is before the jump from pi to -pi at a sample, and the other is behind it."""
-    angle, turn = Compared("rad", place=True, wrapped=True), 2.0 * np.pi * T - 0.005
-    run, coarse, fine = ({"a": (turn + off + np.pi) % (2.0 * np.pi) - np.pi} for off in (0.16, 0.01, 0.0025))
-    actual, _ = extrapolate_error(by(rad=0.2), [run, coarse, fine], {"a": angle}, None, 1.0)
-    assert actual.sensors["a"] == pytest.approx(0.16, rel=1e-9)
-    assert actual.units["rad"] == pytest.approx(0.16 / (2.0 * np.pi), rel=1e-9)
-
-
 @pytest.mark.parametrize(("near", "finest"), [(2, 4), (8, 16), (2, 7)])
 @pytest.mark.parametrize("order", [1.0, 1.5])
 def test_the_order_of_three_runs_is_seen(order: float, near: int, finest: int) -> None:
-    """Of a run and of two with its step in parts, which tend to the truth; at least 0.5, at most what is asked."""
+    """Of a run and of two with its step in parts, which tend to the truth; at least one, at most what is asked."""
     gaps = [0.1 * (n**-order - finest**-order) for n in (1, near)]
     assert observed_order(*gaps, near, finest, 8.0) == pytest.approx(order, rel=1e-9)
     assert observed_order(*gaps, near, finest, 1.2) == pytest.approx(min(order, 1.2), rel=1e-9)
-    assert observed_order(gaps[1], gaps[1], near, finest, 8.0) == 0.5
+    assert observed_order(gaps[1], gaps[1], near, finest, 8.0) == 1.0
     assert observed_order(gaps[0], 0.0, near, finest, 8.0) == 8.0
 
 
@@ -166,8 +134,8 @@ def test_a_finer_run_that_is_refused_is_not_passed_over() -> None:
 
 
 def test_what_runs_that_come_no_nearer_differ_by_counts() -> None:
-    """Of an eighth and a 16th 3 % apart the last tells 2 % by its limit, which 3 % more may be wrong."""
-    system, shares = oscillator(), {1: 0.0, 2: 0.06, 4: -0.04, 8: 0.04, 16: -0.02}  # of y, of which 2 are its range
+    """Of an eighth and a 16th 4 % apart the last tells 2 %, which 4 % more may be wrong."""
+    system, shares = oscillator(), {1: 0.0, 2: 0.06, 4: -0.04, 8: 0.04, 16: -0.04}  # of y, of which 2 are its range
 
     def march(h: float, every: int, update: Callable[[float], None], look: bool, iterations: int, *_: Any) -> Run:
         run = mbs.simulate(system, 0.2, 0.01, progress=False, estimate_error=False)
@@ -177,7 +145,7 @@ def test_what_runs_that_come_no_nearer_differ_by_counts() -> None:
     refined = RefinedRuns(system, march(0.01, 1, lambda _: None, False, 0), march, 0.01, 1, lambda _: None)
     actual = refined.verdict()
     assert not shares
-    assert actual.error == pytest.approx(0.05, rel=0.05)
+    assert actual.error == pytest.approx(0.06, rel=0.05)
     assert actual.sensors["y"] == pytest.approx(actual.units["m"] * np.ptp(refined.run[0]["y"]), rel=0.05)
 
 

@@ -11,12 +11,10 @@
 #include "slave.h"
 
 static const double SPAN = 0.5; /* s after an abrupt step or a difference: five periods of a wheel, or a landing */
-/* Limits of the second motion: s from a start on in ALI3_MOST_PARTS parts; after it s, plus a fraction of the simulated
- * time. */
-static const double BUDGET = 2.0, SHARE = 0.1;
+/* s: limit of the second motion from a start on in ALI3_MOST_PARTS parts, and after it besides a part of the simulated
+ * time in which it costs as much as the first motion does in all. */
+static const double BUDGET = 2.0;
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre */
-/* Iterations of both motions in an inner step of up to 2 SHORT; the second motion is delayed where it needs more. */
-static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* late steps */
 
 /* Factor by which durations of the second motion are longer with steps of h. Steps longer than ALI3_MOST_PARTS times
@@ -28,7 +26,7 @@ static double counted_length(int64_t n, double h) { return (double)n * h / stret
 
 /* Whether the second motion has used its budget up to a step. */
 static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *step) {
-  return t->spent > BUDGET + SHARE * step->simulated;
+  return t->spent > BUDGET + step->simulated / (double)ALI3_MOST_PARTS;
 }
 
 /* Richardson extrapolation: error of a motion from its difference to one with 1/n of the step, for order two as of
@@ -399,7 +397,7 @@ slave_status slave_half_steps_advance(slave *s) {
   if (t->end != NULL && (abrupt || t->remaining > 0.0 || t->n_late > 0)) {
     const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
     store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN) : 0.0, halvings);
-    run_second(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->completed.n);
+    run_second(s, waits ? MOST_LATE - 1 : 0, made, ALI3_MOST_PARTS * s->completed.n);
   }
   return report_motion(s, now, false);
 }

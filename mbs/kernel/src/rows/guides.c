@@ -101,9 +101,9 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
 }
 
 /* A jump of the rate or acceleration of a guide of time, or a departure of its value from a cubic, counts if it is
- * larger than ABRUPT times their range, which is more than noise of samples, and than SAME times their largest value,
- * which is more than round-off. Parts depart by at most STRAIGHT of that, as with tables of inputs. */
-static const double ABRUPT = 0.05, SAME = 1e-9, STRAIGHT = 0.2;
+ * larger than what would be wrong of their range, which is more than noise of samples, and than SAME times their
+ * largest value, which is more than round-off. Parts depart by at most STRAIGHT of that, as with tables of inputs. */
+static const double SAME = 1e-9, STRAIGHT = 0.2;
 enum { QUARTERS = 4 }; /* of a piece: its rates may be 0 at both ends and in the middle */
 
 void ali3_guides_measure(ali3_instance *in) {
@@ -122,7 +122,8 @@ void ali3_guides_measure(ali3_instance *in) {
         }
       }
     for (int32_t k = 0; k < 3; k++)
-      in->guide.abrupt[3 * g + k] = fmax(ABRUPT * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
+      in->guide.abrupt[3 * g + k] =
+          fmax(ALI3_WRONG_ERROR * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
   }
 }
 

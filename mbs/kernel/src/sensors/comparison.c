@@ -8,7 +8,6 @@
 
 static const double PI = 3.141592653589793;
 static const double STANDS = 0.01; /* of the largest coordinate: with a smaller motion the System is at rest */
-static const double NO_TURN = 1e-3; /* rad: smaller rotations count only where nothing else moves, 1 mm at 1 m */
 
 enum { KINDS = 4 }; /* groups in each unit: positions and rates, or loads; each always judged or not */
 
@@ -88,7 +87,8 @@ void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compar
     others_move |= size[i] > 0.0 && judged[i].kind & ALI3_JUDGED_ALWAYS && unit != ALI3_JUDGED_RAD;
   }
   for (int32_t i = 0; i < n; i++) {
-    if (others_move && judged[i].unit == ALI3_JUDGED_RAD && size[i] <= NO_TURN) size[i] = 0.0;
+    /* rotations of which a difference that agrees is rest, 1 mm at 1 m, count only where nothing else moves */
+    if (others_move && judged[i].unit == ALI3_JUDGED_RAD && ALI3_AGREED * size[i] <= ALI3_STILL) size[i] = 0.0;
     if (!(size[i] > 0.0)) continue;
     only_loads &= (judged[i].kind & ALI3_JUDGED_LOAD) != 0;
     positions_differ |= judged[i].kind & ALI3_JUDGED_PLACE && (!guided || seen[i].gap > ALI3_STILL * size[i]);
