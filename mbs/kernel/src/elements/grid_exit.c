@@ -10,7 +10,8 @@
 #include "../algebra/elementary.h"
 
 /* Number of rays, most samples on a ray, bisections of a crossing, golden sections of the direction. The distance is
- * that of the tangent plane at the foot, so that errors of position and direction enter it in second order only. */
+ * that of the tangent plane at the foot, so that errors of position and direction enter it in second order only. False
+ * position takes as many instructions as bisection, which needs no more than bounds of most cells. */
 enum { RAYS = 16, MAX_SAMPLES = 64, HALVINGS = 24, SECTIONS = 10 };
 
 /* Whether the surface is below the height of the point at horizontal distance r along `direction`. */

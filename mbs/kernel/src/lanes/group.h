@@ -97,6 +97,8 @@ extern const ali3_lane_code ali3_code_lanes_2, ali3_code_lanes_4, ali3_code_lane
 
 /* Evaluates element e of the lanes in g->evaluated, one lane after the other; f: its forces. */
 void ali3_lane_element(ali3_lane_group *g, int32_t e, real *f, bool tangent);
+/* ali3_is_abrupt of a lane at the present iterate of its whole step. */
+bool ali3_lane_is_abrupt(const ali3_lane_group *g, int32_t lane);
 /* Makes discrete changes of the elements of a lane after an accepted step. */
 void ali3_lane_elements_accept(ali3_lane_group *g, int32_t lane);
 #endif

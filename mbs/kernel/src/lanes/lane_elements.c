@@ -1,6 +1,7 @@
 /* Elements of the lanes without a vector law, evaluated one instance after the other, as in a single run. */
 #include "../elements/element.h"
 #include "../elements/forces.h"
+#include "../methods/abrupt_force.h"
 #include "group.h"
 
 /* Arguments of the elements of lane l in the present step. */
@@ -49,6 +50,17 @@ void ali3_lane_element(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
     const ali3_force_call call = step_call(g, l);
     evaluate_lane(g, &call, e, l, f, tangent);
   }
+}
+
+bool ali3_lane_is_abrupt(const ali3_lane_group *g, int32_t lane) {
+  const ali3_instance *in = g->lane[lane];
+  for (int32_t c = 0; c < g->system->n_contact; c++) {
+    const ali3_contact_forces_of *contact = g->system->contact + c;
+    if (!g->by_law[contact->element]) continue; /* others have written their outputs to the instance */
+    for (int32_t i = contact->judged; i < contact->judged + contact->n_judged; i++)
+      in->next.out[i] = g->out[i * g->width + lane];
+  }
+  return ali3_is_abrupt(in, in->settings.max_halvings);
 }
 
 void ali3_lane_elements_accept(ali3_lane_group *g, int32_t lane) {

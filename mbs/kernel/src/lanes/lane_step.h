@@ -199,6 +199,8 @@ static void newton(ali3_lane_group *in) {
         active & (*in->residual <= in->system->fine * in->settings.tolerance_r) & rows_are_closed(in);
     *in->good |= converged;
     active &= ~converged;
+    for (int32_t l = 0; iteration == 0 && l < ALI3_WIDTH; l++)
+      if (active[l] && ali3_lane_is_abrupt(in, l)) active[l] = 0;
     reused = (*in->violation <= REUSE_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) &
              (*in->residual <= REUSE_RESIDUAL * last_residual);
     const truth decreasing = ali3_settles(in->system, iteration + 1) ? *in->residual <= last_residual : (truth){0};

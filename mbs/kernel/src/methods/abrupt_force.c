@@ -72,10 +72,10 @@ bool ali3_divides_ahead(ali3_instance *in, const ali3_request *request) { return
 /* A change relative to its limit; 0 without a change, as there may be no force. */
 static double relative_change(double change, double largest) { return change > 0.0 ? change / largest : 0.0; }
 
-/* Loads of tyres are relative to the largest load so far, other forces to the largest force. */
-bool ali3_divides(ali3_instance *in, const ali3_request *request) {
+/* Largest change of a judged force from in->now to in->next, over its limit: loads of tyres are relative to the largest
+ * load so far, other forces to the largest force. *changed: the change itself. */
+static double change_over_limit(const ali3_instance *in, double *changed) {
   const ali3_system *S = in->system;
-  if (S->nr == 0) return false;
   enum { STOP, CONTACT, TYRE, KINDS };
   double changes[KINDS] = {0.0}, largest_load = in->report.largest_load, largest_force = in->report.largest_force;
   for (int32_t c = 0; c < S->n_contact; c++) {
@@ -84,13 +84,23 @@ bool ali3_divides(ali3_instance *in, const ali3_request *request) {
     double *largest = kind == TYRE ? &largest_load : &largest_force;
     changes[kind] = larger(changes[kind], largest_change(contact, in->now.out, in->next.out, largest));
   }
-  in->parting.changed = fmax(fmax(changes[TYRE], changes[CONTACT]), changes[STOP]);
+  *changed = fmax(fmax(changes[TYRE], changes[CONTACT]), changes[STOP]);
   largest_force = fmax(largest_force, largest_load);
   const double load = relative_change(changes[TYRE], ABRUPT * largest_load),
                force = relative_change(changes[CONTACT], change_limit(in, CONTACT_RATE) * largest_force),
                stop = relative_change(changes[STOP], change_limit(in, STOP_RATE) * largest_force);
-  in->report.change_rate = fmax(fmax(load, force), stop) / request->h;
+  return fmax(fmax(load, force), stop);
+}
+
+bool ali3_divides(ali3_instance *in, const ali3_request *request) {
+  if (in->system->nr == 0) return false;
+  in->report.change_rate = change_over_limit(in, &in->parting.changed) / request->h;
   return divides(in, request, in->report.last_iterations);
+}
+
+bool ali3_is_abrupt(const ali3_instance *in, int32_t depth) {
+  double changed;
+  return in->settings.step_iterations == 0 && may_divide(in, depth) && change_over_limit(in, &changed) > 1.0;
 }
 
 /* Whether a spring is beyond a stop at the start or the end of the step. */

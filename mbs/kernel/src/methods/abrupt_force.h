@@ -13,6 +13,9 @@ bool ali3_divides_ahead(ali3_instance *in, const ali3_request *request);
 bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_t iterations);
 /* Whether to repeat the step from in->now to in->next, whose outputs are evaluated, in halves. */
 bool ali3_divides(ali3_instance *in, const ali3_request *request);
+/* Whether forces change so abruptly up to an iterate in in->next that a step that may be halved `depth` times is not
+ * worth further iterations. With a limit of iterations they go on, as the last iterate may be the step. */
+bool ali3_is_abrupt(const ali3_instance *in, int32_t depth);
 /* Whether the limit of iterations leaves room to end a part of a step that resolves a force by table or a guide; counts
  * it if so, as an abrupt force if it ends `at_row` of a table. */
 bool ali3_divides_to_resolve(ali3_instance *in, const ali3_request *request, bool at_row);

@@ -145,6 +145,9 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
           ali3_closed_at(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
         return ALI3_OK;
     }
+    /* forces are known well enough after one correction, see decision 175 */
+    if (in->report.last_iterations == 1 && ali3_is_abrupt(in, request->depth) && ali3_divides(in, request))
+      return ALI3_UNRESOLVED;
     last_violation = in->report.violation;
     reused = settings->update == ALI3_UPDATE_LINEARISED &&
              in->report.violation <= REUSE_VIOLATION * fmin(h * h, 1e-4 * fine) &&
@@ -213,7 +216,8 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   /* derivatives of a step follow the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
   status = ali3_newton(in, request, alpha);
-  if (status != ALI3_OK && from_past) { /* near a singular position extrapolated multipliers may prevent convergence */
+  const bool failed = status != ALI3_OK && status != ALI3_UNRESOLVED;
+  if (failed && from_past) { /* near a singular position extrapolated multipliers may prevent convergence */
     ali3_predict_step(in, request, false);
     status = ali3_newton(in, request, alpha);
   }

@@ -23,23 +23,31 @@ static bool same_model(const ali3_system *target, const ali3_system *source) {
          a->n_switch == b->n_switch && target->nr == source->nr;
 }
 
-/* to += A from, with A of n columns in compressed form. */
-static void add_columns(int64_t n, const int32_t *ptr, const int32_t *row, const double *val, const double *from,
-                        double *to) {
-  for (int64_t j = 0; j < n; j++)
-    for (int32_t k = ptr[j]; k < ptr[j + 1]; k++) to[row[k]] += val[k] * from[j];
-}
-
-/* to = T from + offset; offset is NULL for rates. */
-static void map_coordinates(const ali3_system *S, const double *from, const double *offset, double *to) {
-  for (int32_t i = 0; i < S->size.nq; i++) to[i] = offset != NULL ? offset[i] : 0.0;
-  add_columns(S->n_ported_ptr - 1, S->ported_ptr, S->ported_row, S->ported_val, from, to);
+/* q = T q' + constants of the model without ports, and its rates: T is read once for all. */
+static void map_coordinates(const ali3_system *S, const ali3_vectors *from, ali3_vectors *to) {
+  const size_t size = (size_t)S->size.nq * sizeof(double);
+  double *restrict q = to->q, *restrict qd = to->qd, *restrict qdd = to->qdd;
+  memcpy(q, S->ported_const, size);
+  memset(qd, 0, size);
+  memset(qdd, 0, size);
+  for (int64_t j = 0; j < S->n_ported_ptr - 1; j++) {
+    const double position = from->q[j], velocity = from->qd[j], acceleration = from->qdd[j];
+    for (int32_t k = S->ported_ptr[j]; k < S->ported_ptr[j + 1]; k++) {
+      const int32_t i = S->ported_row[k];
+      const double share = S->ported_val[k];
+      q[i] += share * position;
+      qd[i] += share * velocity;
+      qdd[i] += share * acceleration;
+    }
+  }
 }
 
 /* Multipliers of the rows from the multipliers of the model without ports; 0 for rows of ports. */
-static void map_multipliers(const ali3_system *S, const double *from, double *to) {
+static void map_multipliers(const ali3_system *S, const double *from, double *restrict to) {
   memset(to, 0, (size_t)S->size.nc * sizeof(double));
-  add_columns(S->n_ported_lam_ptr - 1, S->ported_lam_ptr, S->ported_lam_row, S->ported_lam_val, from, to);
+  for (int64_t j = 0; j < S->n_ported_lam_ptr - 1; j++)
+    for (int32_t k = S->ported_lam_ptr[j]; k < S->ported_lam_ptr[j + 1]; k++)
+      to[S->ported_lam_row[k]] += S->ported_lam_val[k] * from[j];
 }
 
 /* Copies the state of the model without ports, except the multipliers of ports. */
@@ -51,9 +59,7 @@ static ali3_status copy_state(ali3_instance *in, const ali3_instance *source) {
   if (z->np > 0 && memcmp(in->parameters.value, source->parameters.value, (size_t)z->np * sizeof(double)) != 0 &&
       !ali3_parameters_set_all(in, source->parameters.value))
     return ALI3_BAD_ARGUMENT;
-  map_coordinates(S, from->q, S->ported_const, v->q);
-  map_coordinates(S, from->qd, NULL, v->qd);
-  map_coordinates(S, from->qdd, NULL, v->qdd);
+  map_coordinates(S, from, v);
   map_multipliers(S, from->lam, v->lam);
   copy(v->y, from->y, z->ny);
   copy(v->y_last, from->y_last, z->ny);
