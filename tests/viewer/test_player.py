@@ -1,6 +1,8 @@
 """The player in a headless browser: what it shows at a time, its controls, and no network requests."""
 
 import io
+import re
+import zlib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -305,6 +307,37 @@ def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened: C
     for ticks in page("player.plots.charts.map(({ plot }) => plot.axes[1]._values)"):
         assert len(set(ticks)) == len(ticks) > 1
     assert "1e-6" in page("player.plots.charts[0].plot.axes[1]._values")
+
+
+def test_diagrams_have_one_time_axis_however_wide_their_numbers_are(opened: Callable[..., Opened]) -> None:
+    """One instant is at one place in all diagrams, also after the numbers of one have changed their width."""
+    columns = {"share": np.sin(TIMES), "force": 1e-7 * np.exp(10.0 * TIMES), "energy": 1e8 * TIMES}
+    page = opened(Recording(None, TIMES, columns, {"force": "N", "energy": "J"}), plots=["share"])
+    ends = "(part) => { const { left, right } = part.getBoundingClientRect(); return [left, right]; }"
+    areas = f"[...document.querySelectorAll('.u-over')].map({ends})"
+    widths = []
+    for chosen in (["share"], ["share", "energy"], ["share", "force", "energy"], ["share", "force"]):
+        page("names => player.plots.choose(names)", chosen)
+        wait_until(page.page, "player.plots.charts.every(({ plot }) => plot.status === 1)")
+        page("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        found = np.array(page(areas))
+        assert len(found) == len(chosen)
+        assert np.ptp(found, axis=0).max() == 0.0, chosen
+        widths.append(found[0, 1] - found[0, 0])
+    assert widths[0] > widths[1] + 20.0, "wide numbers need room"
+
+
+def test_a_printed_page_has_the_colours_of_its_legends(pair: Opened) -> None:
+    """Browsers leave the backgrounds of elements out of print, unless told that they matter."""
+    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", pair.page.pdf(), re.DOTALL)
+    drawn = b"".join(zlib.decompress(part) for part in streams if part[:1] == b"x")
+    fills = re.findall(rb"([\d.]+) ([\d.]+) ([\d.]+) rg", drawn)
+    printed = {tuple(round(255 * float(part)) for part in colour) for colour in fills}
+    background = "(part) => getComputedStyle(part).backgroundColor"
+    swatches = pair(f"[...document.querySelectorAll('.a3-legend .a3-swatch')].map({background})")
+    colours = {tuple(int(x) for x in re.findall(r"\d+", swatch)) for swatch in swatches if "rgba" not in swatch}
+    assert len(colours) == 2, "that of the ghost is dashed"
+    assert colours <= printed
 
 
 def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair: Opened) -> None:

@@ -1,5 +1,5 @@
 // Shows time and real-time factor of a run and, on a key, computing time of steps and frame rate.
-import { el, write } from "../common/dom.js";
+import { el, fixed, write } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Gauge } from "./gauges.js";
 import { realTimeText } from "./real_time_factor.js";
@@ -36,7 +36,7 @@ export class Timing {
    * @returns {string} a warning if the machine is too slow
    */
   show(time, pace) {
-    write(this._time, `${time.toFixed(2)} s`);
+    write(this._time, `${fixed(time, 2)} s`);
     if (pace === null) return "";
     const { text, warn } = realTimeText(/** @type {any} */ (pace));
     write(this._pace, text);

@@ -36,16 +36,17 @@ export class Chart {
   /**
    * @param {HTMLElement} parent
    * @param {{unit: string, names: string[], runs: Data[], colours: (name: string) => string, source: import("./shell.js").Source,
-   *   zoomed: (chart: Chart, range: [number, number]) => void, difference: boolean,
+   *   zoomed: (chart: Chart, range: [number, number]) => void, axisWidth: (plot: uPlot, own: number) => number, difference: boolean,
    *   compare: (unit: string, on: boolean) => void}} options
    */
-  constructor(parent, { unit, names, runs, colours, source, zoomed, difference, compare }) {
+  constructor(parent, { unit, names, runs, colours, source, zoomed, axisWidth, difference, compare }) {
     this.unit = unit;
     this.names = names;
     this.runs = runs;
     this.colours = colours;
     this.source = source;
     this.zoomed = zoomed;
+    this.axisWidth = axisWidth;
     this.difference = difference;
     this.compare = compare;
     this.curves = this._curves();
@@ -112,7 +113,7 @@ export class Chart {
       scales: { x: { time: false, range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min, max } },
       axes: [
         { ...AXIS, label: "time, s", size: 26 },
-        { ...AXIS, label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
+        { ...AXIS, label: this.unit || "1", size: (plot, labels) => this.axisWidth(plot, 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length))) },
       ],
       series: [{}, ...this.curves.map(({ label, colour, dash, t }) => ({ label, stroke: colour, dash, width: 1.5, points: { show: t.length === 1 ? true : undefined } }))],
       cursor: { sync: { key: CURSOR_KEY }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
