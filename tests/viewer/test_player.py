@@ -309,6 +309,55 @@ def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened: C
     assert "1e-6" in page("player.plots.charts[0].plot.axes[1]._values")
 
 
+@pytest.mark.parametrize("count", [2, 6, 20])
+def test_every_wheel_of_a_vehicle_is_in_the_diagram_of_its_tyres(opened: Callable[..., Opened], count: int) -> None:
+    """Beside each other and inside of the diagram, which is inside of the picture."""
+    run = crank(TIMES)
+    columns = dict(run.columns) | {f"wheel_{k}.Fz": np.full_like(TIMES, 3e3) for k in range(count)}
+    page = opened(Recording(run.scene, TIMES, columns, run.units, "lorry"), size=(1000, 560))
+    page.seek(1.0)
+    corners = "{ left, top, right, bottom }"
+    boxes = f"(part) => {{ const {corners} = part.getBoundingClientRect(); return [left, top, right, bottom]; }}"
+    wheels = np.array(page(f"[...document.querySelectorAll('.a3-tyres circle')].map({boxes})"))
+    (panel,) = np.array(page(f"[...document.querySelectorAll('.a3-tyres')].map({boxes})"))
+    assert len(wheels) == count
+    assert np.all(wheels[:, 2:] - wheels[:, :2] > 5.0)
+    assert np.all((wheels[:, :2] >= panel[:2]) & (wheels[:, 2:] <= panel[2:]))
+    assert panel[1] > 0.0
+    for k, one in enumerate(wheels):
+        beside = (wheels[:k, :2] >= one[2:]) | (wheels[:k, 2:] <= one[:2])
+        assert np.all(beside.any(axis=1))
+
+
+def test_times_at_an_axis_do_not_run_into_each_other(opened: Callable[..., Opened]) -> None:
+    """A clock that counts from 1970, where consecutive ticks differ in the tenth digit; and the last of a long run."""
+    late = opened(Recording(None, 1e9 + TIMES, {"x": np.sin(TIMES)}), plots=["x"])
+    texts, places, font = late(
+        """() => {
+          const { axes, ctx } = player.plots.charts[0].plot;
+          ctx.font = axes[0].font[0];
+          const texts = axes[0]._values;
+          return [texts, axes[0]._splits.map((x) => player.plots.charts[0].plot.valToPos(x, 'x', true)),
+                  texts.map((text) => ctx.measureText(text).width)];
+        }"""
+    )
+    assert len(set(texts)) == len(texts) > 1
+    assert texts[0] == "1,000,000,000"
+    assert np.all(np.diff(places) > np.add(font[1:], font[:-1]) / 2 + 4.0)
+    long = opened(Recording(None, 1000.0 * TIMES / TIMES[-1], {"x": np.sin(TIMES)}), plots=["x"])
+    text, right = long(
+        """() => {
+          const { plot } = player.plots.charts[0];
+          plot.ctx.font = plot.axes[0].font[0];
+          const half = plot.ctx.measureText(plot.axes[0]._values.at(-1)).width / 2;
+          const right = plot.valToPos(plot.axes[0]._splits.at(-1), 'x', true) + half;
+          return [plot.axes[0]._values.at(-1), right - plot.ctx.canvas.width];
+        }"""
+    )
+    assert text == "1,000"
+    assert right < 0.0
+
+
 def test_diagrams_have_one_time_axis_however_wide_their_numbers_are(opened: Callable[..., Opened]) -> None:
     """One instant is at one place in all diagrams, also after the numbers of one have changed their width."""
     columns = {"share": np.sin(TIMES), "force": 1e-7 * np.exp(10.0 * TIMES), "energy": 1e8 * TIMES}
