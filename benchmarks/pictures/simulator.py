@@ -78,6 +78,7 @@ def drive(page: Any, shot: Shot) -> None:
         page.keyboard.press(key)
     page.wait_for_timeout(1500)
     if "p" in shot.acts:
+        page.evaluate("player.cockpit.setLook({ quality: 'medium' })")  # whatever this machine draws while it drives
         page.wait_for_function("!document.querySelector('[data-a3=events] > *')")  # they fade
 
 

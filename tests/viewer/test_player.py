@@ -13,11 +13,14 @@ from PIL import Image
 
 from ali3.scene.recording import Recording
 from tests.in_browser import WITHOUT_WEBGL, wait_until
+from tests.viewer import moving_car
 from tests.viewer.hand_scenes import crank
 from viewer.notebook import html_of
 from viewer.page_file import write_page
 
 SIZE = (640, 360)
+INSTRUMENTS = """[...document.querySelectorAll('.a3-view, .a3-tyres, .a3-inset, .a3-cluster')]
+  .filter((part) => part.checkVisibility()).map((part) => part.getBoundingClientRect().toJSON())"""
 TIMES = np.linspace(0.0, 3.0, 301)
 
 
@@ -307,6 +310,31 @@ def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened: C
     for ticks in page("player.plots.charts.map(({ plot }) => plot.axes[1]._values)"):
         assert len(set(ticks)) == len(ticks) > 1
     assert "1e-6" in page("player.plots.charts[0].plot.axes[1]._values")
+
+
+def test_instruments_of_a_small_picture_lie_beside_each_other_and_inside_of_it(opened: Callable[..., Opened]) -> None:
+    """Those for which there is no room are gone: below 130 pixels of height or 200 of width all of them."""
+    run = moving_car.recording(TIMES)
+    columns = dict(run.columns) | {
+        name: np.full_like(TIMES, 0.5) for name in ("speed", "used.throttle", "used.steering")
+    }
+    columns |= {f"wheel_{name}.Fz": np.full_like(TIMES, 3e3) for name in ("FL", "FR", "RL", "RR")}
+    page = opened(Recording(run.scene, TIMES, columns))
+    counts = {}
+    for size in ((640, 420), (480, 400), (300, 420), (300, 260), (240, 200), (180, 400), (400, 160)):
+        page.page.set_viewport_size({"width": size[0], "height": size[1]})
+        page("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        picture, *boxes = page(INSTRUMENTS)
+        for k, one in enumerate(boxes):
+            assert all(one[side] >= picture[side] for side in ("left", "top")), size
+            assert all(one[side] <= picture[side] for side in ("right", "bottom")), size
+            for other in boxes[:k]:
+                beside = one["left"] >= other["right"] or other["left"] >= one["right"]
+                assert beside or one["top"] >= other["bottom"] or other["top"] >= one["bottom"], size
+        counts[size] = len(boxes)
+    assert counts[640, 420] == 3, "tyres, map and cluster"
+    assert counts[240, 200] == 1, "the cluster"
+    assert counts[180, 400] == counts[400, 160] == 0
 
 
 @pytest.mark.parametrize("count", [2, 6, 20])
