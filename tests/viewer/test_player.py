@@ -315,9 +315,8 @@ def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened: C
 def test_instruments_of_a_small_picture_lie_beside_each_other_and_inside_of_it(opened: Callable[..., Opened]) -> None:
     """Those for which there is no room are gone: below 130 pixels of height or 200 of width all of them."""
     run = moving_car.recording(TIMES)
-    columns = dict(run.columns) | {
-        name: np.full_like(TIMES, 0.5) for name in ("speed", "used.throttle", "used.steering")
-    }
+    names = ("speed", *(f"used.{name}" for name in ("steering", "throttle", "brake", "hand_brake")))
+    columns = dict(run.columns) | {name: np.full_like(TIMES, 0.5) for name in names}
     columns |= {f"wheel_{name}.Fz": np.full_like(TIMES, 3e3) for name in ("FL", "FR", "RL", "RR")}
     page = opened(Recording(run.scene, TIMES, columns))
     counts = {}
