@@ -4,7 +4,7 @@ import io
 import re
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,13 +34,47 @@ class Shot:
     """Fidelity of the car's FMU, 0 (rigid) to 4."""
     acts: tuple[str, ...] = ()
     """Keys that are pressed before the picture."""
+    devices: tuple[Mapping[str, Any], ...] = ()
+    """States of devices, as `Device.state` has them; with some the picture is that of their panel."""
+    size: tuple[int, int] = SIZE
+    hit: float = 0.0
+    """Load of a front wheel at which the run is paused for the picture, N; 0: it is not."""
 
+
+def _axis(number: int, value: float, dead_zone: float, **more: Any) -> dict[str, Any]:
+    """The mapping of an input to an axis, with its value."""
+    ends = {"low": -1.0, "high": 1.0, "inverted": True, "centre": None}
+    return {"source": f"axis {number}", "dead_zone": dead_zone, "value": value} | ends | more
+
+
+WHEEL = {
+    **{"id": "wheel", "name": "Wheel", "kind": "wheel", "usb": [0, 0], "force": True, "force_problem": ""},
+    **{"axes": [-0.4, 0.0, -0.2, 1.0], "buttons": [0, 0, 0, 1, 0, 1], "hats": [], "assigning": None},
+    "inputs": ["steering", "throttle", "brake", "hand_brake", "selector drive", "selector neutral", "selector reverse"],
+    "mapping": {"steering": _axis(0, 0.4, 0.0), "throttle": _axis(2, 0.6, 0.03), "brake": _axis(3, 0.0, 0.03)},
+    "settings": {"rotation": 900, "force": 0.5, "full_torque": 10, "smoothing": 0.01, "damper": 0.1, "spring": 0.1},
+    "calibration": None,
+}
+"""A steering wheel with two pedals; none is plugged in for the picture."""
 
 SHOTS = {
     "chase": Shot("start", (("", 14.0),), "chase", acts=("k",)),
     "map": Shot("slalom", (("", 5.0), *((key, 0.7) for key in ("a", "d", "d", "a", "a", "d"))), "map"),
-    "stress": Shot("kerbs", (("", 5.0),), "orbit", 2, ("b", "f", "p")),
+    "stress": Shot("kerbs", (), "orbit", 2, ("b", "f"), hit=4000.0),
+    "devices": Shot("start", (), "chase", acts=("g",), devices=(WHEEL,), size=(1280, 1000)),
 }
+
+
+_PAUSE_WHEN_HIT = """(load) => new Promise((done) => {
+  const { cockpit, frames } = player;
+  const columns = ["wheel_FL.Fz", "wheel_FR.Fz"].map((name) => cockpit.source.index.get(name));
+  const look = setInterval(() => {
+    if (!columns.some((column) => frames.newest.values[column] > load)) return;
+    clearInterval(look);
+    cockpit.acts.toggle();
+    done();
+  }, 2);
+})"""
 
 
 @contextmanager
@@ -76,8 +110,11 @@ def drive(page: Any, shot: Shot) -> None:
             page.keyboard.up(key)
     for key in shot.acts:
         page.keyboard.press(key)
+    if shot.hit:
+        page.evaluate(_PAUSE_WHEN_HIT, shot.hit)
     page.wait_for_timeout(1500)
-    if "p" in shot.acts:
+    if shot.hit:
+        page.evaluate("player.cockpit.setLook({ quality: 'medium' })")  # whatever this machine draws while it drives
         page.wait_for_function("!document.querySelector('[data-a3=events] > *')")  # they fade
 
 
@@ -89,12 +126,15 @@ def take(fmu: Path, shot: Shot, file: Path) -> dict[str, float]:
     options = ["--place", shot.place, "--fidelity", str(shot.fidelity)]
     with simulator(fmu, options) as address, sync_playwright() as play:
         chromium = play.chromium.launch(executable_path=browser.find_chromium(), args=browser.launch_arguments())
-        width, height = SIZE
+        width, height = shot.size
         page = chromium.new_page(viewport={"width": width, "height": height}, bypass_csp=True)  # it forbids waiting
         page.set_default_timeout(120_000)
         page.goto(address)
         drive(page, shot)
-        picture, rates = page.screenshot(), page.evaluate(RATES)
+        if shot.devices:
+            page.evaluate("devices => player.cockpit.devices(devices)", shot.devices)
+        shown = page.locator("[data-a3='section Devices']") if shot.devices else page
+        picture, rates = shown.screenshot(), page.evaluate(RATES)
         chromium.close()
     with atomic_file(file) as temporary:
         Image.open(io.BytesIO(picture)).convert("RGB").save(temporary, "webp", quality=80, method=6)

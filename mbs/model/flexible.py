@@ -8,6 +8,8 @@ rows.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -44,6 +46,8 @@ class FlexibleBody(Body):
         Origin of the floating frame there, m (not the centre of mass, see `centre_of_mass`).
     integrals : ShapeIntegrals
         In earth axes of the reference configuration.
+    gauges : list of dict
+        Strain gauges of its drawing, see `flexible_parts`.
     """
 
     is_flexible = True
@@ -64,6 +68,7 @@ class FlexibleBody(Body):
         _check_rotational_inertia(name, reduced.mass_positions @ axes.T, reduced.masses)
         self.reduced = reduced
         self.axes = axes
+        self.gauges: list[dict[str, Any]] = []
         self.integrals = _rotate_integrals(shape_integrals(reduced), axes)
         self.mass = self.integrals.mass
         self.first_moment = self.integrals.S0

@@ -135,7 +135,8 @@ def _flexible_part_makers(
             continue
         start = places.rows(q[None], amplitudes.row, len(amplitudes.modes))[0]
         frame = names.of_body(body)
-        functions.append(partial(flexible_parts, body.reduced, frame, amplitudes.columns, axes=body.axes, start=start))
+        options = {"axes": body.axes, "start": start, "gauges": body.gauges}
+        functions.append(partial(flexible_parts, body.reduced, frame, amplitudes.columns, **options))
     return tuple(functions)
 
 

@@ -108,3 +108,17 @@ def test_the_gauges_of_a_car_stand_where_its_file_has_them(part: dict[str, Any])
         at, to = (np.array(part["nodes"][k]) + shift for k in actual["nodes"])
         np.testing.assert_allclose(at + actual["along"] * (to - at), start + gauge.place * (end - start), atol=1e-6)
         assert actual["value"] == f"stress.{actual['name']}"
+
+
+def test_the_drawing_of_a_run_of_the_model_has_the_gauges_of_the_fmu(part: dict[str, Any]) -> None:
+    """The frame is then a flexible body of its own, whose scene is made as those of all flexible bodies."""
+    run = Simulation(compile(kerb_test.build(3))).run(2 * kerb_test.STEP, kerb_test.STEP)
+    scene = run.recording().scene
+    assert scene is not None
+
+    def of(one: dict[str, Any]) -> list[dict[str, Any]]:
+        return [g | {"nodes": [one["names"][k] for k in g["nodes"]]} for g in one.get("gauges", [])]
+
+    drawn = [gauge for one in scene["flexible"] for gauge in of(one)]
+    assert drawn == of(part)
+    assert {gauge["value"] for gauge in drawn} <= set(run.recording().columns)

@@ -165,7 +165,7 @@ def test_gauges_the_largest_stress_and_clicked_parts_have_labels(drawn):
     assert drawn.ask("view.pick(1, 1)") == []
     assert mark("[data-mark=picked]").count() == 0
     push = {"name": "push", "unit": "N", "vector": ["f", "f0", "f0"], "at": ["body", [0, 0, 0]]}
-    drawn.show(scene(shapes=[ball()], arrows=[push]), at(0.1, 0, 0.2, f=-2500.0, f0=0.0))
+    drawn.show(scene(shapes=[ball()], arrows=[push]), at(0.1, -2e-4, 0.2, f=-2500.0, f0=0.0))
     drawn.ask("view.set({ arrows: false }), view.render()")
     drawn.page.mouse.click(*drawn.project((0.1, 0, 0.2)))
     assert mark("[data-mark=picked]").inner_text().split("\n") == ["body", "at 0.100, 0.000, 0.200 m", "push: 2.5 kN"]

@@ -1,6 +1,8 @@
 """The player in a headless browser: what it shows at a time, its controls, and no network requests."""
 
 import io
+import re
+import zlib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -11,11 +13,14 @@ from PIL import Image
 
 from ali3.scene.recording import Recording
 from tests.in_browser import WITHOUT_WEBGL, wait_until
+from tests.viewer import moving_car
 from tests.viewer.hand_scenes import crank
 from viewer.notebook import html_of
 from viewer.page_file import write_page
 
 SIZE = (640, 360)
+INSTRUMENTS = """[...document.querySelectorAll('.a3-view, .a3-tyres, .a3-inset, .a3-cluster')]
+  .filter((part) => part.checkVisibility()).map((part) => part.getBoundingClientRect().toJSON())"""
 TIMES = np.linspace(0.0, 3.0, 301)
 
 
@@ -303,6 +308,110 @@ def test_ticks_of_a_diagram_differ_for_small_numbers_and_small_changes(opened):
     for ticks in page("player.plots.charts.map(({ plot }) => plot.axes[1]._values)"):
         assert len(set(ticks)) == len(ticks) > 1
     assert "1e-6" in page("player.plots.charts[0].plot.axes[1]._values")
+
+
+def test_instruments_of_a_small_picture_lie_beside_each_other_and_inside_of_it(opened):
+    """Those for which there is no room are gone: below 130 pixels of height or 200 of width all of them."""
+    run = moving_car.recording(TIMES)
+    names = ("speed", *(f"used.{name}" for name in ("steering", "throttle", "brake", "hand_brake")))
+    columns = dict(run.columns) | {name: np.full_like(TIMES, 0.5) for name in names}
+    columns |= {f"wheel_{name}.Fz": np.full_like(TIMES, 3e3) for name in ("FL", "FR", "RL", "RR")}
+    page = opened(Recording(run.scene, TIMES, columns))
+    counts = {}
+    for size in ((640, 420), (480, 400), (300, 420), (300, 260), (240, 200), (180, 400), (400, 160)):
+        page.page.set_viewport_size({"width": size[0], "height": size[1]})
+        page("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        picture, *boxes = page(INSTRUMENTS)
+        for k, one in enumerate(boxes):
+            assert all(one[side] >= picture[side] for side in ("left", "top")), size
+            assert all(one[side] <= picture[side] for side in ("right", "bottom")), size
+            for other in boxes[:k]:
+                beside = one["left"] >= other["right"] or other["left"] >= one["right"]
+                assert beside or one["top"] >= other["bottom"] or other["top"] >= one["bottom"], size
+        counts[size] = len(boxes)
+    assert counts[640, 420] == 3, "tyres, map and cluster"
+    assert counts[240, 200] == 1, "the cluster"
+    assert counts[180, 400] == counts[400, 160] == 0
+
+
+@pytest.mark.parametrize("count", [2, 6, 20])
+def test_every_wheel_of_a_vehicle_is_in_the_diagram_of_its_tyres(opened, count):
+    """Beside each other and inside of the diagram, which is inside of the picture."""
+    run = crank(TIMES)
+    columns = dict(run.columns) | {f"wheel_{k}.Fz": np.full_like(TIMES, 3e3) for k in range(count)}
+    page = opened(Recording(run.scene, TIMES, columns, run.units, "lorry"), size=(1000, 560))
+    page.seek(1.0)
+    corners = "{ left, top, right, bottom }"
+    boxes = f"(part) => {{ const {corners} = part.getBoundingClientRect(); return [left, top, right, bottom]; }}"
+    wheels = np.array(page(f"[...document.querySelectorAll('.a3-tyres circle')].map({boxes})"))
+    (panel,) = np.array(page(f"[...document.querySelectorAll('.a3-tyres')].map({boxes})"))
+    assert len(wheels) == count
+    assert np.all(wheels[:, 2:] - wheels[:, :2] > 5.0)
+    assert np.all((wheels[:, :2] >= panel[:2]) & (wheels[:, 2:] <= panel[2:]))
+    assert panel[1] > 0.0
+    for k, one in enumerate(wheels):
+        beside = (wheels[:k, :2] >= one[2:]) | (wheels[:k, 2:] <= one[:2])
+        assert np.all(beside.any(axis=1))
+
+
+def test_times_at_an_axis_do_not_run_into_each_other(opened):
+    """A clock that counts from 1970, where consecutive ticks differ in the tenth digit; and the last of a long run."""
+    late = opened(Recording(None, 1e9 + TIMES, {"x": np.sin(TIMES)}), plots=["x"])
+    texts, places, font = late(
+        """() => {
+          const { axes, ctx } = player.plots.charts[0].plot;
+          ctx.font = axes[0].font[0];
+          const texts = axes[0]._values;
+          return [texts, axes[0]._splits.map((x) => player.plots.charts[0].plot.valToPos(x, 'x', true)),
+                  texts.map((text) => ctx.measureText(text).width)];
+        }"""
+    )
+    assert len(set(texts)) == len(texts) > 1
+    assert texts[0] == "1,000,000,000"
+    assert np.all(np.diff(places) > np.add(font[1:], font[:-1]) / 2 + 4.0)
+    long = opened(Recording(None, 1000.0 * TIMES / TIMES[-1], {"x": np.sin(TIMES)}), plots=["x"])
+    text, right = long(
+        """() => {
+          const { plot } = player.plots.charts[0];
+          plot.ctx.font = plot.axes[0].font[0];
+          const half = plot.ctx.measureText(plot.axes[0]._values.at(-1)).width / 2;
+          const right = plot.valToPos(plot.axes[0]._splits.at(-1), 'x', true) + half;
+          return [plot.axes[0]._values.at(-1), right - plot.ctx.canvas.width];
+        }"""
+    )
+    assert text == "1,000"
+    assert right < 0.0
+
+
+def test_diagrams_have_one_time_axis_however_wide_their_numbers_are(opened):
+    """One instant is at one place in all diagrams, also after the numbers of one have changed their width."""
+    columns = {"share": np.sin(TIMES), "force": 1e-7 * np.exp(10.0 * TIMES), "energy": 1e8 * TIMES}
+    page = opened(Recording(None, TIMES, columns, {"force": "N", "energy": "J"}), plots=["share"])
+    ends = "(part) => { const { left, right } = part.getBoundingClientRect(); return [left, right]; }"
+    areas = f"[...document.querySelectorAll('.u-over')].map({ends})"
+    widths = []
+    for chosen in (["share"], ["share", "energy"], ["share", "force", "energy"], ["share", "force"]):
+        page("names => player.plots.choose(names)", chosen)
+        wait_until(page.page, "player.plots.charts.every(({ plot }) => plot.status === 1)")
+        page("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        found = np.array(page(areas))
+        assert len(found) == len(chosen)
+        assert np.ptp(found, axis=0).max() == 0.0, chosen
+        widths.append(found[0, 1] - found[0, 0])
+    assert widths[0] > widths[1] + 20.0, "wide numbers need room"
+
+
+def test_a_printed_page_has_the_colours_of_its_legends(pair: Opened) -> None:
+    """Browsers leave the backgrounds of elements out of print, unless told that they matter."""
+    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", pair.page.pdf(), re.DOTALL)
+    drawn = b"".join(zlib.decompress(part) for part in streams if part[:1] == b"x")
+    fills = re.findall(rb"([\d.]+) ([\d.]+) ([\d.]+) rg", drawn)
+    printed = {tuple(round(255 * float(part)) for part in colour) for colour in fills}
+    background = "(part) => getComputedStyle(part).backgroundColor"
+    swatches = pair(f"[...document.querySelectorAll('.a3-legend .a3-swatch')].map({background})")
+    colours = {tuple(int(x) for x in re.findall(r"\d+", swatch)) for swatch in swatches if "rgba" not in swatch}
+    assert len(colours) == 2, "that of the ghost is dashed"
+    assert colours <= printed
 
 
 def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair):

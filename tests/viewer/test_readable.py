@@ -196,6 +196,25 @@ def test_no_instrument_lies_over_the_world_on_the_map(chromium: Any) -> None:
                 assert beside, (width, box)
 
 
+def test_words_in_the_bars_of_the_instruments_differ_from_what_fills_them(chromium: Any) -> None:
+    """By a contrast of 4.5, as words elsewhere; programs that look for faint words do not see what lies over a word."""
+    with dark_page(chromium) as page:
+        open_simulator(page)
+        colours = page.evaluate(
+            """() => [...document.querySelectorAll('.a3-gauge')]
+              .map((bar) => ['i', 'span'].map((part) => {
+                const style = getComputedStyle(bar.querySelector(part));
+                return (part === 'i' ? style.backgroundColor : style.color).match(/[0-9]+/g).map(Number);
+              }))"""
+        )
+    assert len(colours) >= 5, "steering, pedals and the cost of a step"
+    part = np.asarray(colours) / 255.0
+    linear = np.where(part <= 0.04045, part / 12.92, ((part + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
+    luminance = np.sort(linear @ [0.2126, 0.7152, 0.0722], axis=1)
+    contrast = (luminance[:, 1] + 0.05) / (luminance[:, 0] + 0.05)  # WCAG 2.2
+    assert contrast.min() >= 4.5
+
+
 @with_axe
 @pytest.mark.slow
 @pytest.mark.parametrize("colours", ["light", "dark"])

@@ -18,6 +18,7 @@ from mbs.vehicle.chassis.attachments import attachments
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.frame_joints import JointFinder
 from mbs.vehicle.chassis.frames.frame_section import Structure
+from mbs.vehicle.chassis.gauges.reading import drawn_gauges
 from mbs.vehicle.chassis.mount import Mount, rigid_chassis
 from mbs.vehicle.chassis.section import Chassis
 from mbs.vehicle.fidelity import Fidelity
@@ -95,6 +96,8 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
 def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
     """Add moments and stresses at the gauges; zero on a rigid chassis, where the output `COMPUTED_OUTPUT` is 0."""
     readings, rows = flexible.structure.readings, flexible.gauge_rows
+    if isinstance(mount.body, FlexibleBody):
+        mount.body.gauges += drawn_gauges(readings)
     _frame_outputs(
         m,
         mount,

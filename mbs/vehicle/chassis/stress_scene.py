@@ -12,7 +12,7 @@ from mbs.model.model import Model
 from mbs.simulation.unstepped_system import StandingSystem
 from mbs.vehicle.chassis.flexible_chassis import COMPUTED_OUTPUT, amplitude_names
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
-from mbs.vehicle.chassis.gauges.reading import STRESS
+from mbs.vehicle.chassis.gauges.reading import drawn_gauges
 from mbs.vehicle.side import Point
 
 SCALE_ENDS = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
@@ -38,11 +38,7 @@ def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point)
         start=start,
         computed=COMPUTED_OUTPUT,
         full_scale=full_scale,
-        gauges=[
-            {"name": r.gauge, "value": r.name, "unit": r.unit, "nodes": r.between, "along": r.along}
-            for r in flexible.structure.readings
-            if r.quantity == STRESS and r.between is not None
-        ],
+        gauges=drawn_gauges(flexible.structure.readings),
     )
 
 

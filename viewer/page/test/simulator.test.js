@@ -5,7 +5,7 @@ import { InputArbiter } from "../src/live/input_arbiter.js";
 import { TrailingDirection } from "../src/scene/trailing_direction.js";
 import { Beat, Frames } from "../src/sources/frames.js";
 import { gearWords } from "../src/instruments/cluster.js";
-import { Trail } from "../src/instruments/map.js";
+import { Trail, WorldPlan } from "../src/instruments/map.js";
 import { Factor } from "../src/sources/factor.js";
 import { Surfaces, frictionOf } from "../src/instruments/surfaces.js";
 import { useColour, wheelsOf } from "../src/instruments/tyres.js";
@@ -244,4 +244,24 @@ test("words stand beside their dots, over no others, within the picture, and sta
   assert.deepEqual([spots[0].left, spots[0].top], [400 - 8 - 90, 93]); // to the left: a dot is to the right
   assert.equal(besides([{ ...labels[0], spot: "-1 1" }], [800, 400])[0].spot, "-1 1");
   assert.equal(besides([{ ...labels[0], spot: "-1 1" }], [800, 400], [[300, 60, 400, 93]])[0].spot, "1 0");
+});
+
+test("a map shows cones however small, and a plain road as a road without a border", () => {
+  const drawn = { /** @type {number[][]} */ arcs: [], /** @type {number[][]} */ borders: [] };
+  const context = {
+    beginPath() {},
+    fill() {},
+    arc: (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ radius) => drawn.arcs.push([x, y, radius]),
+    strokeRect: (/** @type {number[]} */ ...border) => drawn.borders.push(border),
+  };
+  const scenery = [{ kind: "cone", at: [3, 4, 0] }, { kind: "post", at: [5, 6, 0] }]; // prettier-ignore
+  const plain = new WorldPlan({ roads: [{ kind: "plane" }], scenery });
+  plain.drawGround(/** @type {any} */ (context), 2);
+  assert.deepEqual(drawn.arcs, [[3, 4, 2]]);
+  assert.deepEqual(drawn.borders, []);
+  new WorldPlan({ scenery }, { bounds: [-9, -9, 9, 9] }).drawGround(/** @type {any} */ (context), 0.1);
+  assert.deepEqual(drawn.arcs.slice(1), [[3, 4, 0.3], [5, 6, 0.2]]); // prettier-ignore
+  assert.deepEqual(drawn.borders, [[-9, -9, 18, 18]]);
+  const [red, green, blue] = plain.colour.match(/[0-9a-f]{2}/g).map((part) => Number.parseInt(part, 16));
+  assert.ok(Math.max(red, green, blue) - Math.min(red, green, blue) < 16, "grey");
 });

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -29,6 +30,15 @@ class Reading:
     def name(self) -> str:
         """Name of the output."""
         return f"{self.quantity}.{self.gauge}"
+
+
+def drawn_gauges(readings: Iterable[Reading]) -> list[dict[str, Any]]:
+    """Entries of `gauges` of a scene, with names of nodes, of the stresses whose gauges have a position."""
+    return [
+        {"name": r.gauge, "value": r.name, "unit": r.unit, "nodes": r.between, "along": r.along}
+        for r in readings
+        if r.quantity == STRESS and r.between is not None
+    ]
 
 
 def sort_readings(readings: Iterable[Reading]) -> tuple[Reading, ...]:

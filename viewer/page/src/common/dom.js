@@ -105,6 +105,9 @@ export function icon(name) {
 /** Text of a number rounded to an integer, never -0. @param {number} value */
 export const whole = (value) => (Number.isFinite(value) ? String(Math.round(value)) : "–");
 
+/** Text of a number with a count of decimals, never -0. @param {number} value @param {number} decimals */
+export const fixed = (value, decimals) => (Number(value.toFixed(decimals)) + 0).toFixed(decimals);
+
 /** Text of a number with four digits. */
 export function short(value) {
   if (!Number.isFinite(value)) return "–";

@@ -1,13 +1,13 @@
 // The instruments of the driver: speed, gear, revolutions, pedals, steering.
 import { el, whole, write } from "../common/dom.js";
-import { Gauge } from "./gauges.js";
+import { FILLS, Gauge } from "./gauges.js";
 
 /** Outputs of the speed of the engine or motor; the first existing one is shown. */
 const SPEEDS = ["engine_speed", "motor_speed"];
 const RPM = 30 / Math.PI;
 /** Initial end of the bar of the engine speed, rpm, and share from which it is red. */
 const [INITIAL_RPM, RED_SHARE] = [6000, 0.92];
-const BARS = { brake: "#ff5a4d", throttle: "#59d07a", hand_brake: "#ffb03b" };
+const BARS = { brake: FILLS.red, throttle: FILLS.green, hand_brake: FILLS.amber };
 
 /** Instruments of a car, as far as the FMU has outputs for them. */
 export class Cluster {
@@ -18,13 +18,13 @@ export class Cluster {
     this._speed = el("b", { data: "speed" });
     this._gear = el("span.a3-gear", { data: "gear" });
     this._turns = SPEEDS.find((name) => names.has(name));
-    this._revolutions = new Gauge({ data: "revolutions", colour: "#7fc4ff" });
+    this._revolutions = new Gauge({ data: "revolutions" });
     this._most = INITIAL_RPM;
     this._pedals = Object.entries(BARS)
       .map(([name, colour]) => ({ column: used(name), gauge: new Gauge({ data: `pedal ${name}`, label: name.replace("_", " "), way: "up", colour }) }))
       .filter(({ column }) => column);
     this._wheel = names.has("steering_wheel_angle") ? "steering_wheel_angle" : used("steering");
-    this._steering = new Gauge({ data: "steering bar", label: "steering", way: "middle", colour: "#f0f3f6" });
+    this._steering = new Gauge({ data: "steering bar", label: "steering", way: "middle" });
     this._selector = used("selector");
     const figures = el("div.a3-figures", {}, this._speed, el("small", {}, "km/h"), this._gear);
     const middle = el("div.a3-middle", {}, figures);
@@ -42,7 +42,7 @@ export class Cluster {
     if (this._turns) {
       const turns = RPM * Math.abs(lookup(this._turns));
       if (turns > this._most) this._most = 1000 * Math.ceil(turns / 1000);
-      this._revolutions.show(turns / this._most, turns > RED_SHARE * this._most ? "#ff5a4d" : undefined);
+      this._revolutions.show(turns / this._most, turns > RED_SHARE * this._most ? FILLS.red : undefined);
       this._revolutions.words(`${whole(turns)} rpm`);
     }
     if (this._used) {

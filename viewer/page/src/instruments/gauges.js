@@ -1,6 +1,9 @@
 // Bars of the instruments: pedals, steering, engine speed, computing time of a step.
 import { el, write } from "../common/dom.js";
 
+/** Colours of bars, in which white words can be read: contrasts of at least 4.5. */
+export const FILLS = { blue: "#2f76b8", red: "#d0392f", green: "#23803f", amber: "#9a6400" };
+
 /** A horizontal or vertical bar from 0 to 1, or a bar from -1 to 1 about its middle. */
 export class Gauge {
   /**
@@ -10,7 +13,7 @@ export class Gauge {
    * @param {"across" | "up" | "middle"} [options.way] - middle: -1 at the right, +1 at the left, as for steering.
    * @param {string} [options.colour]
    */
-  constructor({ data, label = "", way = "across", colour = "#e8eef4" }) {
+  constructor({ data, label = "", way = "across", colour = FILLS.blue }) {
     this._way = way;
     this._fill = el("i");
     this._fill.style.background = colour;

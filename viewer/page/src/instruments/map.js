@@ -16,7 +16,7 @@ const MARGIN = 0.5;
 const LINE_HEIGHT = 14;
 /** Factor of the zoom by a key. */
 const KEY_ZOOM = 1.25;
-const BACKGROUND = "#3d4a36";
+const [BACKGROUND, ROAD] = ["#3d4a36", "#5c6066"];
 const PAINTS = { white: "#f2f2ee", yellow: "#f0c84a", red: "#d8503f", blue: "#4a7fd8" };
 
 /** The thinned path of the car, interrupted where it was moved to another position. */
@@ -61,6 +61,8 @@ export class WorldPlan {
     this.places = world.places ?? [];
     this._bounded = Boolean(world.bounds);
     this.bounds = world.bounds ?? this.pictures[0]?.box ?? [-250, -250, 250, 250];
+    /** Colour beyond the pictures; a scene without any has one road without end. */
+    this.colour = this.pictures.length ? BACKGROUND : ROAD;
     this.kerbs = (scene.roads ?? []).filter((road) => road.kind === "profile");
     this.trail = new Trail();
   }
@@ -94,6 +96,7 @@ export class WorldPlan {
         stroke(context, [[x - 1e3 * direction[1], y + 1e3 * direction[0]], [x + 1e3 * direction[1], y - 1e3 * direction[0]]], "#d9d6cc", pixel); // prettier-ignore
       }
     }
+    if (!this._bounded && !this.pictures.length) return;
     context.strokeStyle = "#e8eef4";
     context.lineWidth = 1.5 * pixel;
     context.strokeRect(x0, y0, x1 - x0, y1 - y0);
@@ -134,7 +137,7 @@ function drawThing(context, { kind, at, points, width, colour, dash, height = 1,
     context.fillRect(-size[0] / 2, -size[1] / 2, size[0], size[1]);
     context.restore();
   } else if (at) {
-    const radius = { tree: 0.3 * height, cone: 0.3, post: 0.2 }[kind];
+    const radius = { tree: 0.3 * height, cone: Math.max(0.3, pixel), post: 0.2 }[kind]; // cones mark what is to be driven
     if (!radius || radius < 0.3 * pixel) return;
     context.fillStyle = { tree: "#2f5228", cone: "#ff7a2f", post: "#e8e8e8" }[kind];
     context.beginPath();
@@ -175,7 +178,7 @@ class Ground {
     this.y = y;
     Object.assign(this.canvas, { width: w, height: h }); // clears the canvas
     const context = this.canvas.getContext("2d");
-    context.fillStyle = BACKGROUND;
+    context.fillStyle = this.plan.colour;
     context.fillRect(0, 0, w, h);
     context.setTransform(scale, 0, 0, -scale, w / 2 - scale * x, h / 2 + scale * y);
     this.plan.drawGround(context, pixel);

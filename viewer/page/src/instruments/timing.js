@@ -1,7 +1,7 @@
 // Shows time and real-time factor of a run and, on a key, computing time of steps and frame rate.
-import { el, write } from "../common/dom.js";
+import { el, fixed, write } from "../common/dom.js";
 import { styled } from "../styles.js";
-import { Gauge } from "./gauges.js";
+import { FILLS, Gauge } from "./gauges.js";
 import { realTimeText } from "./real_time_factor.js";
 import style from "./style.css";
 
@@ -15,7 +15,7 @@ export class Timing {
     styled(style);
     this._time = el("div", { data: "time" });
     this._pace = el("div", { data: "pace" });
-    this._bar = new Gauge({ data: "step time", colour: "#59d07a" });
+    this._bar = new Gauge({ data: "step time", colour: FILLS.green });
     this._worst = el("u", { title: "the longest step of the last second" });
     this._bar.element.append(this._worst);
     this._missed = el("div", { data: "missed" });
@@ -36,7 +36,7 @@ export class Timing {
    * @returns {string} a warning if the machine is too slow
    */
   show(time, pace) {
-    write(this._time, `${time.toFixed(2)} s`);
+    write(this._time, `${fixed(time, 2)} s`);
     if (pace === null) return "";
     const { text, warn } = realTimeText(/** @type {any} */ (pace));
     write(this._pace, text);
@@ -47,7 +47,7 @@ export class Timing {
   /** @param {Data} pace */
   _show({ cost, deadline, worst = 0, missed, lateness, flow }) {
     const [share, most] = deadline > 0 ? [cost / deadline, worst / deadline] : [0, 0];
-    this._bar.show(share, share > 1 ? "#ff5a4d" : share > 0.5 ? "#ffb03b" : undefined);
+    this._bar.show(share, share > 1 ? FILLS.red : share > 0.5 ? FILLS.amber : undefined);
     this._bar.words(`step ${durationText(cost)} of ${durationText(deadline)}`);
     this._worst.style.left = `${(100 * Math.min(1, most)).toFixed(1)}%`;
     if (flow === undefined) return;

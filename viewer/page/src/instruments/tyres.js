@@ -1,10 +1,13 @@
 // Diagram of the four tyres from above: load as a circle, horizontal force as an arrow, use of friction as colour.
 import { svg, whole, write } from "../common/dom.js";
 
-/** Half the side of the drawing, and radius of the circle of the mean load, in units of the drawing. */
-const [HALF_SIDE, MEAN_LOAD_RADIUS] = [50, 13];
-/** Positions by the last letters of the name of a wheel; forward is up. */
+/** Half the width of the drawing, radius of the circle of the mean load, and distance of axles, in units of the drawing. */
+const [HALF_SIDE, MEAN_LOAD_RADIUS, AXLE_DISTANCE] = [50, 13, 48];
+/** Positions by the last letters of the name of a wheel, other wheels in pairs from the front; forward is up. */
 const PLACES = { FL: [-26, -29], FR: [26, -29], RL: [-26, 19], RR: [26, 19] };
+const pair = (/** @type {number} */ k) => [k % 2 ? 26 : -26, -29 + AXLE_DISTANCE * Math.floor(k / 2)];
+/** Number of wheels up to which the words beside them are large enough to be read. */
+const MAX_WORDED = 8;
 /** Colours by the use of friction, 0 to 1. @type {[number, number[]][]} */
 const COLOURS = [[0, [64, 150, 90]], [0.5, [110, 190, 90]], [0.8, [245, 190, 60]], [1, [232, 60, 45]]]; // prettier-ignore
 
@@ -35,8 +38,10 @@ export class Tyres {
   constructor(wheels, friction) {
     this._friction = friction;
     this._mean = 0; // smoothed mean load of a wheel, N
-    this._items = wheels.slice(0, 4).map((name, k) => {
-      const [x, y] = PLACES[name.slice(-2)] ?? PLACES[Object.keys(PLACES)[k]];
+    const ends = new Set(wheels.map((name) => name.slice(-2)));
+    const known = ends.size === wheels.length && [...ends].every((end) => end in PLACES);
+    this._items = wheels.map((name, k) => {
+      const [x, y] = known ? PLACES[name.slice(-2)] : pair(k);
       const circle = svg("circle", { cx: x, cy: y, r: 0, "fill-opacity": 0.85, stroke: "#fff", "stroke-width": 0.8 });
       const arrow = svg("path", { stroke: "#fff", "stroke-width": 2.2, fill: "none", "stroke-linecap": "round", "stroke-linejoin": "round" });
       const ahead = `M${x - 4} ${y - MEAN_LOAD_RADIUS}v${2 * MEAN_LOAD_RADIUS}M${x + 4} ${y - MEAN_LOAD_RADIUS}v${2 * MEAN_LOAD_RADIUS}`;
@@ -46,8 +51,9 @@ export class Tyres {
     });
     const title = svg("title");
     title.textContent = "tyres: size is load in kN, arrow is force in the road's plane, colour is use of friction (grey: not known), below is slip";
-    const drawn = this._items.flatMap(({ tyre, circle, arrow, words }) => [tyre, circle, arrow, ...words]);
-    this.element = svg("svg", { viewBox: `${-HALF_SIDE} ${-HALF_SIDE} ${2 * HALF_SIDE} ${2 * HALF_SIDE}`, class: "a3-tyres", "data-a3": "tyres" }, title, ...drawn);
+    const drawn = this._items.flatMap(({ tyre, circle, arrow, words }) => [tyre, circle, arrow, ...(wheels.length > MAX_WORDED ? [] : words)]);
+    const height = 2 * HALF_SIDE + AXLE_DISTANCE * Math.max(0, Math.ceil(wheels.length / 2) - 2);
+    this.element = svg("svg", { viewBox: `${-HALF_SIDE} ${-HALF_SIDE} ${2 * HALF_SIDE} ${height}`, class: "a3-tyres", "data-a3": "tyres" }, title, ...drawn);
     this.element.style.display = wheels.length ? "" : "none";
   }
 
@@ -93,7 +99,7 @@ function arrowPath(x, y, dx, dy) {
   const size = Math.min(Math.hypot(dx, dy), 22);
   const [ux, uy] = [dx, dy].map((d) => d / Math.hypot(dx, dy));
   const [ex, ey] = [x + ux * size, y + uy * size];
-  const head = 4;
+  const head = Math.min(4, 0.5 * size);
   const wing = (side) => `M${f(ex)} ${f(ey)}L${f(ex - head * (ux + side * 0.7 * uy))} ${f(ey - head * (uy - side * 0.7 * ux))}`;
   return `M${x} ${y}L${f(ex)} ${f(ey)}${wing(1)}${wing(-1)}`;
 }

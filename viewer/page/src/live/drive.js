@@ -1,5 +1,5 @@
 // The page of an FMU that runs in it: inputs by keys, gamepads, touch and sliders; pictures, plots and a record.
-import { button, el, short } from "../common/dom.js";
+import { button, el, fixed, short } from "../common/dom.js";
 import { DRIVING_WORDS } from "../common/key_table.js";
 import { instead } from "../common/notices.js";
 import { Shell } from "../shell/shell.js";
@@ -268,7 +268,7 @@ class Drive extends Shell {
   _refused(which, text, alive) {
     const { title } = this.stage.parts[which];
     const choices = [button("begin again", "Begin again", () => this.reset()), button("go back", "2 s back", () => this.back())];
-    const time = this.session.time.toFixed(3);
+    const time = fixed(this.session.time, 3);
     const prefix = this.stage.parts.length > 1 ? `${title}: ` : "";
     this.notices.flag(`stopped ${which}`, `${prefix}Stopped at ${time} s. ${text}`, { bad: true, choices: alive ? [] : choices });
   }

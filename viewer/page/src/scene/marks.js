@@ -1,6 +1,6 @@
 // Labels at points of the picture: gauges with their values, the largest stress, the clicked object.
 import * as THREE from "three";
-import { el, write } from "../common/dom.js";
+import { el, fixed, write } from "../common/dom.js";
 import { besides } from "../common/labels.js";
 import { forcesOf, worded } from "./forces.js";
 import { add, length, rotate, scale, subtract, transpose } from "./math.js";
@@ -203,7 +203,7 @@ export class Marks {
     return () => {
       const { lookup } = this.view;
       const { position } = parts.frames.pose(frame);
-      const positionText = `at ${position.map((x) => (Math.round(1e3 * x) / 1e3 + 0).toFixed(3)).join(", ")} m`; // never -0
+      const positionText = `at ${position.map((x) => fixed(x, 3)).join(", ")} m`;
       if (lookup === null) return [frame, positionText];
       const forces = arrows.flatMap((arrow) => {
         const found = forcesOf(arrow, parts.frames, lookup);

@@ -1,5 +1,5 @@
 // The bar below the picture, with buttons for the actions of a page.
-import { button, el, icon, select, write } from "../common/dom.js";
+import { button, el, fixed, icon, select, write } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 
 /** Buttons before and after the slider: an action of the table of keys, and its label if it has no icon. */
@@ -57,7 +57,7 @@ export class Bar {
   }
 
   _seconds(time) {
-    return `${time.toFixed(this.digits)} s`;
+    return `${fixed(time, this.digits)} s`;
   }
 
   /** Shows a time in words, which a screen reader reads at the slider too. @param {string} words */
@@ -104,7 +104,7 @@ export class Bar {
     if (activeElement !== this.rate) this.speed(speed);
     if (this.held) return;
     Object.assign(this.slide, { min: String(begin), max: String(Math.max(end, begin + 1e-6)), value: String(time) });
-    this._showTime(grows ? this._seconds(time) : `${time.toFixed(this.digits)} / ${this._seconds(end)}`);
+    this._showTime(grows ? this._seconds(time) : `${fixed(time, this.digits)} / ${this._seconds(end)}`);
     if (this.shown === running) return;
     this.shown = running;
     this._state("toggle", running, running ? "pause" : "play");

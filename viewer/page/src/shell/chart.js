@@ -14,12 +14,32 @@ const GRID_STYLE = { stroke: "#8884", width: 1 };
 const INK = (/** @type {uPlot} */ plot) => getComputedStyle(plot.root).color;
 /** Magnitudes that are written without an exponent. */
 const [SMALL, LARGE] = [1e-3, 1e9];
-const GROUPED = new Intl.NumberFormat("en", { maximumSignificantDigits: 12 }); // uPlot writes at most three decimals
-/** Text of a number at an axis. @param {number} value */
-const tickText = (value) => (value === 0 || (Math.abs(value) >= SMALL && Math.abs(value) < LARGE) ? GROUPED.format(value) : value.toExponential());
+const DIGITS = 12;
+const GROUPED = new Intl.NumberFormat("en", { maximumSignificantDigits: DIGITS }); // uPlot writes at most three decimals
+/** Width of a character of a number at an axis, pixels. */
+const CHARACTER = 6.3;
+
+/** Texts of the numbers at an axis, all with an exponent where that is shorter. @param {number[]} ticks @returns {string[]} */
+function tickTexts(ticks) {
+  const plain = ticks.map((value) => GROUPED.format(value));
+  const usual = ticks.every((value) => value === 0 || (Math.abs(value) >= SMALL && Math.abs(value) < LARGE));
+  if (usual) return plain;
+  const scientific = ticks.map((value) => (value === 0 ? "0" : Number(value.toPrecision(DIGITS)).toExponential()));
+  return longest(scientific) < longest(plain) ? scientific : plain;
+}
+
+/** Number of characters of the longest text. @param {string[]} texts */
+const longest = (texts) => Math.max(...texts.map(({ length }) => length));
+
+/** Distance of ticks at which the times of a range do not overlap, pixels. @param {number} low s @param {number} high s */
+function timeSpace(low, high) {
+  const step = 10 ** Math.floor(Math.log10((high - low) / 4)); // about that of the ticks
+  return 20 + CHARACTER * longest(tickTexts([low, high].map((time) => step * Math.round(time / step) + step)));
+}
+
 const AXIS = {
   ...{ stroke: INK, grid: GRID_STYLE, ticks: GRID_STYLE, font: FONT, labelFont: FONT, labelSize: 16 },
-  values: (/** @type {uPlot} */ plot, /** @type {number[]} */ ticks) => ticks.map(tickText),
+  values: (/** @type {uPlot} */ plot, /** @type {number[]} */ ticks) => tickTexts(ticks),
 };
 const LINE = "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid var(--accent, #8888);pointer-events:none;display:none";
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
@@ -36,16 +56,17 @@ export class Chart {
   /**
    * @param {HTMLElement} parent
    * @param {{unit: string, names: string[], runs: Data[], colours: (name: string) => string, source: import("./shell.js").Source,
-   *   zoomed: (chart: Chart, range: [number, number]) => void, difference: boolean,
+   *   zoomed: (chart: Chart, range: [number, number]) => void, axisWidth: (plot: uPlot, own: number) => number, difference: boolean,
    *   compare: (unit: string, on: boolean) => void}} options
    */
-  constructor(parent, { unit, names, runs, colours, source, zoomed, difference, compare }) {
+  constructor(parent, { unit, names, runs, colours, source, zoomed, axisWidth, difference, compare }) {
     this.unit = unit;
     this.names = names;
     this.runs = runs;
     this.colours = colours;
     this.source = source;
     this.zoomed = zoomed;
+    this.axisWidth = axisWidth;
     this.difference = difference;
     this.compare = compare;
     this.curves = this._curves();
@@ -107,12 +128,12 @@ export class Chart {
     return {
       width: 300,
       height: 140,
-      padding: [6, 8, 0, 0],
+      padding: [6, 16, 0, 0],
       legend: { show: false },
       scales: { x: { time: false, range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min, max } },
       axes: [
-        { ...AXIS, label: "time, s", size: 26 },
-        { ...AXIS, label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
+        { ...AXIS, label: "time, s", size: 26, space: (plot, axis, low, high) => timeSpace(low, high) },
+        { ...AXIS, label: this.unit || "1", size: (plot, labels) => this.axisWidth(plot, 14 + CHARACTER * longest(["   ", ...(labels ?? [])])) },
       ],
       series: [{}, ...this.curves.map(({ label, colour, dash, t }) => ({ label, stroke: colour, dash, width: 1.5, points: { show: t.length === 1 ? true : undefined } }))],
       cursor: { sync: { key: CURSOR_KEY }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },

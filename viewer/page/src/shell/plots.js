@@ -64,6 +64,18 @@ export class Plots {
     for (const chart of this.charts) chart.now();
   }
 
+  /**
+   * Width of the left axes, which is that of the widest one, so that one instant is at one place in all diagrams.
+   * @param {object} plot of a chart @param {number} own width that its numbers need, pixels
+   */
+  _axisWidth(plot, own) {
+    this.axisWidths.set(plot, own);
+    const width = Math.max(...this.axisWidths.values());
+    if (width !== this.axisWidth) queueMicrotask(() => this.redraw());
+    this.axisWidth = width;
+    return width;
+  }
+
   redraw() {
     for (const chart of this.charts) chart.redraw();
   }
@@ -109,6 +121,7 @@ export class Plots {
 
   _draw() {
     for (const chart of this.charts) chart.dispose();
+    this.axisWidths = new Map();
     this.area.replaceChildren();
     const zoomed = (from, range) => this.charts.forEach((chart) => chart !== from && chart.zoom(range));
     const compare = (unit, on) => {
@@ -125,6 +138,7 @@ export class Plots {
           unit,
           names,
           zoomed,
+          axisWidth: (plot, own) => this._axisWidth(plot, own),
           compare,
           runs,
           colours: this.colours,

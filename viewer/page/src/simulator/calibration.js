@@ -1,5 +1,5 @@
 // The panel of the host's input devices: bars of their axes, assignment of inputs, calibration and settings of the force.
-import { button, el, named, select, short } from "../common/dom.js";
+import { button, el, fixed, named, select, short } from "../common/dom.js";
 import { section } from "../live/panel.js";
 import { styled } from "../styles.js";
 import style from "./calibration.css";
@@ -185,7 +185,7 @@ class DevicePart {
     }
     this._updates.push((d) => {
       bar.set(barOf(d.axes[k] ?? 0, -1, 1, 0));
-      number.textContent = (d.axes[k] ?? 0).toFixed(3);
+      number.textContent = fixed(d.axes[k] ?? 0, 3);
     });
     const words = el("small", { data: `driven ${k}` }, driven.length ? `drives ${driven.join(", ")}` : "drives nothing");
     return el("div.a3-axis", {}, el("span", {}, `axis ${k}`), bar.element, number, words);
