@@ -127,6 +127,16 @@ def test_errors_are_held_against_the_largest_range_in_the_unit() -> None:
     assert actual == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
 
 
+def test_a_place_that_rests_in_the_finer_motion_is_compared_where_the_other_moves() -> None:
+    """Held against what the finer motion does alone, a body that leaves where it should stay was off by nothing."""
+    compared = {"x": PLACE, "load": Compared("N", load=True)}
+    rests = {"x": 1.0 + 3e-5 * np.sin(T), "load": 5.0 + T}
+    units, _, sizes = differences(rests | {"x": 1.0 + 0.2 * T}, rests, compared, None, 1.0)
+    assert units["m"] == pytest.approx(1.0)
+    assert sizes["x"] == pytest.approx(0.2, rel=1e-3)
+    assert "m" not in differences(rests | {"x": 1.0 - 3e-5 * np.sin(T)}, rests, compared, None, 1.0)[0]
+
+
 @pytest.mark.parametrize(("largest", "judged"), [(1e-6, {"x", "spring"}), (1.0, {"x", "spring", "motor"})])
 def test_the_force_of_a_motor_is_round_off_beside_large_forces(largest: float, judged: set[str]) -> None:
     """A rack that is held straight has 1e-6 N beside springs with 3000 N, and twice that in another motion."""
