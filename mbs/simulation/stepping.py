@@ -401,7 +401,7 @@ class Simulation(SteppedSystem):
             the fraction done.
         estimate_error : bool or float, optional
             As in `simulate`, for the first doubtful run of at least eight steps. The last refined run continues in the
-            following calls with the same inputs, parameters and switches, until `step` is called.
+            following calls, however short, with the same inputs, parameters and switches, until `step` is called.
         tolerance : float or mapping of str to float, optional
             As in `simulate`, for the error that this part adds; with the method of the settings.
 
@@ -435,8 +435,9 @@ class Simulation(SteppedSystem):
         estimate_error = check_estimate(estimate_error)
         every = check_every(every)
         check_progress(progress)
-        checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= MOST_PARTS
-        existing = self._refined if checked else None
+        steps = count_steps(self.time, t_end, check_step(h))
+        existing = self._refined if estimate_error is not False else None
+        checked = existing is not None or (estimate_error is not False and steps >= MOST_PARTS)
         state = self.instance.save() if checked else b""
         is_started = False
         self._refined = None

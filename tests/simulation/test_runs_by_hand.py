@@ -45,6 +45,15 @@ def test_the_refined_instance_continues_from_run_to_run() -> None:
     assert 0.0 < first.accuracy.error < whole.accuracy.error
 
 
+def test_a_short_run_does_not_end_the_refined_one() -> None:
+    """It did, so that the error of all runs before it was forgotten."""
+    simulation = Simulation(swing())
+    for end in (1.0, 1.05, 2.0):
+        run = simulation.run(end, 0.01, estimate_error=True, **QUIET)
+    whole = mbs.simulate(swing(), 2.0, 0.01, estimate_error=True, **QUIET)
+    assert run.accuracy.sensors == pytest.approx(whole.accuracy.sensors, rel=1e-3)
+
+
 def test_a_few_steps_are_not_repeated() -> None:
     simulation = Simulation(swing())
     assert simulation.run(0.35, 0.05, **QUIET).accuracy.compared_step is None
