@@ -86,9 +86,7 @@ void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compar
     const double rest = fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(in_unit, limit), resolution);
     /* places that rest in this motion, and not in the other, are compared with their way in that one */
     const double way = range[group] > rest ? range[group] : moved[group];
-    size[i] = !(way > rest) || !is_followed(seen + i) ? 0.0
-              : judged[i].kind & ALI3_JUDGED_LOAD     ? largest[group]
-                                                      : way;
+    size[i] = !(way > rest) || !is_followed(seen + i) ? 0.0 : judged[i].kind & ALI3_JUDGED_LOAD ? largest[group] : way;
     others_move |= size[i] > 0.0 && judged[i].kind & ALI3_JUDGED_ALWAYS && unit != ALI3_JUDGED_RAD;
   }
   for (int32_t i = 0; i < n; i++) {
