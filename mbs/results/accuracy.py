@@ -52,6 +52,9 @@ class Accuracy:
     """Ratio of the largest estimated error to the largest range, by compared unit ("1": coordinates of the System)."""
     sensors: dict[str, float] = field(default_factory=dict)
     """Largest estimated errors of the compared sensors, in their units, by name."""
+    others: dict[str, float] = field(default_factory=dict)
+    """The same of sensors that are not compared, which decide nothing: one that jumps a little later is off by its
+    jump."""
     message: str = ""
     """Evidence against the result, with a remedy; empty if there is none."""
     notice: str = ""
@@ -209,7 +212,7 @@ def error_text(accuracy: Accuracy, sizes: Mapping[str, float], compared: Mapping
     `sizes`: ranges of the compared quantities, in their units, by name.
     """
     name = max(accuracy.sensors, key=lambda n: accuracy.sensors[n] / sizes[n])
-    unit, error = compared[name].unit, accuracy.sensors[name] / sizes[name]
+    unit, error = compared[name].own_unit or compared[name].unit, accuracy.sensors[name] / sizes[name]
     qualifier = "at least" if error > RESOLVED else "about"
     kind, unit_suffix = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
     difference_text, size_text = f"{accuracy.sensors[name]:.3g}{unit_suffix}", f"{sizes[name]:.3g}{unit_suffix}"

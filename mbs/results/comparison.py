@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
+from ali3.units import known_unit
 from mbs.kernel.binding import load_library
 from mbs.kernel.header.enumerations import JudgedKind, JudgedUnit, SensorType
 from mbs.kernel.header.structures import ComparedFields, JudgedFields
@@ -31,7 +32,12 @@ UNITS = {
     "rad/s": JudgedUnit.RAD_S,
     "N m": JudgedUnit.N_M,
 }
-"""Units of the compared quantities."""
+"""Units of the compared quantities; sensors in other units of the same quantities are converted."""
+BY_EXPONENTS = {
+    frozenset(definition.exponents.items()): unit
+    for unit in UNITS
+    if unit != COORDINATES and (definition := known_unit(unit))
+}
 WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # the first integer is the derivative order
 ANGLES = (SensorType.ANGLE, SensorType.ANGLE_ABOUT)  # values from -pi to pi
 _COMPARED: WeakKeyDictionary[System, dict[str, Compared]] = WeakKeyDictionary()
@@ -43,6 +49,7 @@ class Compared:
     """Quantity by which two runs are compared: a sensor or a coordinate."""
 
     unit: str
+    """Of `UNITS`."""
     place: bool = False
     """Whether it is a position, a length, an angle or a coordinate; otherwise it is a rate or a load."""
     load: bool = False
@@ -51,6 +58,10 @@ class Compared:
     """False for rates and motor forces, which may jump: compared only if no position moves by itself."""
     wrapped: bool = False
     """Whether it is an angle from -pi to pi."""
+    own_unit: str = ""
+    """Unit of its values, if it is not `unit`."""
+    factor: float = 1.0
+    """Of its values, to `unit`."""
 
     @property
     def fields(self) -> JudgedFields:
@@ -118,17 +129,18 @@ class Comparison:
         load_library().ali3_compare(self._judged, len(self._judged), len(fine_rows), None, *pointers, self._extremes)
 
     def _samples(self, motion: Mapping[str, Array]) -> Array:
-        return np.column_stack([np.asarray(motion[name], float) for name in self.compared])
+        return np.column_stack([q.factor * np.asarray(motion[name], float) for name, q in self.compared.items()])
 
     def widen(self, gaps: Mapping[str, float]) -> None:
         """Raise the largest differences to at least `gaps`, by name."""
-        for name, fields in zip(self.compared, self._extremes, strict=True):
-            fields.gap = max(fields.gap, gaps.get(name, 0.0))
+        for (name, quantity), fields in zip(self.compared.items(), self._extremes, strict=True):
+            fields.gap = max(fields.gap, quantity.factor * gaps.get(name, 0.0))
 
     @property
     def gaps(self) -> dict[str, float]:
         """Largest difference of each quantity, in its unit."""
-        return {name: fields.gap for name, fields in zip(self.compared, self._extremes, strict=True)}
+        each = zip(self.compared.items(), self._extremes, strict=True)
+        return {name: fields.gap / quantity.factor for (name, quantity), fields in each}
 
     @property
     def ends(self) -> dict[str, ComparedFields]:
@@ -139,7 +151,7 @@ class Comparison:
         return ends
 
     def sizes(self, guided: bool = True) -> dict[str, float]:
-        """References of the differences of relevant quantities, by name.
+        """References of the differences of relevant quantities, in their units, by name.
 
         They are the largest range in the unit of a quantity, of forces the largest value.
 
@@ -150,9 +162,8 @@ class Comparison:
         load_library().ali3_compared_sizes(
             self._judged, len(references), self._extremes, self.length, self.energy, guided, pointer
         )
-        return {
-            name: float(reference) for name, reference in zip(self.compared, references, strict=True) if reference > 0.0
-        }
+        each = zip(self.compared.items(), references, strict=True)
+        return {name: float(size) / quantity.factor for (name, quantity), size in each if size > 0.0}
 
 
 def compared_sensors(system: System) -> Mapping[str, Compared]:
@@ -171,24 +182,32 @@ def _find_compared_sensors(system: System) -> dict[str, Compared]:
     for i, sensor in enumerate(system.meta["sensors"]):
         if not sensor.get("computed", True):
             continue
-        kind, unit = SensorType(arrays["sen_type"][i]), sensor["unit"].replace("N.m", "N m")
+        kind, (unit, factor) = SensorType(arrays["sen_type"][i]), _compared_unit(sensor["unit"])
+        own = {"own_unit": sensor["unit"], "factor": factor} if factor != 1.0 else {}
         integers = np.asarray(arrays["sen_int"][slice(*arrays["sen_int_ptr"][i : i + 2])]).tolist()
         order = integers[0] if kind in WITH_ORDER and integers else 0
         signal = kind in (SensorType.SIGNAL, SensorType.PITCH) or (kind in WITH_ORDER and order == 0)
         rate = kind in (SensorType.SIGNAL_RATE, SensorType.ANGULAR_RATE) or (kind in WITH_ORDER and order == 1)
         output = kind == SensorType.ELEMENT_OUTPUT
         if ((signal or kind in ANGLES) and unit in ("m", "rad")) or (output and unit == "m"):
-            compared[sensor["name"]] = Compared(unit, place=True, wrapped=kind in ANGLES)
+            compared[sensor["name"]] = Compared(unit, place=True, wrapped=kind in ANGLES, **own)
         elif output and unit == "N":
-            compared[sensor["name"]] = Compared(unit, load=True)
+            compared[sensor["name"]] = Compared(unit, load=True, **own)
         elif output and unit == "N m":
-            torques[sensor["name"]] = Compared(unit, load=True)
+            torques[sensor["name"]] = Compared(unit, load=True, **own)
         elif rate and unit in ("m/s", "rad/s"):
-            compared[sensor["name"]] = Compared(unit, always=False)
+            compared[sensor["name"]] = Compared(unit, always=False, **own)
         elif kind in REACTIONS and unit in UNITS and driven.intersection(_rows_of_reaction(kind, integers)):
-            compared[sensor["name"]] = Compared(unit, load=True, always=False)
+            compared[sensor["name"]] = Compared(unit, load=True, always=False, **own)
     # Beside positions they are not compared: the torque of a brake that holds jumps with each small motion.
     return compared if shows_motion(compared) else compared | torques
+
+
+def _compared_unit(text: str) -> tuple[str, float]:
+    """Unit of `UNITS` of the same quantity and the factor to it; a unit of none, such as J, as it is."""
+    definition = known_unit(text)
+    unit = BY_EXPONENTS.get(frozenset(definition.exponents.items())) if definition and "J" not in text else None
+    return (text, 1.0) if unit is None or definition is None else (unit, definition.factor)
 
 
 def _rows_of_reaction(kind: SensorType, integers: list[int]) -> list[int]:

@@ -67,11 +67,19 @@ class BendingWatch:
         """Text of the warning with a remedy if a body was bent or loaded too far, otherwise empty."""
         sentences = []
         if self.body is not None and self.turn > MAX_TURN:
+            # beyond its length an error is no estimate, as in a beam that rotates faster than it can vibrate
+            runs_away = END_ERROR * self.turn > 1.0
             sentences.append(
                 f"The flexible body {self.body.name!r} bends by {self.turn:.2g} rad in its floating frame at "
                 f"t = {self.time:.4g} s. Its modes are linear: they leave out its shortening and the stiffening by "
-                f"axial forces, so positions of its ends may be off by {END_ERROR * self.turn:.1%} of its length. "
-                f"Divide it into {int(np.ceil(self.turn / MAX_TURN))} or more bodies welded end to end."
+                f"axial forces, so "
+                + (
+                    "its motion means nothing. Divide it into bodies welded end to end, and these again, until there "
+                    "is no such warning."
+                    if runs_away
+                    else f"positions of its ends may be off by {END_ERROR * self.turn:.1%} of its length. Divide it "
+                    f"into {int(np.ceil(self.turn / MAX_TURN))} or more bodies welded end to end."
+                )
             )
         name = max(self._shares, key=self._shares.__getitem__, default="")
         share = float(np.sqrt(self._shares[name] / self._states)) if name else 0.0

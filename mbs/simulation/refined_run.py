@@ -341,4 +341,13 @@ class RefinedRuns:
             order=order,
             units={unit: factor * e for unit, e in units.items()},
             sensors={name: factor * e for name, e in sensors.items()},
+            others={name: factor * e for name, e in self._other_differences(coarse[0], fine[0]).items()},
         )
+
+    def _other_differences(self, coarse: Trajectory, fine: Trajectory) -> dict[str, float]:
+        """Largest differences of two runs at samples, of sensors that are not compared, by name."""
+        shared = min(len(coarse.t), len(fine.t))
+        recorded = {s["name"] for s in self.system.meta["sensors"] if s.get("computed", True)} - set(self.compared)
+        names = [name for name in fine.units if name in recorded and name in coarse.units]
+        gaps = {name: np.abs(coarse[name][:shared] - fine[name][:shared]) for name in names}
+        return {name: float(gap.max()) for name, gap in gaps.items() if np.isfinite(gap).all()}

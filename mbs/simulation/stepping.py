@@ -14,7 +14,7 @@ from mbs.common.checks import flag, instance_of, is_finite, number, positive, sh
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.instance import Instance
-from mbs.kernel.header.limits import LONGEST_SETTLING, MOST_PARTS
+from mbs.kernel.header.limits import LONGEST_SETTLING
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
@@ -37,7 +37,6 @@ from mbs.simulation.arguments import (
     check_time,
     check_tolerance_settings,
     check_values,
-    count_steps,
     record_times,
     requested_tolerance,
 )
@@ -400,8 +399,8 @@ class Simulation(SteppedSystem):
             None shows a bar if the run takes longer than two seconds, True at once, False never; a function receives
             the fraction done.
         estimate_error : bool or float, optional
-            As in `simulate`, for the first doubtful run of at least eight steps. The last refined run continues in the
-            following calls with the same inputs, parameters and switches, until `step` is called.
+            As in `simulate`, for the first doubtful run. The last refined run continues in the following calls with the
+            same inputs, parameters and switches, until `step` is called.
         tolerance : float or mapping of str to float, optional
             As in `simulate`, for the error that this part adds; with the method of the settings.
 
@@ -435,9 +434,10 @@ class Simulation(SteppedSystem):
         estimate_error = check_estimate(estimate_error)
         every = check_every(every)
         check_progress(progress)
-        checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= MOST_PARTS
+        check_step(h)
+        checked = estimate_error is not False
         existing = self._refined if checked else None
-        state = self.instance.save() if checked else b""
+        state = self.instance.save() if checked and existing is None else b""
         is_started = False
         self._refined = None
 
@@ -449,12 +449,21 @@ class Simulation(SteppedSystem):
             self._refined = existing if existing is not None else self._restored(state)
             return self._refined
 
-        estimate = estimate_error if checked else False
         divisor = self._divisor if existing is not None else 0
 
         def equal_steps() -> Trajectory:  # a call as deep as in `simulate`, for the stack level of warnings
             return run_fixed_steps(
-                self.system, start, self.time, t_end, h, inputs, every, progress, estimate, self._extremes, divisor
+                self.system,
+                start,
+                self.time,
+                t_end,
+                h,
+                inputs,
+                every,
+                progress,
+                estimate_error,
+                self._extremes,
+                divisor,
             )
 
         trajectory = equal_steps()
@@ -464,7 +473,7 @@ class Simulation(SteppedSystem):
         if run_accuracy is not None and run_accuracy.message and not self._warned:
             self._warned = True
             warnings.warn(run_accuracy.message, AccuracyWarning, stacklevel=2)
-        if estimate_error is not False:
+        if checked:
             self._warn_once(right=run_accuracy is not None and bool(run_accuracy.notice))
         return trajectory
 

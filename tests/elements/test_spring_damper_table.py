@@ -9,10 +9,11 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 from mbs import AccuracyWarning, Model, Settings, System, Trajectory, compile, simulate
-from mbs.elements import EndStops, SpringDamper, SpringDamperTable
+from mbs.elements import EndStops, PlaneRoad, SpringDamper, SpringDamperTable
 from mbs.elements.spring_damper_table import force_of_table
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
+from mbs.settings.methods import METHOD_TABLE
 from tests.elements.harness import Array, Element, vectors
 
 SPRING = np.array(
@@ -138,15 +139,19 @@ BARRIER = [(0.1, 0.0), (1.2, 0.0), (1.503, 0.0), (1.507, 280.0), (1.511, 0.0), (
 """Rows of a table, m and N."""
 
 
-def slide(rows: object, speed: float = SPEED, gravity: float = 0.0) -> System:
-    """2 kg on a line, on a spring from 1 m behind the start; gravity is along the line."""
-    m = Model("slide", dimension=2, gravity=(gravity, 0.0))
-    body = m.body("body", mass=2.0, com=(1.0, 0.0), inertia=0.1)
-    m.prismatic("guide", m.ground, body, axis=(1.0, 0.0))
-    m.initial_velocity(body, linear=(speed, 0.0), angular=0.0)
-    m.add(SpringDamperTable(rows).record("spring", body.point((1.0, 0.0)) - m.ground.point((0.0, 0.0))))  # type: ignore[arg-type]
-    m.force("push", body, inputs=[m.input("push", min=-1.0, max=1.0), None])
+def slide(rows: object, speed: float = SPEED, gravity: float = 0.0, dimension: int = 2) -> System:
+    """2 kg on a line, on a spring from 1 m behind the start; gravity is along the line. In space beside a road."""
+    rest = (0.0,) * (dimension - 1)
+    m = Model("slide", dimension=dimension, gravity=(gravity, *rest))
+    body = m.body("body", mass=2.0, com=(1.0, *rest), inertia=0.1 if dimension == 2 else (0.1, 0.1, 0.1))
+    m.prismatic("guide", m.ground, body, axis=(1.0, *rest))
+    m.initial_velocity(body, linear=(speed, *rest), angular=0.0 if dimension == 2 else (0.0, 0.0, 0.0))
+    stretch = body.point((1.0, *rest)) - m.ground.point((0.0, *rest))
+    m.add(SpringDamperTable(rows).record("spring", stretch))  # type: ignore[arg-type]
+    m.force("push", body, inputs=[m.input("push", min=-1.0, max=1.0), *[None] * (dimension - 1)])
     m.sense_position("x", body, component="x")
+    if dimension == 3:
+        m.road(PlaneRoad())
     return compile(m)
 
 
@@ -173,8 +178,9 @@ def test_a_barrier_that_lies_between_the_ends_of_a_step_is_met(method, energy):
     assert error(run) < 0.1 or any(w.category is AccuracyWarning for w in caught)
 
 
-@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha"])
-def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(method):
+@pytest.mark.parametrize("method", METHOD_TABLE)
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(method, dimension):
     """It takes a quarter of the energy up to its middle; without it the body is 6 mm further at the end."""
     h, gravity = 0.02, 10.0  # 2 mm in the first step
     begin, middle, end = 1.0004, 1.0006, 1.0008
@@ -182,7 +188,7 @@ def test_a_barrier_that_a_step_from_rest_passes_by_its_acceleration_is_met(metho
     rows = [(0.1, 0.0), (0.9, 0.0), (begin, 0.0), (middle, peak), (end, 0.0), (3.0, 0.0), (9.0, 0.0)]
     run, fine = (
         simulate(system, 0.2, step, method=method, every=round(h / step), estimate_error=False, progress=False)
-        for system in [slide(rows, 0.0, gravity)]
+        for system in [slide(rows, 0.0, gravity, dimension)]
         for step in (h, 2e-5)
     )
     assert run.report is not None

@@ -1,6 +1,7 @@
 """Bodies beyond the range of linear modes are reported once, with the number of parts that they need."""
 
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from mbs import BendingWarning, Simulation, compile, linearise, simulate
 from mbs.flexible.axial_stiffening import axial_stiffening
 from mbs.flexible.section import round_bar
 from mbs.model import Model
+from mbs.simulation.large_bending import BendingWatch
 from mbs.simulation.march import march
 from tests.flexible_engine.bodies import ALUMINIUM, bar, chain, soft_pendulum
 
@@ -18,6 +20,17 @@ def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs():
     with pytest.warns(BendingWarning, match=r"body 'part 0' bends by 0\.045 rad .* Divide it into 2 or more") as caught:
         simulate(soft_pendulum(1), 2.0, 0.0025, progress=False)
     assert len(caught) == 1
+
+
+def test_of_a_body_that_runs_away_no_error_is_given():
+    """A blade in one body that rotates faster than it can vibrate: 14 000 % of its length, and as many bodies."""
+    watch = BendingWatch(None)
+    watch.body = SimpleNamespace(name="blade")
+    for watch.turn, words in (
+        (0.05, "off by 1.2% of its length. Divide it into 2"),
+        (54.0, "its motion means nothing"),
+    ):
+        assert words in watch.message
 
 
 def test_four_bodies_are_not_warned_of():

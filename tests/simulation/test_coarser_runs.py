@@ -1,5 +1,6 @@
 """The coarser runs that a run is compared with: which ones, and that they do not make a wrong run right."""
 
+import math
 import warnings
 from dataclasses import replace
 from itertools import product
@@ -186,20 +187,33 @@ def test_steps_of_high_order_may_be_longer_where_nothing_abrupt_can_happen(syste
 
 
 @pytest.mark.parametrize("method", ["radau_5", "runge_kutta_8"])
-def test_impacts_in_long_steps_of_high_order_are_reported(method: str) -> None:
-    """By chance, in closed form: h w of 1.8 to 4, so that an impact lasts one step or two."""
+def test_impacts_in_long_steps_of_high_order_are_right_or_reported(method: str) -> None:
+    """By chance, in closed form: h w of 1.8 to 4, so that an impact lasts one step or two.
+
+    Steps that end where the stop is met and left are right; whole ones are reported or refused.
+    """
+    whole, divided = mbs.Settings(method=method, max_halvings=0), mbs.Settings(method=method)
     wrong = silent = false = 0
     for number in range(24):
         rng = np.random.default_rng([2, number])
         h, steps = 0.01, int(rng.integers(15, 101))
         w, gap = float(rng.uniform(1.8, 4.0)) / h, float(rng.uniform(0.1, 0.8)) * steps * h
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            run = mbs.simulate(ball(w * w, gap, wall=1e3), steps * h, h, method=method, progress=False)
-        truth = place(w * w, gap, run.t)
-        off = np.abs(run["x"] - truth).max() / np.ptp(truth)
-        wrong, silent = wrong + (off > 0.05), silent + (off > 0.051 and not caught)
-        false += bool(off < 0.045 and caught)
+        system, errors, warned = ball(w * w, gap, wall=1e3), [], []
+        for settings in (whole, divided):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                try:
+                    run = mbs.simulate(system, steps * h, h, settings=settings, progress=False)
+                except mbs.SimulationError:
+                    errors.append(math.inf)
+                    warned.append(True)
+                    continue
+            truth = place(w * w, gap, run.t)
+            errors.append(np.abs(run["x"] - truth).max() / np.ptp(truth))
+            warned.append(bool(caught))
+        wrong, silent = wrong + (0.05 < errors[0] < math.inf), silent + (errors[0] > 0.051 and not warned[0])
+        false += (errors[0] < 0.045 and warned[0]) + (errors[1] < 0.045 and warned[1])
+        assert errors[1] < 0.05
     assert wrong > 3
     assert silent == 0
     assert false <= 1

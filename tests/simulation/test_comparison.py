@@ -127,6 +127,42 @@ def test_errors_are_held_against_the_largest_range_in_the_unit() -> None:
     assert actual == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
 
 
+def test_a_place_that_rests_in_the_finer_motion_is_compared_where_the_other_moves() -> None:
+    """Held against what the finer motion does alone, a body that leaves where it should stay was off by nothing."""
+    compared = {"x": PLACE, "load": Compared("N", load=True)}
+    rests = {"x": 1.0 + 3e-5 * np.sin(T), "load": 5.0 + T}
+    units, _, sizes = differences(rests | {"x": 1.0 + 0.2 * T}, rests, compared, None, 1.0)
+    assert units["m"] == pytest.approx(1.0)
+    assert sizes["x"] == pytest.approx(0.2, rel=1e-3)
+    assert "m" not in differences(rests | {"x": 1.0 - 3e-5 * np.sin(T)}, rests, compared, None, 1.0)[0]
+
+
+def test_sensors_in_other_units_of_a_quantity_are_compared_and_the_rest_have_an_estimate() -> None:
+    """The tip in mm is off by a tenth of its range, and the resting end of a link, in m, was all that was judged."""
+    m, turn = mbs.Model("two links", dimension=2), 180.0 / np.pi
+    links = [m.body(name, mass=1.0, com=(x, 0.0), inertia=0.01) for name, x in (("one", 0.15), ("two", 0.45))]
+    m.revolute("hip", m.ground, links[0], point=(0.0, 0.0))
+    m.revolute("knee", *links, point=(0.3, 0.0))
+    angles = m.relative_angle("hip angle", m.ground, links[0]), m.relative_angle("knee angle", *links)
+    for angle, rate in zip(angles, (8.0, -20.0), strict=True):
+        m.initial_rate(angle, rate)
+    tip = links[1].point((0.6, 0.0))
+    m.sense_coordinate("knee", turn * angles[1].affine, unit="deg")
+    m.sense_coordinate("tip", 1000.0 * tip[0], unit="mm")
+    m.sense_coordinate("tip.speed", 3.6 * tip[0], order=1, unit="km/h")
+    m.sense_position("hub", links[0], (1e-3, 0.0), "x")
+    system = mbs.compile(m)
+    fine = mbs.simulate(system, 1.0, 1e-4, every=100, estimate_error=False, progress=False)
+    with pytest.warns(mbs.AccuracyWarning, match=r"'tip' by \d+\.?\d* mm of"):
+        run = mbs.simulate(system, 1.0, 0.01, progress=False)
+    assert run.accuracy is not None
+    assert set(run.accuracy.units) == {"m", "rad"}
+    assert set(run.accuracy.others) == {"tip.speed"}
+    for name, error in (run.accuracy.sensors | run.accuracy.others).items():
+        if name != "hub":
+            assert error == pytest.approx(np.abs(run[name] - fine[name]).max(), rel=0.3)
+
+
 @pytest.mark.parametrize(("largest", "judged"), [(1e-6, {"x", "spring"}), (1.0, {"x", "spring", "motor"})])
 def test_the_force_of_a_motor_is_round_off_beside_large_forces(largest: float, judged: set[str]) -> None:
     """A rack that is held straight has 1e-6 N beside springs with 3000 N, and twice that in another motion."""

@@ -45,9 +45,27 @@ def test_the_refined_instance_continues_from_run_to_run() -> None:
     assert 0.0 < first.accuracy.error < whole.accuracy.error
 
 
-def test_a_few_steps_are_not_repeated() -> None:
+@pytest.mark.parametrize("ends", [[1.0, 1.05, 2.0], list(0.05 * np.arange(1, 41))])
+def test_short_runs_are_checked_and_do_not_end_the_refined_one(ends: list[float]) -> None:
+    """They were not, and ended it, so that the error of all runs before them was forgotten."""
     simulation = Simulation(swing())
-    assert simulation.run(0.35, 0.05, **QUIET).accuracy.compared_step is None
+    for end in ends:
+        run = simulation.run(end, 0.01, estimate_error=True, **QUIET)
+    whole = mbs.simulate(swing(), 2.0, 0.01, estimate_error=True, **QUIET)
+    assert run.accuracy.sensors == pytest.approx(whole.accuracy.sensors, rel=0.05)
+
+
+def test_a_loop_of_short_runs_that_is_wrong_is_reported() -> None:
+    """A controller that acts every fifth step: nothing else shows that the steps are too long."""
+    simulation = Simulation(swing(0.05))
+
+    def controlled() -> None:
+        for end in 0.1 * np.arange(1, 41):
+            push = float(np.clip(1.0 - simulation.sensors["y"], -20.0, 20.0))
+            simulation.run(end, 0.02, inputs={"push": push}, **QUIET)
+
+    with pytest.warns(mbs.AccuracyWarning, match="off by"):
+        controlled()
 
 
 def test_a_tolerance_holds_across_switches() -> None:

@@ -11,8 +11,8 @@ typedef enum { ALI3_ROUND_OFF_INDEX_3 = 0, ALI3_ROUND_OFF_COLLOCATION, ALI3_ROUN
 
 typedef struct {
   /* Makes a step from in->now, after ali3_inputs_begin. in->next is a copy of in->now, so that it has values that a
-   * method does not change, such as switches. A completed step ends with ali3_accept; a refused one returns its status
-   * and leaves in->now unchanged, or has called ali3_back_up before it changed it. A step does not allocate, counts
+   * method does not change, such as switches. A completed step ends with ali3_accept, after which in->next is its start; a refused one returns its
+   * status and leaves in->now unchanged, or has called ali3_back_up before it changed it. A step does not allocate, counts
    * iterations, factorizations and solves in in->report and does not accept NaN. */
   ali3_status (*step)(ali3_instance *in, const ali3_request *request);
   /* The following may be NULL. */
@@ -37,6 +37,7 @@ typedef struct {
   /* Its steps write all of q, qd, qdd and lam of in->next and, of rigid Systems, past_a and past_lam, which are not
    * copied before. */
   bool fills;
+  bool locates_events; /* its steps ask ali3_contact_event before they are accepted; otherwise advance.c asks then */
   double stable_rate; /* of an explicit method: largest stable step times rate, for negative real rates; otherwise 0 */
   ali3_round_off round_off; /* of its equations */
 } ali3_method;

@@ -238,7 +238,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
                                 .out = to->out,
                                 .potential = to->potential};
   ali3_forces_accept(in, &call);
-  if (ali3_contact_event(in, request) || ali3_divides(in, request)) return ALI3_UNRESOLVED;
+  if (ali3_contact_event(in, request, from, to) || ali3_divides(in, request)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: the next step needs the multipliers of the balance (20) */
   ali3_constraint_rate(in, to->q, to, in->step.Phit);
@@ -262,6 +262,7 @@ const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
                                        .has_guides_work = ali3_always,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .fills = true,
+                                       .locates_events = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};
 
 const ali3_method ali3_method_generalised_alpha = {.step = ali3_augmented_lagrangian,
@@ -270,4 +271,5 @@ const ali3_method ali3_method_generalised_alpha = {.step = ali3_augmented_lagran
                                                    .balance_decides = true,
                                                    .has_guides_work = projects,
                                                    .owner = ALI3_METHOD_GENERALISED_ALPHA,
+                                                   .locates_events = true,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

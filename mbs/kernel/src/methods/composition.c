@@ -34,10 +34,9 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   }
   in->report.last_iterations = iterations;
   in->report.max_iterations = iterations > most_iterations ? iterations : most_iterations;
+  ali3_vectors_swap(&in->next, &in->stored.whole);
   return ALI3_OK;
 }
-
-static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->stored.whole, h); }
 
 static ali3_status check_system(const ali3_instance *in) {
   const ali3_status status = ali3_needs_no_states(in);
@@ -47,7 +46,7 @@ static ali3_status check_system(const ali3_instance *in) {
 
 const ali3_method ali3_method_energy_momentum_4 = {.step = step,
                                                    .before = before,
-                                                   .motion = motion,
+                                                   .motion = ali3_energy_momentum_motion,
                                                    .has_guides_work = ali3_always,
                                                    .check_system = check_system,
                                                    .excludes =

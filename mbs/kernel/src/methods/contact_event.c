@@ -1,7 +1,7 @@
 /* Location of contact events: a step in which an end stop is met or left is divided at that time. The force has a kink
- * there, whose error by the trapezoidal rule depends on its position in the step, so that errors of two step sizes
- * would not be comparable. The time is located in the last trial step, and again in its parts. So are rows of a force
- * by table that the step passed by its acceleration, which no rate at its start shows. */
+ * there, whose error depends on its position in the step, so that errors of two step sizes would not be comparable. The
+ * time is located in the last trial step, and again in its parts. So are rows of a force by table that the step passed
+ * by its acceleration, which no rate at its start shows. */
 #include "contact_event.h"
 
 #include <math.h>
@@ -12,9 +12,7 @@
 
 enum { MAX_EVENTS = 4 }; /* in a requested step */
 
-void ali3_events_begin(ali3_instance *in, int32_t depth) {
-  in->parting.events_left = depth > 0 && in->system->nr == 0 ? MAX_EVENTS : -1;
-}
+void ali3_events_begin(ali3_instance *in, int32_t depth) { in->parting.events_left = depth > 0 ? MAX_EVENTS : -1; }
 
 /* Share of a step of h at which the length of a force by table is at the first row that its ends do not resolve, from
  * the outputs (length, force, rate) at both ends; 1 if they resolve all. */
@@ -27,8 +25,9 @@ static double share_to_row(const ali3_instance *in, int32_t element, const doubl
 }
 
 /* Share of a step of h from the outputs `from` to `to` at which the first element reports an event; 1: none does.
- * `*at_row`: whether it is a row of a table. */
-static double share_to_event(const ali3_instance *in, const double *from, const double *to, double h, bool *at_row) {
+ * `stops`: whether end stops count beside rows of tables; `*at_row`: whether it is a row. */
+static double share_to_event(const ali3_instance *in, const double *from, const double *to, double h, bool stops,
+                             bool *at_row) {
   const ali3_system *S = in->system;
   double first = 1.0;
   *at_row = false;
@@ -37,26 +36,27 @@ static double share_to_event(const ali3_instance *in, const double *from, const 
     const ali3_element_type *kind = S->el_kind[e];
     const ali3_element_size *at = S->el_size + e;
     double share = 1.0;
-    if (kind->event != NULL)
+    if (kind->event != NULL && stops)
       share = kind->event(in->parameters.el_real + at->real, at->nreal, from + at->out, to + at->out, h);
     else if (kind->resolved != NULL)
       share = share_to_row(in, e, from + at->out, to + at->out, h);
     if (!(share < first)) continue;
     first = share;
-    *at_row = kind->event == NULL;
+    *at_row = kind->resolved != NULL;
   }
   return first;
 }
 
 bool ali3_meets_event(const ali3_instance *in, const ali3_vectors *from, const ali3_vectors *to, double h) {
   bool at_row;
-  return share_to_event(in, from->out, to->out, h, &at_row) < 1.0;
+  return share_to_event(in, from->out, to->out, h, true, &at_row) < 1.0;
 }
 
-bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
+bool ali3_contact_event(ali3_instance *in, const ali3_request *request, const ali3_vectors *from,
+                        const ali3_vectors *to) {
   if (in->parting.events_left < 0) return false;
   bool at_row;
-  const double h = request->h, fraction = share_to_event(in, in->now.out, in->next.out, h, &at_row),
+  const double h = request->h, fraction = share_to_event(in, from->out, to->out, h, in->system->nr == 0, &at_row),
                near = ALI3_AT_END * in->inputs.whole_length;
   if (!(fraction * h > near && (1.0 - fraction) * h > near)) return false;
   if (in->parting.events_left == 0) {

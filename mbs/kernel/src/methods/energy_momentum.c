@@ -350,13 +350,12 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   return ali3_energy_momentum(in, request->t, request->h, 0.5, request->reading != ALI3_READ_NOTHING);
 }
 
-void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h) {
+void ali3_energy_momentum_motion(ali3_instance *in, double h) {
+  const ali3_vectors *from = &in->next;
   const bool n_past = from->history[ALI3_HISTORY_COUNT] >= 1.0 &&
                       from->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
   ali3_balance_change(in, h, n_past ? from->own : from->qd, n_past ? from->past_a : from->qdd, in->now.own);
 }
-
-static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->next, h); }
 
 /* Tabled bodies have no discrete derivatives. */
 static ali3_status check_system(const ali3_instance *in) {
@@ -367,7 +366,7 @@ const ali3_method ali3_method_energy_momentum = {.step = step,
                                                  .check_system = check_system,
                                                  .excludes = "no tabled bodies",
                                                  .before = before,
-                                                 .motion = motion,
+                                                 .motion = ali3_energy_momentum_motion,
                                                  .has_guides_work = ali3_always,
                                                  .after_unobserved = ali3_energy_momentum_report,
                                                  .owner = ALI3_METHOD_ENERGY_MOMENTUM,

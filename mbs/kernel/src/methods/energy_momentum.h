@@ -17,6 +17,6 @@ void ali3_energy_momentum_report(ali3_instance *in);
 /* Before a step of h, s, after steps of this method: in->now.own = in->now.qd in a controlled run or if h is not the
  * length of the last step; then in->now is backed up, and completed if the run is not controlled. */
 void ali3_energy_momentum_restart(ali3_instance *in, double h, bool controlled);
-/* Adds steps from `from` to in->now with total length h, s, by their carried velocities, to the accuracy measures. */
-void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h);
+/* Adds steps from in->next to in->now with total length h, s, by their carried velocities, to the accuracy measures. */
+void ali3_energy_momentum_motion(ali3_instance *in, double h);
 #endif

@@ -62,12 +62,14 @@ static void clear_sizes(const ali3_judged *judged, int32_t n, int32_t kind, doub
 void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compared *seen, double length, double energy,
                          int32_t guided, double *size) {
   double largest[ALI3_JUDGED_COUNT * KINDS] = {0.0}, range[ALI3_JUDGED_COUNT * KINDS] = {0.0};
+  double moved[ALI3_JUDGED_COUNT * KINDS] = {0.0}; /* by how much places of the other motion are off */
   bool others_move = false, only_loads = true, positions_differ = false;
   for (int32_t i = 0; i < n; i++) {
     const int32_t group = group_of(judged + i);
     if (!is_followed(seen + i)) continue;
     largest[group] = fmax(largest[group], fmax(fabs(seen[i].least), fabs(seen[i].most)));
     range[group] = fmax(range[group], seen[i].most - seen[i].least);
+    if (judged[i].kind & ALI3_JUDGED_PLACE) moved[group] = fmax(moved[group], seen[i].gap);
   }
   for (int32_t i = 0; i < n; i++) {
     const int32_t group = group_of(judged + i), unit = judged[i].unit;
@@ -81,9 +83,9 @@ void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compar
                                                         : 0.0;
     const double in_unit = fmax(largest[group], largest[group ^ 1]); /* small forces beside large ones are round-off */
     const double rest = fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(in_unit, limit), resolution);
-    size[i] = !(range[group] > rest) || !is_followed(seen + i) ? 0.0
-              : judged[i].kind & ALI3_JUDGED_LOAD              ? largest[group]
-                                                               : range[group];
+    /* places that rest in this motion, and not in the other, are compared with their way in that one */
+    const double way = range[group] > rest ? range[group] : moved[group];
+    size[i] = !(way > rest) || !is_followed(seen + i) ? 0.0 : judged[i].kind & ALI3_JUDGED_LOAD ? largest[group] : way;
     others_move |= size[i] > 0.0 && judged[i].kind & ALI3_JUDGED_ALWAYS && unit != ALI3_JUDGED_RAD;
   }
   for (int32_t i = 0; i < n; i++) {

@@ -50,6 +50,12 @@ void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vec
   memcpy(to->q, from->q, in->stored.n * sizeof(double));
 }
 
+void ali3_vectors_swap(ali3_vectors *one, ali3_vectors *other) {
+  const ali3_vectors first = *one;
+  *one = *other;
+  *other = first;
+}
+
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
   const double *end = from->q + in->stored.n, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
   const bool past = in->system->n_flexible > 0 && from->history[ALI3_HISTORY_COUNT] > 0.0;
@@ -79,8 +85,6 @@ ALI3_BY_PROCESSOR(in->system, bool, vectors_finite, (const ali3_instance *in, co
 ali3_status ali3_accept(ali3_instance *in) {
   if (!ali3_vectors_finite(in, &in->next)) return ALI3_NOT_FINITE;
   if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
-  const ali3_vectors swap = in->now;
-  in->now = in->next;
-  in->next = swap;
+  ali3_vectors_swap(&in->now, &in->next);
   return ALI3_OK;
 }

@@ -12,6 +12,8 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, ali3_pool *pool);
 bool ali3_vectors_finite(const ali3_instance *in, const ali3_vectors *v);
 /* Copies a whole state. */
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
+/* Exchanges two states without a copy. */
+void ali3_vectors_swap(ali3_vectors *one, ali3_vectors *other);
 /* Copies the vectors that a method does not write: all except positions, velocities, accelerations and multipliers, and
  * the past of the last two if steps do not write it. */
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
