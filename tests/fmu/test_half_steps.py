@@ -203,6 +203,25 @@ def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMake
     assert warnings_of(driven) == drive(host(prototype_fmu), EVERY)[1]
 
 
+@pytest.mark.parametrize("tried", [0, 3])
+def test_what_a_run_is_off_by_is_told_though_steps_of_it_are_made_again(
+    tried: int, prototype_fmu: Path, host: HostMaker
+) -> None:
+    """A master goes back after each eighth step of the fall, with or without steps that it tried: as without."""
+    driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
+    for k in range(round(SPAN / EVERY)):
+        if k % 8 == 7:
+            state = driven.slave.getFMUstate()
+            run(driven, EVERY, tried, first=k)
+            driven.slave.setFMUstate(state)
+        driven.step(k * EVERY, EVERY)
+    driven.slave.terminate()
+    (warning,) = warnings_of(driven)
+    (other,) = drive(host(prototype_fmu), EVERY)[1]
+    found, whole = (float(re.search(r"([\d.]+) %", text)[1]) for text in (warning, other))
+    assert 0.5 * whole < found < 1.5 * whole
+
+
 def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu: Path, host: HostMaker) -> None:
     driven = host(prototype_fmu).start({"initial.speed": 1.408, "throttle": 0.565, "step_size": 0.02})
     state, warnings = driven.slave.getFMUstate(), []

@@ -79,6 +79,9 @@ static bool begin_comparison(slave *s) {
   return true;
 }
 
+/* Whether there is a road. Without one errors are of order two, and also grow without abrupt forces. */
+static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system) > 0; }
+
 /* Clears the largest differences seen so far. */
 static void reset_difference(slave_half_steps *t) {
   t->difference = 0.0;
@@ -95,9 +98,25 @@ static void log_unchecked(slave *s, double time, const char *why) {
             time, why);
 }
 
+/* Forgets the differences after a time, as a state from then was set. */
+static void forget_after(slave *s, double time) {
+  slave_half_steps *t = &s->half_steps;
+  int32_t worst;
+  for (int32_t i = 0; i < t->n; i++)
+    if (t->compared[i].time > time) t->compared[i].gap = 0.0;
+  if (!(t->time > time)) return;
+  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
+  t->difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst);
+  t->time = worst < 0 ? time : t->compared[worst].time;
+}
+
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, ali3_time(s->fidelity.kernel), "a state was set");
+  const double now = ali3_time(s->fidelity.kernel);
+  t->at_start = s->completed.n == 0;
+  /* without a road the error of a start is extrapolated from its growth, which has no part that could go on */
+  t->resumed = has_road(s) && !t->at_start && now >= t->since ? fmin(SPAN, t->scheduled - now) : 0.0;
+  if ((t->remaining > 0.0 || t->n_late > 0) && !(t->resumed > 0.0)) log_unchecked(s, now, "a state was set");
   t->remaining = 0.0;
   t->scheduled = -HUGE_VAL; /* a start may have any time */
   t->n_late = 0;
@@ -107,10 +126,13 @@ void slave_half_steps_begin(slave *s) {
   t->origin = t->simulated;
   t->predicted = HUGE_VAL;
   t->checked = -HUGE_VAL;
-  t->at_start = s->completed.n == 0;
   if (!begin_comparison(s)) return;
-  reset_difference(t);
-  if (t->at_start) memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
+  if (t->at_start) {
+    reset_difference(t);
+    memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
+  } else {
+    forget_after(s, now);
+  }
   if (t->at_start && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
     ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
   const ali3_report report = get_report(s);
@@ -154,9 +176,6 @@ void slave_half_steps_free(slave *s) {
   if (s->half_steps.compared != NULL) s->memory.release(s->half_steps.compared);
   memset(&s->half_steps, 0, sizeof s->half_steps);
 }
-
-/* Whether there is a road. Without one errors are of order two, and also grow without abrupt forces. */
-static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system) > 0; }
 
 /* Number of parts into which the second motion divides a step of h that was not halved. */
 static int64_t nominal_parts(const slave *s, double h) {
@@ -308,6 +327,7 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->start_needed = starts || (t->start_needed && t->n_late > 1);
+  if (starts) t->since = begin;
   if (span > 0.0) t->scheduled = fmax(t->scheduled, begin + span * stretch(s->completed.h));
   slave_read_step(s, step->parameter, step->values);
   slave_inputs_at(s, 0.0, step->values);
@@ -372,9 +392,13 @@ static slave_status report_motion(slave *s, double now, bool ended) {
   return s->error_warned || now < t->predicted ? judged : report_prediction(s, now);
 }
 
+void slave_half_steps_settle(slave *s) {
+  if (!s->error_warned && s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
+}
+
 void slave_half_steps_end(slave *s) {
   if (s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
-  if (s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
+  slave_half_steps_settle(s);
   report_motion(s, ali3_time(s->fidelity.kernel), true);
 }
 
@@ -388,6 +412,8 @@ slave_status slave_half_steps_advance(slave *s) {
   const int64_t made = report.iterations - t->iterations;
   const double length = counted_length(s->completed.n, s->completed.h), now = ali3_time(s->fidelity.kernel);
   const int64_t halvings = report.halvings - t->halvings;
+  const double span = at_start ? start_span(s, s->completed.h) : abrupt ? SPAN : t->resumed;
+  t->resumed = 0.0;
   t->abrupt = abrupt_steps(&report);
   t->halvings = report.halvings;
   t->iterations = report.iterations;
@@ -395,10 +421,10 @@ slave_status slave_half_steps_advance(slave *s) {
   if (at_start && !(t->simulated > 0.0))
     t->spent = -start_span(s, s->completed.h); /* besides the budget of abrupt forces */
   t->simulated += length;
-  if (abrupt && !allocate(s)) return SLAVE_OK;
-  if (t->end != NULL && (abrupt || t->remaining > 0.0 || t->n_late > 0)) {
+  if (span > 0.0 && !allocate(s)) return SLAVE_OK;
+  if (t->end != NULL && (span > 0.0 || t->remaining > 0.0 || t->n_late > 0)) {
     const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
-    store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN) : 0.0, halvings);
+    store_late_step(s, now, span, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->completed.n);
   }
   return report_motion(s, now, false);
