@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED
+from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED, WRONG_ERROR
 from mbs.results import accuracy
 from mbs.results.accuracy import CLEAR, Accuracy, mean_parts, missed_fraction
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, needs_two_motions
@@ -75,7 +75,9 @@ class CoarserRuns:
         # past a singular position long steps of high order may be right while the run is wrong
         by_order = refined.is_smooth and METHOD_TABLE[settings.method].order <= 2
         for factor in coarser_step_factors(settings, refined.compared, has_states, refined.unresolved, report):
-            limit = CLEAR * (factor - 1) if by_order else CLEAR
+            # the parts of divided steps resolve what is abrupt, and have the ratio of the steps
+            clear = (1.0 - AGREED) * WRONG_ERROR if report.divisions else CLEAR
+            limit = clear * (factor - 1) if by_order else clear
             compared = self.run(factor, iterations, limit)
             if compared is None:
                 continue

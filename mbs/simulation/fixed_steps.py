@@ -77,6 +77,8 @@ def run_fixed_steps(
         simulation = start(step)
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
+        if step > h:  # a coarser run; a finer one is divided as the run that it recommends
+            simulation.instance.set_settings(part_ratio=step / h)
         stepped.append(simulation)
         if len(stepped) == 1 and is_checked and before is None:  # only coarser runs that may end early need the path
             guided, states = (len(system.arrays[name]) > 0 for name in ("gterm_row", "y0"))

@@ -77,25 +77,44 @@ static bool begin_comparison(slave *s) {
   return true;
 }
 
+/* Whether there is a road. Without one errors are of order two, and also grow without abrupt forces. */
+static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system) > 0; }
+
 /* Clears the largest differences seen so far. */
 static void reset_difference(slave_half_steps *t) {
   t->difference = 0.0;
   for (int32_t i = 0; i < t->n; i++) t->compared[i].gap = 0.0;
 }
 
-/* Logged for hosts that ask for all messages, as it is no sign of an error. */
-static void log_unchecked(slave *s, double time, const char *why) {
+/* Logged for hosts that ask for all messages, as it is no sign of an error. `goes_on`: from there. */
+static void log_unchecked(slave *s, double time, const char *why, bool goes_on) {
   if (s->error_warned || s->unchecked_logged) return;
   s->unchecked_logged = true;
-  slave_log(s, SLAVE_OK,
-            "From %.4g s on no second motion is computed, so that the error is unknown: %s. This is "
-            "reported once.",
-            time, why);
+  slave_log(s, SLAVE_OK, "From %.4g s on %s: %s. This is reported once.", time,
+            goes_on ? "the second motion begins at the first one, so that errors of earlier steps are not seen to grow"
+                    : "no second motion is computed, so that the error is unknown",
+            why);
+}
+
+/* Forgets the differences after a time, as a state from then was set. */
+static void forget_after(slave *s, double time) {
+  slave_half_steps *t = &s->half_steps;
+  int32_t worst;
+  for (int32_t i = 0; i < t->n; i++)
+    if (t->compared[i].time > time) t->compared[i].gap = 0.0;
+  if (!(t->time > time)) return;
+  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
+  t->difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst);
+  t->time = worst < 0 ? time : t->compared[worst].time;
 }
 
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, ali3_time(s->fidelity.kernel), "a state was set");
+  const double now = ali3_time(s->fidelity.kernel);
+  t->at_start = s->completed.n == 0;
+  /* without a road the error of a start is extrapolated from its growth, which has no part that could go on */
+  t->resumed = has_road(s) && !t->at_start && now >= t->since ? fmin(SPAN, t->scheduled - now) : 0.0;
+  if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, now, "a state was set", t->resumed > 0.0);
   t->remaining = 0.0;
   t->scheduled = -HUGE_VAL; /* a start may have any time */
   t->n_late = 0;
@@ -105,10 +124,13 @@ void slave_half_steps_begin(slave *s) {
   t->origin = t->simulated;
   t->predicted = HUGE_VAL;
   t->checked = -HUGE_VAL;
-  t->at_start = s->completed.n == 0;
   if (!begin_comparison(s)) return;
-  reset_difference(t);
-  if (t->at_start) memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
+  if (t->at_start) {
+    reset_difference(t);
+    memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
+  } else {
+    forget_after(s, now);
+  }
   if (t->at_start && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
     ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
   const ali3_report report = get_report(s);
@@ -153,9 +175,6 @@ void slave_half_steps_free(slave *s) {
   memset(&s->half_steps, 0, sizeof s->half_steps);
 }
 
-/* Whether there is a road. Without one errors are of order two, and also grow without abrupt forces. */
-static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system) > 0; }
-
 /* Number of parts into which the second motion divides a step of h that was not halved. */
 static int64_t nominal_parts(const slave *s, double h) {
   int64_t n = 2;
@@ -190,7 +209,7 @@ static bool begin_late_step(slave *s, const slave_late_step *step) {
   const bool rests = !(t->remaining > 0.0);
   t->start_needed = t->start_needed && !step->starts;
   if (step->span > 0.0 && budget_is_spent(t, step)) {
-    log_unchecked(s, step->end, "the time of the second motion is spent");
+    log_unchecked(s, step->end, "the time of the second motion is spent", false);
   } else if (step->span > 0.0 && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
     t->remaining = fmax(t->remaining, step->span);
@@ -217,7 +236,7 @@ static void log_conclusion(slave *s, const slave_late_step *step, double differe
   snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
            disagree(difference) ? "the time of the second motion is spent; " : "", (double)step->parts,
            100.0 * difference, grows);
-  log_unchecked(s, step->end, why);
+  log_unchecked(s, step->end, why, false);
 }
 
 /* Compares both motions at the end of a late step. */
@@ -263,7 +282,7 @@ static int64_t advance_second(slave *s) {
       compare(s, step);
     } else {
       t->remaining = 0.0;
-      log_unchecked(s, step->end, "a step of it failed");
+      log_unchecked(s, step->end, "a step of it failed", false);
     }
   }
   t->n_made = 0;
@@ -306,6 +325,7 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->start_needed = starts || (t->start_needed && t->n_late > 1);
+  if (starts) t->since = begin;
   if (span > 0.0) t->scheduled = fmax(t->scheduled, begin + span * stretch(s->completed.h));
   slave_read_step(s, step->parameter, step->values);
   slave_inputs_at(s, 0.0, step->values);
@@ -370,9 +390,13 @@ static slave_status report_motion(slave *s, double now, bool ended) {
   return s->error_warned || now < t->predicted ? judged : report_prediction(s, now);
 }
 
+void slave_half_steps_settle(slave *s) {
+  if (!s->error_warned && s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
+}
+
 void slave_half_steps_end(slave *s) {
   if (s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
-  if (s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
+  slave_half_steps_settle(s);
   report_motion(s, ali3_time(s->fidelity.kernel), true);
 }
 
@@ -386,6 +410,8 @@ slave_status slave_half_steps_advance(slave *s) {
   const int64_t made = report.iterations - t->iterations;
   const double length = counted_length(s->completed.n, s->completed.h), now = ali3_time(s->fidelity.kernel);
   const int64_t halvings = report.halvings - t->halvings;
+  const double span = at_start ? start_span(s, s->completed.h) : abrupt ? SPAN : t->resumed;
+  t->resumed = 0.0;
   t->abrupt = abrupt_steps(&report);
   t->halvings = report.halvings;
   t->iterations = report.iterations;
@@ -393,10 +419,10 @@ slave_status slave_half_steps_advance(slave *s) {
   if (at_start && !(t->simulated > 0.0))
     t->spent = -start_span(s, s->completed.h); /* besides the budget of abrupt forces */
   t->simulated += length;
-  if (abrupt && !allocate(s)) return SLAVE_OK;
-  if (t->end != NULL && (abrupt || t->remaining > 0.0 || t->n_late > 0)) {
+  if (span > 0.0 && !allocate(s)) return SLAVE_OK;
+  if (t->end != NULL && (span > 0.0 || t->remaining > 0.0 || t->n_late > 0)) {
     const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
-    store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN) : 0.0, halvings);
+    store_late_step(s, now, span, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ALI3_MOST_PARTS * s->completed.n);
   }
   return report_motion(s, now, false);

@@ -158,7 +158,8 @@ typedef struct { /* the second motion, with at most half the step, see half_step
   double *output, *size;
   slave_late_step *late; /* ring of n_late late steps; the oldest is `first` */
   size_t first, n_late;
-  double scheduled; /* s: time up to which the second motion runs at least */
+  double since, scheduled; /* s: times from which and up to which the second motion runs at least */
+  double resumed; /* s, for which it goes on from a state that was set; 0: it does not */
   int64_t n_made; /* inner steps of the second motion in the first late step */
   int64_t iterations, cost; /* of the first motion so far; of the last inner step of the second motion */
   double remaining, spent, simulated; /* s: still to run by the second motion, 0: it rests; run by it; by the first */
@@ -407,7 +408,10 @@ void slave_end_ramps(slave *s);
 /* After a completed communication step, before its slopes are cleared: advances the second motion; warns of a large
  * error. */
 slave_status slave_half_steps_advance(slave *s);
-/* Ends the second motion, as a state was set or initialised; from a start on it may run again. */
+/* Before a state is set: computes the late steps, as what they show holds for the steps before that state. */
+void slave_half_steps_settle(slave *s);
+/* Begins the second motion again, as a state was set or initialised: from a start, or for the time that was left; what
+ * it has found before that state is kept. */
 void slave_half_steps_begin(slave *s);
 /* Updates the ranges of the compared outputs. */
 void slave_half_steps_observe(slave *s);

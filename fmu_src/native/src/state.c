@@ -201,6 +201,7 @@ static slave_status read_state(slave *s, const unsigned char *bytes, size_t size
   if (head.intermediate_n > 0 && !slave_intermediate_reserve(s, head.intermediate_n))
     return slave_log(s, SLAVE_ERROR, "There is not enough memory for a state.");
   const unsigned char *texts = bytes + slave_size() - texts_size();
+  slave_half_steps_settle(s);
   if (!restore_kernel(s, &head, texts, bytes + slave_size(), size - slave_size())) return SLAVE_ERROR;
   s->calls.phase = (slave_phase)head.phase;
   s->calls.initialised = (int32_t)head.initialised;

@@ -20,6 +20,7 @@ class SettingsFields(Structure):
         ("method", c_int32),
         ("predictor", c_int32),
         ("step_iterations", c_int32),
+        ("part_ratio", c_double),
     )
 
 

@@ -158,6 +158,8 @@ typedef struct {
   int32_t predictor; /* ALI3_PREDICTOR_*: start value of a step of ALi3-P */
   int32_t step_iterations; /* of ALi3-P and generalised-alpha: most iterations of a step, whose iterate is then accepted
                               as it is; 0: no such limit */
+  double part_ratio; /* step over that of the run that this one checks: parts of divided steps have the same ratio, so
+                        that both do not share the error of equal parts; 1: checks none */
 } ali3_settings;
 
 typedef struct {

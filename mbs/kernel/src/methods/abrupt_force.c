@@ -50,7 +50,7 @@ bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_
 
 /* Change of a force relative to the largest one above which parts of the present step are halved. */
 static double change_limit(const ali3_instance *in, double rate) {
-  return fmin(rate * in->inputs.whole_length, ABRUPT);
+  return fmin(rate * in->inputs.whole_length, ABRUPT * in->settings.part_ratio);
 }
 
 /* Whether there is room to divide a step at an abrupt force, which counts as an abrupt step. */
@@ -86,7 +86,7 @@ static double change_over_limit(const ali3_instance *in, double *changed) {
   }
   *changed = fmax(fmax(changes[TYRE], changes[CONTACT]), changes[STOP]);
   largest_force = fmax(largest_force, largest_load);
-  const double load = relative_change(changes[TYRE], ABRUPT * largest_load),
+  const double load = relative_change(changes[TYRE], ABRUPT * in->settings.part_ratio * largest_load),
                force = relative_change(changes[CONTACT], change_limit(in, CONTACT_RATE) * largest_force),
                stop = relative_change(changes[STOP], change_limit(in, STOP_RATE) * largest_force);
   return fmax(fmax(load, force), stop);

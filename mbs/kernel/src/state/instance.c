@@ -67,7 +67,8 @@ ali3_settings ali3_default_settings(void) {
                                   .geometric = 1,
                                   .method = ALI3_METHOD_ALI3P,
                                   .predictor = ALI3_PREDICTOR_PARABOLA,
-                                  .step_iterations = 0};
+                                  .step_iterations = 0,
+                                  .part_ratio = 1.0};
   return settings;
 }
 
@@ -78,10 +79,10 @@ static bool limit_valid(const ali3_settings *s) {
 }
 
 bool ali3_settings_valid(const ali3_settings *s) {
-  return limit_valid(s) && s->alpha >= 0.0 && s->alpha < 1e300 && s->eps_rel > 0.0 && s->eps_rel < 1e300 &&
-         s->tolerance_r > 0.0 && s->tolerance_r < 1e300 && s->tolerance_phi > 0.0 && s->tolerance_phi < 1e300 &&
-         s->max_iterations >= 1 && s->max_iterations <= 1000 && s->max_halvings >= 0 && s->max_halvings <= 16 &&
-         (s->project == 0 || s->project == 1) &&
+  return limit_valid(s) && s->part_ratio > 0.0 && s->part_ratio < 1e300 && s->alpha >= 0.0 && s->alpha < 1e300 &&
+         s->eps_rel > 0.0 && s->eps_rel < 1e300 && s->tolerance_r > 0.0 && s->tolerance_r < 1e300 &&
+         s->tolerance_phi > 0.0 && s->tolerance_phi < 1e300 && s->max_iterations >= 1 && s->max_iterations <= 1000 &&
+         s->max_halvings >= 0 && s->max_halvings <= 16 && (s->project == 0 || s->project == 1) &&
          (s->update == ALI3_UPDATE_LINEARISED || s->update == ALI3_UPDATE_PAPER) &&
          (s->geometric == 0 || s->geometric == 1) && s->rho_infinity >= 0.0 && s->rho_infinity <= 1.0 &&
          s->method >= 0 && s->method < ALI3_METHOD_COUNT && s->predictor >= 0 && s->predictor < ALI3_PREDICTOR_COUNT;
