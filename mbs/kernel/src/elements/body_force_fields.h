@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a force. Written by `python -m mbs.elements.fields_in_c` from BodyForce. */
 /* Signals: point (3 or 2), axes (9 or 2). */
-/* Outputs: none */
 #ifndef ALI3_BODY_FORCE_FIELDS_H
 #define ALI3_BODY_FORCE_FIELDS_H
 #include "element.h"

@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a torque. Written by `python -m mbs.elements.fields_in_c` from BodyTorque. */
 /* Signals: frame (9 or 2). */
-/* Outputs: none */
 #ifndef ALI3_BODY_TORQUE_FIELDS_H
 #define ALI3_BODY_TORQUE_FIELDS_H
 #include "element.h"

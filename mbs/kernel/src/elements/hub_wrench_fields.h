@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a wrench. Written by `python -m mbs.elements.fields_in_c` from HubWrench. */
 /* Signals: centre (3), axis (3), spin (1). */
-/* Outputs: power (W), power of force and moment on wheel and carrier together */
 #ifndef ALI3_HUB_WRENCH_FIELDS_H
 #define ALI3_HUB_WRENCH_FIELDS_H
 #include "element.h"
@@ -14,6 +13,11 @@ enum {
   MOMENT_Y, /* Index of an input. */
   MOMENT_Z, /* Index of an input. */
   HUB_WRENCH_INTEGERS
+};
+enum {
+  /* Power of force and moment on wheel and carrier together, W. */
+  HUB_WRENCH_OUT_POWER,
+  HUB_WRENCH_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_integer hub_wrench_integers[] = {

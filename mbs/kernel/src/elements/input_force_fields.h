@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of an input force. Written by `python -m mbs.elements.fields_in_c` from InputForce. */
 /* Signals: any number. */
-/* Outputs: none */
 #ifndef ALI3_INPUT_FORCE_FIELDS_H
 #define ALI3_INPUT_FORCE_FIELDS_H
 #include "element.h"
