@@ -3,8 +3,6 @@
 All steps between two samples are one call into its compiled code; nothing is rendered or logged.
 """
 
-from __future__ import annotations
-
 import time
 
 import mujoco

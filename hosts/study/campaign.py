@@ -1,7 +1,5 @@
 """Runs a study: reads its file, makes its runs and writes its table."""
 
-from __future__ import annotations
-
 import json
 import sys
 import time as clock

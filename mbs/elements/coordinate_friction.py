@@ -1,7 +1,5 @@
 """Coulomb friction on one coordinate that holds by sticking."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Gyroscopic moment of a wheel that is reduced to one coordinate."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

@@ -1,7 +1,5 @@
 """Force and moment on the hub of a wheel, given by inputs instead of a tyre."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Spring and damper on one coordinate."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Torque between a wheel and its carrier, given by an input."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

@@ -1,7 +1,5 @@
 """Craig-Bampton reduction with the floating frame clamped at a reference node."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

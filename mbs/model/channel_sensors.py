@@ -1,7 +1,5 @@
 """Sensors of inputs, guides and the solver, constants, and notices of a run."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Constants of a model for the users of its System."""
 
-from __future__ import annotations
-
 from mbs.common.checks import number, shown, text
 from mbs.model.records import Constant
 from mbs.model.register import Register

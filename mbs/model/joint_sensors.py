@@ -1,7 +1,5 @@
 """Sensors of joints: forces and moments from the multipliers of their rows."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Instance of a System in the kernel that is stepped, with its counters."""
 
-from __future__ import annotations
-
 from mbs.common.checks import instance_of
 from mbs.results.run_report import Report
 from mbs.settings.settings import Settings

@@ -1,7 +1,5 @@
 """Constant or driven distance between two points: a massless rod is one row."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 
