@@ -22,17 +22,6 @@ static dual secant(dual y, dual x, double limit) {
   return (dual){value, (y.k - value * x.k) / x.v, (y.t - value * x.t) / x.v};
 }
 
-operating_point ali3_magic_operating_point(const ali3_magic_state *s) {
-  const double *c = s->c, nominal = s->nominal_load * c[ALI3_MF_LFZO];
-  const bool is_mf6 = s->version >= ALI3_MAGIC_61;
-  return (operating_point){.nominal = nominal,
-                           .dfz = (s->load - nominal) / nominal,
-                           .dpi = s->pressure,
-                           .is_mf6 = is_mf6,
-                           .gamma_star = is_mf6 ? ali3_sin(s->camber) : s->camber,
-                           .sliding_factor = 1.0 / (1.0 + c[ALI3_MF_LMUV] * s->slide / c[ALI3_MF_LONGVL])};
-}
-
 /* 4.E8 with A_mu = 10: shifts vanish more slowly than friction. */
 static double find_shift_friction(const operating_point *op, double lambda_mu) {
   return op->is_mf6 ? 10.0 * lambda_mu / (1.0 + 9.0 * lambda_mu) : lambda_mu;
@@ -228,7 +217,7 @@ static double find_trail_force(const ali3_magic_state *s, const operating_point 
 }
 
 void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, ali3_magic_force *out) {
-  const operating_point op = ali3_magic_operating_point(s);
+  const operating_point op = make_operating_point(s);
   const double cosine_alpha = 1.0 / sqrt(1.0 + tangent * tangent);
   const dual slip = {kappa, 1.0, 0.0}, tangential = {tangent, 0.0, 1.0};
   const dual alpha = op.is_mf6 ? tangential : arctan(tangential); /* 4.E3 */

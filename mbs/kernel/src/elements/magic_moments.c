@@ -114,7 +114,7 @@ static double evaluate_rolling_resistance(const ali3_magic_state *s, const opera
 }
 
 void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_magic_force *out) {
-  const operating_point op = ali3_magic_operating_point(s);
+  const operating_point op = make_operating_point(s);
   out->Mx = evaluate_overturning_moment(s, &op, acting[1]);
   out->My = evaluate_rolling_resistance(s, &op, acting[0]);
   out->Mz += out->arm * (acting[0] - out->F[0]) - out->trail * (acting[1] - out->F[1]);

@@ -57,7 +57,16 @@ typedef struct {
 } operating_point;
 
 /* Quantities that both directions use. */
-operating_point ali3_magic_operating_point(const ali3_magic_state *s);
+static inline operating_point make_operating_point(const ali3_magic_state *s) {
+  const double *c = s->c, nominal = s->nominal_load * c[ALI3_MF_LFZO];
+  const bool is_mf6 = s->version >= ALI3_MAGIC_61;
+  return (operating_point){.nominal = nominal,
+                           .dfz = (s->load - nominal) / nominal,
+                           .dpi = s->pressure,
+                           .is_mf6 = is_mf6,
+                           .gamma_star = is_mf6 ? ali3_sin(s->camber) : s->camber,
+                           .sliding_factor = 1.0 / (1.0 + c[ALI3_MF_LMUV] * s->slide / c[ALI3_MF_LONGVL])};
+}
 
 /* Aligning moment, trail and lever of the longitudinal force, 4.E71 to 4.E78. trail_force: lateral force, N, that acts
  * at the trail. */
