@@ -167,6 +167,7 @@ def _with_inertia_modes(fixed: FixedInterface, dynamic: np.ndarray) -> tuple[np.
 
 
 def _static_names(fixed: FixedInterface) -> list[str]:
+    """Names of the static modes: node and axis of the unit motion."""
     names = []
     for interface in fixed.interfaces:
         node = fixed.model.names[fixed.model.node(interface.node)]
@@ -176,6 +177,7 @@ def _static_names(fixed: FixedInterface) -> list[str]:
 
 
 def _interface_modes(fixed: FixedInterface, origin: np.ndarray) -> dict[str, InterfaceModes]:
+    """Columns of the modes that move each interface, by the name of its node. `origin`: of the floating frame, m."""
     modes, column = {}, 0
     for interface in fixed.interfaces:
         node = fixed.model.node(interface.node)

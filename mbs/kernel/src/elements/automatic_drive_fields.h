@@ -54,11 +54,11 @@ enum {
   ENGAGE_TIME,
 };
 enum {
-  THROTTLE, /* Index of an input. */
+  THROTTLE, /* Index of the input. */
   GEARS, /* Number of items with 1 real each. */
-  SELECTOR, /* Index of an input. */
-  REQUEST, /* Index of an input, -1: none. */
-  CLUTCH, /* Index of an input. */
+  SELECTOR, /* Index of an input, the selector. */
+  REQUEST, /* Index of an input, the request, -1: none. */
+  CLUTCH, /* Index of an input, the clutch. */
   AUTOMATIC_DRIVE_INTEGERS
 };
 enum {

@@ -6,9 +6,9 @@
 #include "element.h"
 
 enum {
-  FIRST, /* Index of an input, -1: none. */
-  SECOND, /* Index of an input, -1: none. */
-  THIRD, /* Index of an input, -1: none. */
+  FIRST, /* Index of an entry of the inputs, -1: none. */
+  SECOND, /* Index of an entry of the inputs, -1: none. */
+  THIRD, /* Index of an entry of the inputs, -1: none. */
   BODY_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -6,10 +6,10 @@
 #include "element.h"
 
 enum {
-  FIRST, /* Index of an input, -1: none. */
-  SECOND, /* Index of an input, -1: none. */
-  THIRD, /* Index of an input, -1: none. */
-  AXES, /* A choice. */
+  FIRST, /* Index of an entry of the inputs, -1: none. */
+  SECOND, /* Index of an entry of the inputs, -1: none. */
+  THIRD, /* Index of an entry of the inputs, -1: none. */
+  AXES, /* The axes. */
   BODY_TORQUE_INTEGERS
 };
 #ifndef ALI3_WIDTH

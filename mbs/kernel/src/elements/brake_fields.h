@@ -21,9 +21,9 @@ enum {
   BRAKE_REALS
 };
 enum {
-  PEDAL, /* Index of an input. */
-  HAND, /* Index of an input, -1: none. */
-  BY_SIZE, /* A choice. */
+  PEDAL, /* Index of the input. */
+  HAND, /* Index of an input, the hand brake, -1: none. */
+  BY_SIZE, /* The choice of a size as the input. */
   BRAKE_INTEGERS
 };
 enum {

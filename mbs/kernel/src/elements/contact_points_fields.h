@@ -25,7 +25,7 @@ enum {
   CONTACT_POINTS_REALS
 };
 enum {
-  ROAD, /* Index of a road. */
+  ROAD, /* Index of the road. */
   POINTS, /* Number of items with 3 reals and 4 states each. */
   CONTACT_POINTS_INTEGERS
 };

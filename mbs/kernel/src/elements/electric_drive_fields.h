@@ -36,8 +36,8 @@ enum {
   ELECTRIC_DRIVE_REALS
 };
 enum {
-  THROTTLE, /* Index of an input. */
-  SELECTOR, /* Index of an input. */
+  THROTTLE, /* Index of the input. */
+  SELECTOR, /* Index of an input, the selector. */
   ELECTRIC_DRIVE_INTEGERS
 };
 enum {

@@ -6,12 +6,12 @@
 #include "element.h"
 
 enum {
-  FORCE_X, /* Index of an input. */
-  FORCE_Y, /* Index of an input. */
-  FORCE_Z, /* Index of an input. */
-  MOMENT_X, /* Index of an input. */
-  MOMENT_Y, /* Index of an input. */
-  MOMENT_Z, /* Index of an input. */
+  FORCE_X, /* Index of an entry of the inputs. */
+  FORCE_Y, /* Index of an entry of the inputs. */
+  FORCE_Z, /* Index of an entry of the inputs. */
+  MOMENT_X, /* Index of an entry of the inputs. */
+  MOMENT_Y, /* Index of an entry of the inputs. */
+  MOMENT_Z, /* Index of an entry of the inputs. */
   HUB_WRENCH_INTEGERS
 };
 enum {

@@ -6,7 +6,7 @@
 #include "element.h"
 
 enum {
-  INPUT, /* Index of an input. */
+  INPUT, /* Index of the input. */
   INPUT_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH

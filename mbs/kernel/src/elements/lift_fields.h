@@ -13,8 +13,8 @@ enum {
   LIFT_REALS
 };
 enum {
-  WIND_SPEED, /* Index of an input. */
-  WIND_HEADING, /* Index of an input. */
+  WIND_SPEED, /* Index of an input, the speed of the air. */
+  WIND_HEADING, /* Index of an input, the heading of the air. */
   LIFT_INTEGERS
 };
 enum {

@@ -54,10 +54,10 @@ enum {
   BORE = MAGIC_TYRE_REALS + 178,
 };
 enum {
-  ROAD, /* Index of a road. */
-  VERSION, /* A choice. */
-  COMBINATION, /* A choice. */
-  WITH_BORE, /* A choice. */
+  ROAD, /* Index of the road. */
+  VERSION, /* The version. */
+  COMBINATION, /* The combination. */
+  WITH_BORE, /* The number of bore torques. */
   MAGIC_TYRE_INTEGERS
 };
 enum {

@@ -11,7 +11,7 @@ enum {
   SPIN_TORQUE_REALS
 };
 enum {
-  INPUT, /* Index of an input. */
+  INPUT, /* Index of the input. */
   SPIN_TORQUE_INTEGERS
 };
 enum {

@@ -50,8 +50,8 @@ enum {
   TYRE_BORE = TYRE_REALS,
 };
 enum {
-  TYRE_ROAD, /* Index of a road. */
-  TYRE_WITH_BORE, /* A choice. */
+  TYRE_ROAD, /* Index of the road. */
+  TYRE_WITH_BORE, /* The number of bore torques. */
   TYRE_INTEGERS
 };
 enum {
