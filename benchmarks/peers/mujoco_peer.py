@@ -43,7 +43,7 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
 
 
 def integrators(scene: str) -> tuple[str, ...]:
-    """Integrators of a scene."""
+    """Integrators that compute a scene: the same for all."""
     return INTEGRATORS
 
 

@@ -37,7 +37,6 @@ class CoordinateFriction(Element):
     )
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         force, sticking = self._outputs
         force = replace(force, unit=text(self.unit, f"The unit of {self._label(name)}"))
         return self._record(name, (coordinate,), outputs=(force, sticking))

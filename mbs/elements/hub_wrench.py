@@ -27,6 +27,5 @@ class HubWrench(Element):
     _outputs = (Output("power", "W", "power of force and moment on wheel and carrier together"),)
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         label = self._label(name)
         return self._record(name, wheel_signals(centre, axis, spin, label), check_inputs(self.inputs, 6, label))

@@ -37,7 +37,6 @@ class ScalarSpringDamper(Element):
     _elastic = True
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         (force,) = self._outputs
         force = replace(force, unit=text(self.unit, f"The unit of {self._label(name)}"))
         return self._record(name, (coordinate,), outputs=(force,))

@@ -30,5 +30,4 @@ class SpinTorque(Element):
     )
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         return self._record(name, (*carrier_signals(f, g, self._label(name)), spin), (self.input,))

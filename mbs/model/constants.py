@@ -6,7 +6,7 @@ from mbs.model.register import Register
 
 
 class ConstantVocabulary(Register):
-    """Vocabulary of constants."""
+    """Calls that add constants to a model."""
 
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
         """A number about the model that its users need and its equations do not, such as a wheelbase.

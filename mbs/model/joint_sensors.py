@@ -20,7 +20,7 @@ from mbs.model.sensors import SensorVocabulary
 
 
 class JointSensorVocabulary(SensorVocabulary):
-    """Sensors of joints."""
+    """Calls that add sensors of forces, torques and gaps in joints."""
 
     def sense_joint(
         self,

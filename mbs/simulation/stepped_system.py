@@ -50,7 +50,6 @@ class SteppedSystem(SystemInstance):
         return text + remedy if (text := self.instance.start_text()) else ""
 
     def change_settings(self, settings: Settings) -> None:
-        """Change the settings."""
         instance_of(Settings, settings, "The settings", "Settings(...)")
         self.instance.set_settings(**settings.kernel_fields())
         self.settings = settings

@@ -26,7 +26,7 @@ def end_point(model: BodyVocabulary, end: End, subject: str) -> tuple[AffineVect
 
 
 def end_body(end: End, subject: str) -> Body:
-    """The body of an end."""
+    """The body at an end of a rod, also if its point slides."""
     return end.body if isinstance(end, SlidingPoint) else body_and_point(end, subject, ENDS)[0]
 
 

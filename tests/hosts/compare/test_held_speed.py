@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
+from hosts.compare.measured_speed import make_speed_holder
 from hosts.compare.plausibility import scale_mistake
 from hosts.compare.replay import follower_demand
-from hosts.compare.measured_speed import make_speed_holder
 from hosts.compare.segments import Segment
 from hosts.compare.windows import held_speed_text
 from hosts.driving.manoeuvre import Manoeuvre
