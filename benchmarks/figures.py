@@ -8,7 +8,7 @@ themselves; this one writes these charts, and tables that no other command makes
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 
 import mbs
@@ -165,32 +165,55 @@ def output_count() -> list[RemadeTable]:
 
 def trust_sentences() -> list[RemadeTable]:
     """Sentences of the page on trust, from its tables and tables of other pages."""
-    page, column = "docs/trust.md", "10 ms"
-    kerb, period = (rows_of(between(read(page), f"trust {name}")) for name in ("kerb", "frequency"))
+    sentences = [*_trust_table_sentences(), *_car_error_sentences(), *_fidelity_sentences(), *_held_input_sentences()]
+    return [RemadeTable("docs/trust.md", sentence.replace("%", " %").replace("  %", " %")) for sentence in sentences]
+
+
+def _worst(cells: Iterable[str]) -> str:
+    """The cell with the largest number, which is its first word."""
+    return max(cells, key=lambda cell: float(cell.split()[0]))
+
+
+def _trust_table_sentences() -> list[str]:
+    """Errors at kerbs and of a frequency, from the tables of the page on trust."""
+    kerb, period = (rows_of(between(read("docs/trust.md"), f"trust {name}")) for name in ("kerb", "frequency"))
     frequency_error = next(float(row["frequency error"]) for row in period if row["steps in a period"] == "20")
+    largest = max(float(row["10 ms"]) for row in kerb)
+    return [
+        f"wheel loads to {largest:.1%} at 10 ms up to {kerb[-1]['speed m s']} m/s",
+        f"20 steps in a period: {frequency_error:.1%} of the frequency",
+    ]
+
+
+def _car_error_sentences() -> list[str]:
+    """Errors of the car at 10 ms, from the page on speed."""
+    car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read(SPEED), "car"))}
+    errors = {name: row[accuracy.ERROR_COLUMN].split(", ") for (name, h), row in car_rows.items() if h == "10"}
+    hard = [errors[accuracy.TITLES[name]] for name in error_limits.HARD]
+    path, load = (_worst(cells[k] for cells in hard) for k in (0, 1))
+    fastest = max(map(error_limits.largest_acceleration, error_limits.HARD))
+    return [
+        f"path to {path} of its length, loads to {load} at 10 ms, up to {fastest:.0f} m/s²",
+        f"wheel loads to {errors[accuracy.TITLES['drop']][1]} at 10 ms, a fall of 0.5 m",
+    ]
+
+
+def _fidelity_sentences() -> list[str]:
+    """Errors of the chosen fidelities, from the page on the flexible car."""
     chosen = rows_of(between(read("docs/flexible_car.md"), "cheapest"))[1:]
     moments = [(r["error"], *r["cheapest fidelity, step"].split(", ")) for r in chosen]
-    car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read(SPEED), "car"))}
-    car_errors = {name: row[accuracy.ERROR_COLUMN].split(", ") for (name, h), row in car_rows.items() if h == "10"}
-    fall = car_errors[accuracy.TITLES["drop"]][1]
-    hard = [car_errors[accuracy.TITLES[name]] for name in error_limits.HARD]
-    path, load = (max((errors[k] for errors in hard), key=lambda cell: float(cell.split()[0])) for k in (0, 1))
-    fastest = max(map(error_limits.largest_acceleration, error_limits.HARD))
+    return [", ".join(f"{error} at fidelity {fidelity} ({step})" for error, fidelity, step in moments)]
+
+
+def _held_input_sentences() -> list[str]:
+    """Errors of an FMU with held inputs at 10 ms, from the page on FMUs; its last row is the hardest manoeuvre."""
     held = [r for r in rows_of(between(read("docs/fmu.md"), "held inputs")) if r["h, ms"] == "10"]
-    *smooth, worst = (row["FMU, inputs held"].split(", ") for row in held)
-    path_held, load_held = (
-        max((cells[k] for cells in smooth), key=lambda cell: float(cell.split()[0])) for k in (0, 1)
-    )
-    sentences = (
-        f"wheel loads to {max(float(row[column]) for row in kerb):.1%} at {column} up to {kerb[-1]['speed m s']} m/s",
-        f"path to {path} of its length, loads to {load} at {column}, up to {fastest:.0f} m/s²",
-        f"20 steps in a period: {frequency_error:.1%} of the frequency",
-        f"wheel loads to {fall} at {column}, a fall of 0.5 m",
-        ", ".join(f"{error} at fidelity {fidelity} ({step})" for error, fidelity, step in moments),
-        f"at {column} the path to {path_held}, loads to {load_held}",
-        f"kerb, full lock and brake at once: {worst[1]} of the load",
-    )
-    return [RemadeTable(page, sentence.replace("%", " %").replace("  %", " %")) for sentence in sentences]
+    *smooth, hardest = (row["FMU, inputs held"].split(", ") for row in held)
+    path, load = (_worst(cells[k] for cells in smooth) for k in (0, 1))
+    return [
+        f"at 10 ms the path to {path}, loads to {load}",
+        f"kerb, full lock and brake at once: {hardest[1]} of the load",
+    ]
 
 
 def readme_sentences() -> list[RemadeTable]:
@@ -239,7 +262,7 @@ def hatchback_kerb_table(whole: bool) -> list[RemadeTable]:
     ]
 
 
-def naive_size_table() -> list[RemadeTable]:
+def unreduced_size_table() -> list[RemadeTable]:
     """Sizes of models without reduced coordinates and constraints."""
     text = unreduced_models.size_table([unreduced_models.sizes_of(scene)[0] for scene in unreduced_models.SCENES])
     return [RemadeTable("docs/flexible_car.md", text, "naive", ("scene",))]
@@ -265,8 +288,8 @@ WRITTEN_TABLES: dict[str, Callable[[bool], list[RemadeTable]]] = {
 }
 """Charts, and tables that no other command writes: whole with ``--write``, otherwise quick parts of them."""
 COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
-    "bending": assembly_defect_table,
-    "naive": naive_size_table,
+    "assembly defect": assembly_defect_table,
+    "unreduced models": unreduced_size_table,
     "Table 1": four_bar_table,
     "Table 2": puma_table,
     "stability": stability_margin_table,
@@ -274,11 +297,11 @@ COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
     "trust": trust_tables,
     "car": car_error_tables,
     "handling": handling_table,
-    "drawn": kinematics_and_frames,
+    "kinematics": kinematics_and_frames,
     "tables": table_suspension_errors,
     "flexible": flexible_car_tables,
     "cheapest fidelity": chosen_fidelity_table,
-    "tests of others": published_test_table,
+    "published tests": published_test_table,
     "roads": road_step_tables,
     "instructions": instruction_sentence,
     "outputs": output_count,
