@@ -89,4 +89,4 @@ def _is_placeholder(inertia: NDArray[np.float64]) -> bool:
 def _ball_inertia(mass: float) -> NDArray[np.float64]:
     """Inertia of a ball of `SOLID_DENSITY`, kg m2, shape (3, 3)."""
     radius_squared = (mass / (4.0 / 3.0 * math.pi * SOLID_DENSITY)) ** (2.0 / 3.0)
-    return 0.4 * mass * radius_squared * np.eye(3)
+    return np.asarray(0.4 * mass * radius_squared * np.eye(3))
