@@ -1,7 +1,5 @@
 """Progress bars: drawn on a terminal; in a file, lines at growing intervals."""
 
-from __future__ import annotations
-
 import sys
 import time
 from typing import Any

@@ -3,7 +3,7 @@
 import datetime
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 VALUE = 60  # characters of a value in a sentence
 SENTENCE = 400  # characters of a sentence that quotes a file
@@ -80,6 +80,11 @@ def place_text(path: Iterable[int | str]) -> str:
         else:
             text += f"[{brief(key)}]"
     return text
+
+
+def word_list(words: Sequence[str], conjunction: str = "and") -> str:
+    """``a``, ``a and b``, ``a, b and c``; empty without words."""
+    return f" {conjunction} ".join([", ".join(words[:-1]), *words[-1:]] if len(words) > 1 else words)
 
 
 def unit_text(unit: str) -> str:

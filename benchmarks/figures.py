@@ -26,6 +26,7 @@ from benchmarks.car import (
 )
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_rows, measure_table
+from benchmarks.car.trust_sentences import trust_sentences
 from benchmarks.methods import honesty, stability, stability_margins, unreduced_models
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.pictures.chart_commands import charts
@@ -163,36 +164,6 @@ def output_count() -> list[RemadeTable]:
     return [RemadeTable("docs/fmu_hosts.md", f"The rigid car has {count} outputs")]
 
 
-def trust_sentences() -> list[RemadeTable]:
-    """Sentences of the page on trust, from its tables and tables of other pages."""
-    page, column = "docs/trust.md", "10 ms"
-    kerb, period = (rows_of(between(read(page), f"trust {name}")) for name in ("kerb", "frequency"))
-    frequency_error = next(float(row["frequency error"]) for row in period if row["steps in a period"] == "20")
-    chosen = rows_of(between(read("docs/flexible_car.md"), "cheapest"))[1:]
-    moments = [(r["error"], *r["cheapest fidelity, step"].split(", ")) for r in chosen]
-    car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read(SPEED), "car"))}
-    car_errors = {name: row[accuracy.ERROR_COLUMN].split(", ") for (name, h), row in car_rows.items() if h == "10"}
-    fall = car_errors[accuracy.TITLES["drop"]][1]
-    hard = [car_errors[accuracy.TITLES[name]] for name in error_limits.HARD]
-    path, load = (max((errors[k] for errors in hard), key=lambda cell: float(cell.split()[0])) for k in (0, 1))
-    fastest = max(map(error_limits.largest_acceleration, error_limits.HARD))
-    held = [r for r in rows_of(between(read("docs/fmu.md"), "held inputs")) if r["h, ms"] == "10"]
-    *smooth, worst = (row["FMU, inputs held"].split(", ") for row in held)
-    path_held, load_held = (
-        max((cells[k] for cells in smooth), key=lambda cell: float(cell.split()[0])) for k in (0, 1)
-    )
-    sentences = (
-        f"wheel loads to {max(float(row[column]) for row in kerb):.1%} at {column} up to {kerb[-1]['speed m s']} m/s",
-        f"path to {path} of its length, loads to {load} at {column}, up to {fastest:.0f} m/s²",
-        f"20 steps in a period: {frequency_error:.1%} of the frequency",
-        f"wheel loads to {fall} at {column}, a fall of 0.5 m",
-        ", ".join(f"{error} at fidelity {fidelity} ({step})" for error, fidelity, step in moments),
-        f"at {column} the path to {path_held}, loads to {load_held}",
-        f"kerb, full lock and brake at once: {worst[1]} of the load",
-    )
-    return [RemadeTable(page, sentence.replace("%", " %").replace("  %", " %")) for sentence in sentences]
-
-
 def readme_sentences() -> list[RemadeTable]:
     """Sentences of README.md, from the tables of the pages."""
     ratios = [1.0 / float(row["ratio"]) for row in rows_of(between(read(PAPER), "ratios")) if row["ratio"] != "–"]
@@ -239,7 +210,7 @@ def hatchback_kerb_table(whole: bool) -> list[RemadeTable]:
     ]
 
 
-def naive_size_table() -> list[RemadeTable]:
+def unreduced_size_table() -> list[RemadeTable]:
     """Sizes of models without reduced coordinates and constraints."""
     text = unreduced_models.size_table([unreduced_models.sizes_of(scene)[0] for scene in unreduced_models.SCENES])
     return [RemadeTable("docs/flexible_car.md", text, "naive", ("scene",))]
@@ -265,8 +236,8 @@ WRITTEN_TABLES: dict[str, Callable[[bool], list[RemadeTable]]] = {
 }
 """Charts, and tables that no other command writes: whole with ``--write``, otherwise quick parts of them."""
 COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
-    "bending": assembly_defect_table,
-    "naive": naive_size_table,
+    "assembly defect": assembly_defect_table,
+    "unreduced models": unreduced_size_table,
     "Table 1": four_bar_table,
     "Table 2": puma_table,
     "stability": stability_margin_table,
@@ -274,11 +245,11 @@ COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
     "trust": trust_tables,
     "car": car_error_tables,
     "handling": handling_table,
-    "drawn": kinematics_and_frames,
+    "kinematics": kinematics_and_frames,
     "tables": table_suspension_errors,
     "flexible": flexible_car_tables,
     "cheapest fidelity": chosen_fidelity_table,
-    "tests of others": published_test_table,
+    "published tests": published_test_table,
     "roads": road_step_tables,
     "instructions": instruction_sentence,
     "outputs": output_count,

@@ -1,7 +1,5 @@
 """Summaries of files that were read, as tables of their quantities."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import singledispatch

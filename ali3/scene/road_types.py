@@ -34,7 +34,7 @@ class FlatRoad(Road):
 
 
 class PlaneRoad(Road):
-    """A plane road."""
+    """A road in a plane of any slope."""
 
     kind: Literal["plane"]
     point: Vector

@@ -1,7 +1,5 @@
 """Small mechanisms without external loads, for each joint and force; each function takes a rate, rad/s."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Free mechanisms with each joint and each force: errors of energy, gear ratios and angles after many steps."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Sequence
 from pathlib import Path

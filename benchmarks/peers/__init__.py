@@ -1,7 +1,5 @@
 """Other engines on the shared scenes (extra `peers`), each with its fastest settings of equal accuracy."""
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 import sys

@@ -3,8 +3,6 @@
 The functions of PyPI's `commonroad-vehicle-models` are compiled as they are, with parameters as named tuples.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import time

@@ -5,8 +5,6 @@ Euler, of order one); the chain, which has no loop, is integrated by Drake's Run
 with a ball constraint on the ground, so that Bricard's mechanism is excluded.
 """
 
-from __future__ import annotations
-
 import time
 
 import numpy as np

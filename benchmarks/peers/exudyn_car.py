@@ -6,8 +6,6 @@ the maximum gives the initial cornering stiffness of ALi3's tyre. There are no s
 Python function sets the angles of the front wheels before each step, as is usual in Exudyn.
 """
 
-from __future__ import annotations
-
 import time
 from typing import Any
 

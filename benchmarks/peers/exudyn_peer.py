@@ -3,8 +3,6 @@
 A run is one call of its compiled solver; only the position of the output point at the samples is recorded.
 """
 
-from __future__ import annotations
-
 import time
 from typing import Any
 

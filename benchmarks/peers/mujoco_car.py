@@ -5,8 +5,6 @@ Each wheel is a sphere that rolls on a plane by MuJoCo's own contact and frictio
 model, no air and no drive. A spring is compressed by `SINK` at rest. The front wheels are steered.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from typing import Any

@@ -3,8 +3,6 @@
 All steps between two samples are one call into its compiled code; nothing is rendered or logged.
 """
 
-from __future__ import annotations
-
 import time
 
 import mujoco
@@ -45,7 +43,7 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
 
 
 def integrators(scene: str) -> tuple[str, ...]:
-    """Integrators of a scene."""
+    """Integrators that compute a scene: the same for all."""
     return INTEGRATORS
 
 

@@ -4,8 +4,6 @@ Pinocchio has no integrator: the Runge-Kutta method of order 4 is a loop in Pyth
 of these compiled calls counts. Baumgarte's stabilisation is its own.
 """
 
-from __future__ import annotations
-
 import time
 
 import numpy as np

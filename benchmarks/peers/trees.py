@@ -1,7 +1,5 @@
 """The shared scenes as trees of revolute joints whose loops are closed at points, and the result of a peer's run."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

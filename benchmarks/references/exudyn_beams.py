@@ -6,8 +6,6 @@
 ``spin_up 16 5e-3``, `falling_flexible_pendulum.csv` by ``pendulum 32 1e-3``.
 """
 
-from __future__ import annotations
-
 import sys
 from math import cos, pi
 

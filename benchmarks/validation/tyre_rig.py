@@ -18,7 +18,7 @@ from mbs import Model, compile, simulate
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.road import PlaneRoad
 from mbs.elements.tyre import Tyre
-from mbs.tyre_files.fits import tmeasy_of_magic
+from mbs.tyre_files.fit_tmeasy import tmeasy_of_magic
 
 LATERAL = (1.30, -22.1, 1011.0, 1078.0, 1.82, 0.208, 0.0, -0.354, 0.707)
 LONGITUDINAL = (1.65, -21.3, 1144.0, 49.6, 226.0, 0.069, -0.006, 0.056, 0.486)

@@ -11,6 +11,7 @@ from fmu_src.variables.variables import Variable
 from mbs.roads.package_roads import FOLDER
 
 ROADS = "resources/roads"
+"""Folder of the files of roads in an FMU."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,10 @@ def text_table(meta: Mapping[str, Any], table: Sequence[Variable]) -> tuple[Text
 
 
 def road_resources(meta: Mapping[str, Any]) -> dict[str, bytes]:
-    """Files of the folder `ROADS`: the roads of the package and those the model starts on; none without a variable."""
+    """Files in `ROADS`, by their paths in the FMU: the roads of the package and those the model starts on.
+
+    Empty if no road of the model is read from a file. Raises `ValueError`: two different roads have the same name.
+    """
     files = meta.get("road_files", ())
     if not files:
         return {}

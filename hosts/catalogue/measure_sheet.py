@@ -106,7 +106,6 @@ class TestTables(_Typed):
     settings: tuple[Setting, ...] = ()
 
     def scope(self, car: TestedCar, settings: Mapping[str, float]) -> Scope:
-        """The scope of the settings and `car`."""
         return Scope({**settings, "car": car}, {**_NAMES, **self.names}, _FUNCTIONS)
 
     def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:

@@ -126,7 +126,8 @@ def _step_count(text: str) -> int:
     return steps
 
 
-def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+def _refuse_combinations(options: argparse.Namespace, parser: argparse.ArgumentParser) -> None:
+    """Raise `HostError` for options that cannot be combined, or that need another one."""
     reference = options.reference is not None
     for names, is_present, requirement in (
         (_SOAK_OPTIONS, options.soak, "--soak"),
@@ -156,19 +157,23 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         raise HostError(f"--{next(iter(report_files))} cannot be combined with {modes[0]}.")
     if options.confined and (table or options.soak):
         raise HostError(f"--confined cannot be combined with {modes[0]}.")
+
+
+def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    _refuse_combinations(options, parser)
     if options.soak:
         command_needs("simulator")
         from hosts.soak.soak import soak
 
         return soak(options, parser.prog)
-    for file in report_files.values():
+    for file in filter(None, (options.junit, options.sarif)):
         check_writable(file)
     if options.manoeuvre is not None:
         from hosts.recordings.load_manoeuvre import check_manoeuvre_option
 
         check_manoeuvre_option(options.manoeuvre)
     fmu = fmu_file(options.fmu)
-    if table:
+    if options_given(parser, options, _PARAMETER_OPTIONS):
         from hosts.check.parameters import report_parameters
 
         return report_parameters(
@@ -176,7 +181,7 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         )
     cases: list[Case] = []
     try:
-        if reference:
+        if options.reference is not None:
             return _compare_with_reference(fmu, options, cases)
         return _run_checks(fmu, options, cases)
     except BaseException as error:  # including Ctrl-C: the checks made so far are not a verdict
@@ -184,9 +189,9 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
             cases.append(Case(fmu.stem, "ali3 check", "error", str(error) or type(error).__name__))
         raise
     finally:
-        if "junit" in report_files and cases:
+        if options.junit is not None and cases:
             write_junit(options.junit, fmu.stem, cases)
-        if "sarif" in report_files and cases:
+        if options.sarif is not None and cases:
             write_sarif(options.sarif, fmu, cases)
 
 

@@ -18,7 +18,7 @@ from hosts.check.instance import REAL, Check, Finding, Subject
 from hosts.common.errors import HostError
 
 FUNCTIONS = "functions"
-CHECK = "archive"
+ARCHIVE = "archive"
 
 
 def check_description(subject: Subject) -> Finding:
@@ -146,8 +146,8 @@ def check_archive(fmu: Path) -> list[Finding]:
     if not is_file(fmu):
         raise HostError(missing_file_text(fmu))
     return [
-        Finding(CHECK, "bad", f"{fault.words} ({fault.clause})")
+        Finding(ARCHIVE, "bad", f"{fault.words} ({fault.clause})")
         if fault.clause
-        else Finding(CHECK, "note", fault.words)
+        else Finding(ARCHIVE, "note", fault.words)
         for fault in faults_of(fmu, HostError, "an FMU")
     ]

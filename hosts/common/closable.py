@@ -1,12 +1,7 @@
 """Base class of objects that a ``with`` block closes."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, NoReturn
-
-if TYPE_CHECKING:
-    from typing import Self
+from typing import NoReturn, Self
 
 
 class Closable(ABC):

@@ -52,7 +52,7 @@ def titled(name: str, unit: str) -> str:
 
 
 def number_in(value: float, unit: str, form: str = ".4g") -> str:
-    """A number with its unit."""
+    """A number with its typeset unit, for a text."""
     return f"{value:{form}} {typeset(unit)}".rstrip()
 
 

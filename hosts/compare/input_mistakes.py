@@ -3,9 +3,10 @@
 An input with the wrong sign inverts signals; a speed in the wrong unit changes the initial speed of the car.
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from dataclasses import replace
 
+from ali3.message_text import word_list
 from ali3.units import Misread, misread
 from hosts.common.errors import HostError
 from hosts.compare.comparison import ComparedSignal, Comparison
@@ -51,7 +52,7 @@ def inverted_input(task: Task, compared: Comparison, inverted: dict[str, Compare
         if len(inverted) == 1:
             return f"Or the {label} has the opposite sign: with the other sign the signal has that of the simulation."
         return (
-            f"The {label} has the opposite sign: only with the other sign {_name_list(list(inverted))} have the signs "
+            f"The {label} has the opposite sign: only with the other sign {word_list(list(inverted))} have the signs "
             "of the simulation. factor = -1.0 in the alias file changes it."
         )
     return ""
@@ -107,7 +108,3 @@ def _with_inverted_input(segment: Segment, name: str) -> Segment:
         segment,
         manoeuvre=replace(manoeuvre, inputs=dict(manoeuvre.inputs) | {name: -manoeuvre.inputs[name]}, start=start),
     )
-
-
-def _name_list(names: Sequence[str]) -> str:
-    return ", ".join(names[:-1]) + f" and {names[-1]}"

@@ -1,7 +1,5 @@
 """A log under ALi3 names, in the units of the FMU, with times in seconds."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 

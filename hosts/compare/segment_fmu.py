@@ -4,57 +4,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-import numpy as np
-from scipy.signal import savgol_filter
-
 from hosts.common.numbers import Value
+from hosts.compare.measured_speed import make_speed_holder
 from hosts.compare.segments import Segment
 from hosts.driving.co_simulation import run
-from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
 from hosts.fmu.fmu import StartRefusedError
 from hosts.fmu.fmu_source import FmuSource, LoadedFmu
-from hosts.measures.signal import Signal
-
-_PROPORTIONAL_GAIN = 4.0  # pedal per m/s; for accuracy, not comfort
-_INTEGRAL_GAIN = 4.0  # pedal per m
-_ACCELERATION_GAIN = 0.1  # pedal per m/s2
-_MAX_STEP = 0.01  # s: longest communication step at which a car of 10 m/s2 does not oscillate with these gains
-
-SLIP_LIMIT = 0.05
-"""Slip of an axle above which the driver reduces the throttle."""
-
-_WINDOW = 0.2  # s
-_DEGREE = 2
-_GAP = 0.5  # deviation of an interval that counts as a gap, of the mean interval
-
-
-def smooth_speed(speed: Signal) -> Signal:
-    """Smooth a speed by a Savitzky-Golay filter, which reduces the noise of the acceleration feedforward.
-
-    Stretches between gaps are smoothed separately; those shorter than the window are not smoothed.
-    """
-    if len(speed.values) < _DEGREE + 2:
-        return speed
-    window = 2 * round(0.5 * _WINDOW / speed.interval) + 1
-    values = speed.values.copy()
-    intervals = np.diff(speed.time)
-    gaps = np.flatnonzero(np.abs(intervals - speed.interval) > _GAP * speed.interval) + 1
-    for indices in np.split(np.arange(len(values)), gaps):
-        if len(indices) >= window > _DEGREE + 1:
-            values[indices] = savgol_filter(speed.values[indices], window, _DEGREE)
-    return replace(speed, values=values)
-
-
-def _make_speed_holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
-    speed = smooth_speed(speed)
-    proportional, integral = (gain * min(1.0, _MAX_STEP / step) for gain in (_PROPORTIONAL_GAIN, _INTEGRAL_GAIN))
-
-    def target_speed(t: float) -> float:
-        return float(np.interp(t, speed.time, speed.values))
-
-    return SpeedHolder(target_speed, proportional, integral, _ACCELERATION_GAIN, pedal=pedal, sliding=SLIP_LIMIT)
-
 
 Task: TypeAlias = tuple[int, dict[str, Value], bool | None]
 """Index of a segment, start values by ALi3 names, and `SegmentFmu.can_reset`."""
@@ -93,5 +49,5 @@ class SegmentFmu(LoadedFmu):
             self.close()
         manoeuvre = replace(segment.manoeuvre, start={**segment.manoeuvre.start, **(values or {})})
         # A pilot has a state: each run has its own.
-        driver = None if segment.speed is None else _make_speed_holder(segment.speed, segment.pedal, self._step)
+        driver = None if segment.speed is None else make_speed_holder(segment.speed, segment.pedal, self._step)
         return run(self.fresh(), manoeuvre, self._step, driver, progress)

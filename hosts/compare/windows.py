@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.deviations import rms
-from hosts.compare.segment_fmu import SLIP_LIMIT
+from hosts.compare.measured_speed import SLIP_LIMIT
 from hosts.compare.segments import PEDALS, Segment
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal

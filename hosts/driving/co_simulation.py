@@ -113,91 +113,111 @@ def run(
     if manoeuvre.find_throttle:
         manoeuvre = with_throttle(run, fmu, manoeuvre, step)
         return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last, file))
-    inputs, outputs = columns_of(fmu, manoeuvre)
-    integers = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
-    observation = Observation(fmu, outputs)
-
-    start = {**manoeuvre.start, **manoeuvre.initial(integers)}
-    fmu.initialise(start)
-    if manoeuvre.state is not None:
-        fmu.restore_bytes(manoeuvre.state)
-    acts = driver.act(0.0, observation) if driver is not None else {}
-    refuse_missing([n for n in acts if n not in inputs], fmu.path.name)
-    used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
-    held = {*integers, *acts, *manoeuvre.held, *fmu.tunable}
-    linear = [n for n in manoeuvre.inputs if n not in held] if fmu.follows_slopes else []
-    set_inputs, set_slopes = _setter(fmu, used), _slope_setter(fmu, linear)
-    steps = max(1, round(manoeuvre.stop_time / step))
-    missed_end_note = missed_end(manoeuvre.stop_time, steps, step) if until is None else None
-    rows = RecordedRows(
-        observation,
-        _start_inputs(fmu, inputs, start),
-        [inputs.index(n) for n in used],
-        [inputs.index(n) for n in linear],
-        [float(np.abs(manoeuvre.inputs[n]).max()) for n in linear],
-        every,
-        steps,
-        file,
-    )
+    loop = _Loop(fmu, manoeuvre, step, driver, every, file)
+    missed_end_note = missed_end(manoeuvre.stop_time, loop.steps, step) if until is None else None
     begin = next_progress = clock.perf_counter()
-    for k in range(steps):
-        t = k * step
-        input_values = manoeuvre.at(t, integers)
-        if driver is not None:
-            acts = acts if k == 0 else driver.act(t, observation)
-            if not all(map(math.isfinite, acts.values())):
-                raise FailedFmuError(_not_finite_text(t, acts, observation))
-            input_values |= acts
-        values = [input_values[n] for n in used]
-        if used:
-            set_inputs(values)
-        rows.begin(values)
-        if linear:
-            next_values = manoeuvre.at(t + step, integers, before=True)
-            changes = [next_values[n] - input_values[n] for n in linear]
-            rows.move([next_values[n] for n in linear], changes)
-            set_slopes([change / step for change in changes])
-        try:
-            fmu.step(manoeuvre.state_time + t, step)
-        except StepRefusedError:
-            rows.refused = True
+    for k in range(loop.steps):
+        if not loop.advance(k):
             break
-        observation.stepped()
-        rows.end()
         if (now := clock.perf_counter()) >= next_progress:
             next_progress = now + _PROGRESS_PERIOD
-            progress(rows.done)
+            progress(loop.rows.done)
             alive()
-        if until is not None and until(rows.done * step, observation):
+        if until is not None and until(loop.rows.done * step, loop.observation):
             break
     wall = clock.perf_counter() - begin
-    missed_inputs_note = missed_inputs(manoeuvre, step, linear, integers, acts)
-    progress(rows.done)
-    recorded, table = rows.close(last)
-    names = inputs + outputs
-    result = Result(
-        names=names,
-        units={n: fmu.variables[n].unit or "1" for n in names},
-        time=step * np.array(recorded, dtype=np.float64),
-        values=table,
-        wall=wall,
-        simulated=rows.done * step,
-        failed_steps=int(rows.refused),
-        messages=list(fmu.messages),
-        held=[n for n in inputs if n not in linear],
-        late=[
-            n for n in used if n not in {*linear, *integers, *fmu.tunable} and (n in acts or n not in manoeuvre.held)
-        ],
-        jumps=rows.jumps,
-        lost=[n for k, n in enumerate(inputs) if k in rows.lost],
-        missed=[
-            change for change in (manoeuvre.late_begin(acts), missed_inputs_note, missed_end_note) if change is not None
-        ],
-        start=dict(manoeuvre.start),
-    )
+    progress(loop.rows.done)
+    result = loop.result(wall, last, missed_end_note)
     if file is None:
         derive_columns(result, fmu, every > 1)
     return result
+
+
+class _Loop:
+    """Steps of one run: what is set before each of them, and the rows that are recorded."""
+
+    def __init__(
+        self, fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None, every: int, file: Path | None
+    ) -> None:
+        self._fmu, self._manoeuvre, self._step, self._driver = fmu, manoeuvre, step, driver
+        self._inputs, self._outputs = columns_of(fmu, manoeuvre)
+        self._integers = {
+            n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"
+        }
+        self.observation = Observation(fmu, self._outputs)
+        start = {**manoeuvre.start, **manoeuvre.initial(self._integers)}
+        fmu.initialise(start)
+        if manoeuvre.state is not None:
+            fmu.restore_bytes(manoeuvre.state)
+        self._acts = driver.act(0.0, self.observation) if driver is not None else {}
+        refuse_missing([n for n in self._acts if n not in self._inputs], fmu.path.name)
+        self._used = list(dict.fromkeys([*manoeuvre.inputs, *self._acts]))
+        held = {*self._integers, *self._acts, *manoeuvre.held, *fmu.tunable}
+        self._linear = [n for n in manoeuvre.inputs if n not in held] if fmu.follows_slopes else []
+        self._set_inputs, self._set_slopes = _setter(fmu, self._used), _slope_setter(fmu, self._linear)
+        self.steps = max(1, round(manoeuvre.stop_time / step))
+        self.rows = RecordedRows(
+            self.observation,
+            _start_inputs(fmu, self._inputs, start),
+            [self._inputs.index(n) for n in self._used],
+            [self._inputs.index(n) for n in self._linear],
+            [float(np.abs(manoeuvre.inputs[n]).max()) for n in self._linear],
+            every,
+            self.steps,
+            file,
+        )
+
+    def advance(self, k: int) -> bool:
+        """Set the inputs of step k and make it. Returns False if the FMU refuses it."""
+        t = k * self._step
+        input_values = self._manoeuvre.at(t, self._integers)
+        if self._driver is not None:
+            self._acts = self._acts if k == 0 else self._driver.act(t, self.observation)
+            if not all(map(math.isfinite, self._acts.values())):
+                raise FailedFmuError(_not_finite_text(t, self._acts, self.observation))
+            input_values |= self._acts
+        values = [input_values[n] for n in self._used]
+        if self._used:
+            self._set_inputs(values)
+        self.rows.begin(values)
+        if self._linear:
+            next_values = self._manoeuvre.at(t + self._step, self._integers, before=True)
+            changes = [next_values[n] - input_values[n] for n in self._linear]
+            self.rows.move([next_values[n] for n in self._linear], changes)
+            self._set_slopes([change / self._step for change in changes])
+        try:
+            self._fmu.step(self._manoeuvre.state_time + t, self._step)
+        except StepRefusedError:
+            self.rows.refused = True
+            return False
+        self.observation.stepped()
+        self.rows.end()
+        return True
+
+    def result(self, wall: float, last: bool, missed_end_note: tuple[str, str] | None) -> Result:
+        """The rows with the remarks on what was not followed. `wall`: time of the loop, s; `last`: see `run`."""
+        fmu, manoeuvre, linear, acts, rows = self._fmu, self._manoeuvre, self._linear, self._acts, self.rows
+        missed_inputs_note = missed_inputs(manoeuvre, self._step, linear, self._integers, acts)
+        recorded, table = rows.close(last)
+        names = self._inputs + self._outputs
+        followed = {*linear, *self._integers, *fmu.tunable}
+        missed = (manoeuvre.late_begin(acts), missed_inputs_note, missed_end_note)
+        return Result(
+            names=names,
+            units={n: fmu.variables[n].unit or "1" for n in names},
+            time=self._step * np.array(recorded, dtype=np.float64),
+            values=table,
+            wall=wall,
+            simulated=rows.done * self._step,
+            failed_steps=int(rows.refused),
+            messages=list(fmu.messages),
+            held=[n for n in self._inputs if n not in linear],
+            late=[n for n in self._used if n not in followed and (n in acts or n not in manoeuvre.held)],
+            jumps=rows.jumps,
+            lost=[n for k, n in enumerate(self._inputs) if k in rows.lost],
+            missed=[change for change in missed if change is not None],
+            start=dict(manoeuvre.start),
+        )
 
 
 def _start_inputs(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> list[float]:

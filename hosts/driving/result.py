@@ -45,7 +45,7 @@ class Result:
     lost: list[str] = field(default_factory=list)
     """Inputs that are not linear between rows of several steps."""
     missed: list[tuple[str, str]] = field(default_factory=list)
-    """Notes on parts of the manoeuvre that the run could not follow, see `missed_inputs` and others."""
+    """Parts of the manoeuvre that the run could not follow: subject and text."""
     notes: list[tuple[str, str]] = field(default_factory=list)
     """Other remarks on the manoeuvre: subject and text."""
     start: Mapping[str, Value] = field(default_factory=dict)

@@ -1,9 +1,11 @@
 """The record beside a table that is the result of a run, and the saved state of the FMU beside a manoeuvre."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated
+
+from pydantic import BaseModel, Field, FiniteFloat, ValidationError
 
 from ali3.files import write_bytes
 from ali3.json_reading import read_json
@@ -12,21 +14,50 @@ from ali3.reading import LARGEST_STATE, is_file, read_bytes
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 
+Length = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+"""A length of time, s."""
+
 
 @dataclass(frozen=True)
 class RunRecord:
-    """A record: first output, start values, held inputs, by row the time and inputs before a jump, initial state and
-    its time, communication step and interval of rows, s, and inputs that are not linear between rows.
-    """
+    """What a table alone does not say about the run that wrote it."""
 
     outputs_from: str = ""
+    """Name of the first output; the columns before it are inputs."""
     start: Mapping[str, Value] = field(default_factory=dict)
+    """Start values and parameters that were set."""
     held: set[str] | None = None
+    """Inputs that were constant over each step; None: unknown."""
     jumps: Mapping[int, list[float]] = field(default_factory=dict)
+    """By row: time, s, and inputs before a jump at that time."""
     state: tuple[bytes | None, float] = (None, 0.0)
+    """Saved state of the FMU in which the run began, and its time, s."""
     step: float | None = None
+    """Communication step, s."""
     interval: float = 0.0
+    """Time between rows, s."""
     lost: tuple[str, ...] = ()
+    """Inputs that are not linear between rows."""
+
+
+class _State(BaseModel):
+    """Entry of a saved state: name of its file, and time, s."""
+
+    file: str
+    time: float
+
+
+class _RecordFile(BaseModel):
+    """A record as it stands in its file; see `RunRecord`."""
+
+    outputs_from: str
+    start: dict[str, bool | int | float | str]
+    held: list[str]
+    jumps: dict[int, Annotated[list[FiniteFloat], Field(min_length=1)]]
+    state: _State | None
+    step_s: Length
+    interval_s: Length | None = None
+    lost: list[str] = []
 
 
 def rows_before_jumps(
@@ -57,21 +88,20 @@ def record_of(path: Path) -> RunRecord:
     if not isinstance(record, dict) or "outputs_from" not in record:
         return RunRecord()
     try:
-        first, start, held, state, step = (record[key] for key in ("outputs_from", "start", "held", "state", "step_s"))
-        jumps = {int(k): [float(x) for x in values] for k, values in record["jumps"].items()}
-        interval, lost = float(record.get("interval_s", step)), record.get("lost", [])
-        texts = [first, *held, *lost] if isinstance(held, list) and isinstance(lost, list) else [None]
-        sizes = (float(step), interval, *(1.0 + abs(x) for values in jumps.values() for x in values))
-        valid = all(isinstance(text, str) for text in texts) and all(0.0 < size < math.inf for size in sizes)
-        if not valid or not all(jumps.values()):
-            raise ValueError
-        if any(not isinstance(value, (bool, int, float, str)) for value in start.values()):
-            raise ValueError
-        saved = (None, 0.0) if state is None else (read_state(path.parent, state["file"], str(file)), state["time"])
-        state_and_time = saved[0], float(saved[1])
-        return RunRecord(first, start, set(held), jumps, state_and_time, float(step), interval, tuple(lost))
-    except (AttributeError, KeyError, TypeError, ValueError):
+        content = _RecordFile.model_validate(record)
+    except ValidationError:
         raise HostError(f"{file} is not a whole record of the run whose result is {path.name}; run it again.") from None
+    saved = content.state
+    return RunRecord(
+        content.outputs_from,
+        content.start,
+        set(content.held),
+        content.jumps,
+        (None, 0.0) if saved is None else (read_state(path.parent, saved.file, str(file)), saved.time),
+        content.step_s,
+        content.step_s if content.interval_s is None else content.interval_s,
+        tuple(content.lost),
+    )
 
 
 def read_state(folder: Path, name: str, where: str) -> bytes:

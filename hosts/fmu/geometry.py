@@ -53,29 +53,34 @@ def _roads(
         variables = road.get("variables") or {}
         road_file = str(settings.get(variables.get("file", road.get("variable", "")), ""))
         name = road_file or str(road.get("path", "") if road["kind"] == "file" else "")
-        if not name and road["kind"] != "file":
-            roads.append(_with_settings(road, settings))
-        elif name:
-            try:
-                file = Path(name.removeprefix("file://"))
-                world = world_beside(file)
-                road_parts = [_scene_part(name, fmu)] if world is None else world["roads"]
-                if "friction_factor" in variables:
-                    friction_variable = {"variables": {"friction_factor": variables["friction_factor"]}}
-                    road_parts = [
-                        _with_settings({"friction_factor": 1.0} | part | friction_variable, settings)
-                        for part in road_parts
-                    ]
-                roads += road_parts
-                if world is None:
-                    if road_file and world_name:
-                        why = f"{file.with_suffix('.json')} is not there; {_command_text(file)}"
-                        missing.append({"name": f"The scenery of {world_name}", "why": why})
-                else:
-                    scenery += world["scenery"]
-            except HostError as error:
-                missing.append({"name": f"The road {name}", "why": str(error).rstrip(".")})
+        if not name:
+            if road["kind"] != "file":
+                roads.append(_with_settings(road, settings))
+            continue
+        file = Path(name.removeprefix("file://"))
+        try:
+            world = world_beside(file)
+            road_parts = [_scene_part(name, fmu)] if world is None else world["roads"]
+        except HostError as error:
+            missing.append({"name": f"The road {name}", "why": str(error).rstrip(".")})
+            continue
+        roads += [_with_friction_factor(part, variables, settings) for part in road_parts]
+        if world is not None:
+            scenery += world["scenery"]
+        elif road_file and world_name:
+            why = f"{file.with_suffix('.json')} is not there; {_command_text(file)}"
+            missing.append({"name": f"The scenery of {world_name}", "why": why})
     return roads, missing, scenery
+
+
+def _with_friction_factor(
+    part: dict[str, Any], variables: Mapping[str, str], settings: Mapping[str, Value]
+) -> dict[str, Any]:
+    """A road from a file with the friction factor of the settings, if `variables` of the drawing name one."""
+    if "friction_factor" not in variables:
+        return part
+    friction_variable = {"variables": {"friction_factor": variables["friction_factor"]}}
+    return _with_settings({"friction_factor": 1.0} | part | friction_variable, settings)
 
 
 def _with_settings(road: dict[str, Any], settings: Mapping[str, Value]) -> dict[str, Any]:

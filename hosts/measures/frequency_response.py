@@ -15,7 +15,7 @@ _RELATIVE_WIDTH = 0.03
 
 @dataclass(frozen=True)
 class FrequencyResponse:
-    """A frequency response."""
+    """Response of an output to an input by frequency, estimated from a run."""
 
     frequency: NDArray[np.float64]
     """Shape (n,): Hz, increasing."""

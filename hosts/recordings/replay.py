@@ -41,7 +41,7 @@ class Difference:
 
 @dataclass
 class ReplayResult:
-    """The result of a replay."""
+    """Differences between a recording and its replay."""
 
     rows: int = 0
     """Number of compared rows."""

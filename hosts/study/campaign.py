@@ -1,7 +1,5 @@
 """Runs a study: reads its file, makes its runs and writes its table."""
 
-from __future__ import annotations
-
 import json
 import sys
 import time as clock
@@ -44,7 +42,7 @@ _FREE_SPACE = 50e6  # bytes of the disk that the results must leave free
 
 @dataclass(frozen=True)
 class StudyOutcome:
-    """The outcome of a study."""
+    """What a call of `run_study` has completed."""
 
     folder: Path
     good: bool

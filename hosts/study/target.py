@@ -1,7 +1,5 @@
 """Finds the value of a parameter at which a measure has a target value: ``ali3 study --target MEASURE=VALUE``."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Runs of an FMU as a function of one parameter, for the search of a target value."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

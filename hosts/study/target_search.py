@@ -31,7 +31,7 @@ class Run:
 
 @dataclass(frozen=True)
 class SearchResult:
-    """The result of a search."""
+    """Runs of a search for the parameter at which a measure has its target value."""
 
     runs: tuple[Run, ...]
     """In the order of the search."""

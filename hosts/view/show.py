@@ -80,13 +80,11 @@ def _page_path(options: argparse.Namespace) -> Path | None:
 
 
 def _drawing_options(options: argparse.Namespace) -> dict[str, Any]:
-    """Options of the drawing."""
     factor = {} if options.deformation is None else {"deformation": options.deformation}
     return {"arrows": options.arrows, "stress": options.stress} | factor
 
 
 def _player_options(recordings: Sequence[Recording], options: argparse.Namespace) -> dict[str, Any]:
-    """Options of the player."""
     start = _drawing_options(options)
     plots = list(options.plot)
     if not plots and all(recording.scene is None for recording in recordings):

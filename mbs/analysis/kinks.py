@@ -1,7 +1,5 @@
 """Forces that are not smooth at a state: slopes that differ on both sides, or that change within a small velocity."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 

@@ -19,8 +19,6 @@ basis P of the null space of the rows on positions, w to a basis V of the null s
 ``zd = P' M (V w + N z)``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

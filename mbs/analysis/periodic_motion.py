@@ -5,8 +5,6 @@ columns are central differences of whole runs. A motion is stable where no multi
 (A. H. Nayfeh, B. Balachandran, Applied Nonlinear Dynamics, 1995, section 3.2).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

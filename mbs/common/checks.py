@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.message_text import word_list
 from mbs.common.errors import ArgumentTypeError, ModelError
 
 Vector = NDArray[np.float64]
@@ -167,8 +168,7 @@ def one_of(value: object, words: Collection[str], subject: str, error: Error = M
     """Return a value that is one of `words`."""
     if not isinstance(value, str) or value not in words:
         quoted = [repr(w) for w in words] if len(words) < 4 or all(len(w) == 1 for w in words) else list(words)
-        choices = " or ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
-        raise error(f"{capital(subject)} is {shown(value)}; it must be {choices}.")
+        raise error(f"{capital(subject)} is {shown(value)}; it must be {word_list(quoted, 'or')}.")
     return str(value)
 
 

@@ -1,7 +1,5 @@
 """Errors of models and of their arguments."""
 
-from __future__ import annotations
-
 
 class ModelError(ValueError):
     """An impossible model; the message names the component, its value and the valid values."""

@@ -1,7 +1,5 @@
 """Linear algebra in one thread: the last bits of BLAS depend on how many threads share a product."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ContextDecorator

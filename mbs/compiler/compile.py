@@ -1,7 +1,5 @@
 """compile(): from a Model to a System that can be drawn and stepped."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 

@@ -43,32 +43,40 @@ def equilibrium(
     `parameters` hold only during its solution: a model with a driving torque has no equilibrium. Raises `ModelError`:
     a parameter is unknown or outside its limits, or there is no equilibrium.
     """
+    _check_parameters(system, parameters)
     instance = StandingInstance(LoadedSystem(system.kernel_bytes(modes=False)))
     names = [entry["name"] for entry in system.meta["parameters"]]
-    unknown = [name for name in parameters if name not in names]
-    if unknown:
-        raise ModelError(
-            f"The equilibrium of '{system.meta['name']}' sets '{unknown[0]}', which is not a parameter of it."
-        )
-    for name, value in parameters.items():
-        entry, subject = system.meta["parameters"][names.index(name)], f"The parameter '{name}' of the equilibrium"
-        if not entry["min"] <= number(value, subject) <= entry["max"]:
-            raise ModelError(f"{subject} is {value:g}; it must lie between {entry['min']:g} and {entry['max']:g}.")
     try:
         for name, value in parameters.items():
             instance.set_parameter(names.index(name), value)
         instance.static_equilibrium(0.0, TOLERANCE, MAX_ITERATIONS)
     except KernelError as error:
-        report, meta = instance.report(), system.meta
-        text = f"The model '{meta['name']}' has no static equilibrium near its drawing: "
-        if not report["factorizations"]:
-            raise ModelError(text + error.message) from None
-        if not math.isfinite(report["residual"]):
-            raise ModelError(text + "the search for it became infinite.") from None
-        text += (
-            f"'{meta['coordinates'][report['worst_coordinate']]}' stays out of balance by {report['residual']:.3g} N"
-        )
-        worst = open_row(report, [row["name"] for row in meta["rows"]])
-        raise ModelError(f"{text}; {worst}." if worst else f"{text}.") from None
+        text = f"The model '{system.meta['name']}' has no static equilibrium near its drawing: "
+        raise ModelError(text + _failure_text(instance.report(), system.meta, error)) from None
     q, _, _, _, y = instance.get_state()
     return np.array(q, float), np.array(y, float)
+
+
+def _check_parameters(system: CompiledModel, parameters: Mapping[str, float]) -> None:
+    """Raise `ModelError` for a parameter that is unknown or outside its limits."""
+    entries = {entry["name"]: entry for entry in system.meta["parameters"]}
+    for name in parameters:
+        if name not in entries:
+            raise ModelError(
+                f"The equilibrium of '{system.meta['name']}' sets '{name}', which is not a parameter of it."
+            )
+    for name, value in parameters.items():
+        entry, subject = entries[name], f"The parameter '{name}' of the equilibrium"
+        if not entry["min"] <= number(value, subject) <= entry["max"]:
+            raise ModelError(f"{subject} is {value:g}; it must lie between {entry['min']:g} and {entry['max']:g}.")
+
+
+def _failure_text(report: Mapping[str, Any], meta: Mapping[str, Any], error: KernelError) -> str:
+    """The reason why an equilibrium was not found, as the end of a sentence."""
+    if not report["factorizations"]:
+        return error.message
+    if not math.isfinite(report["residual"]):
+        return "the search for it became infinite."
+    text = f"'{meta['coordinates'][report['worst_coordinate']]}' stays out of balance by {report['residual']:.3g} N"
+    worst = open_row(report, [row["name"] for row in meta["rows"]])
+    return f"{text}; {worst}." if worst else f"{text}."

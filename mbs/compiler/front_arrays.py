@@ -38,7 +38,7 @@ def row_fronts(arrays: RowArrays, locate: Locate) -> dict[str, Any]:
 
 
 def front_arrays(fronts: Fronts) -> dict[str, Any]:
-    """The `front_` arrays."""
+    """Arrays `front_` of a System: fronts of the elimination, and where their borders lie in the front above."""
     sizes = np.array([len(i) for i in fronts.index], dtype=np.int64)
     maps = []
     for s, index in enumerate(fronts.index):

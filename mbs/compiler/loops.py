@@ -8,6 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
+
 from mbs.common.affine import AffineVector
 from mbs.compiler.biconnected_blocks import blocks_of
 from mbs.model.body import Body
@@ -110,31 +114,27 @@ def rings(block: Block) -> list[list[Vertex]]:
 def _graph(model: Model) -> list[Vertex]:
     """Vertices of a model, with their edges."""
     joints = [j for j in model.joints if j.ends is not None and j.switch is None]
-    parent: dict[int, int] = {}
     numbers = {body.start: body.number for body in model.bodies}
 
     def number(body: Body) -> int:
         """Number of the body, or of the body that a node or a body with ports is part of; -1: ground."""
         return -1 if body.is_ground else numbers[body.start]
 
-    def find(k: int) -> int:
-        while parent.setdefault(k, k) != k:
-            parent[k] = k = parent[parent[k]]
-        return k
-
+    size = max(numbers.values(), default=-1) + 2
+    welds = np.zeros((size, size))
     for joint in joints:
         if joint.type == "weld" and joint.ends is not None:
-            a, b = (number(body) for body in joint.ends.bodies)
-            parent[find(max(a, b))] = find(min(a, b))
+            a, b = (number(body) + 1 for body in joint.ends.bodies)
+            welds[a, b] = 1.0
+    groups = connected_components(csr_matrix(welds), directed=False)[1]
     vertices: dict[int, Vertex] = {}
     for body in [model.ground, *model.bodies]:
-        k = find(number(body))
-        vertices.setdefault(k, Vertex(body.name)).bodies.append(body)
+        vertices.setdefault(groups[number(body) + 1], Vertex(body.name)).bodies.append(body)
     all_vertices = list(vertices.values())
     for joint in joints:
         if joint.type == "weld" or joint.ends is None:
             continue
-        first, second = (vertices[find(number(body))] for body in joint.ends.bodies)
+        first, second = (vertices[groups[number(body) + 1]] for body in joint.ends.bodies)
         if first is second:
             continue
         if joint.ends.rod:

@@ -8,7 +8,8 @@ from mbs.common.checks import flag, positive
 from mbs.compiler.polynomial import RowTerms
 from mbs.kernel.header.enumerations import ParameterTarget
 from mbs.model.model import Model
-from mbs.model.records import Parameter
+from mbs.model.records import Input, Parameter
+from mbs.model.sensor import Sensor
 
 
 def _built_in_road(model: Model, parameter: Parameter) -> dict[str, int]:
@@ -38,39 +39,9 @@ def metadata(
         "dimension": model.dimension,
         "coordinates": coordinates,
         "rows": [{"name": r.name, "kind": r.kind} for r in rows],
-        "inputs": [
-            {
-                "name": i.name,
-                "unit": i.unit,
-                "description": i.description,
-                "start": i.start,
-                "min": i.min if math.isfinite(i.min) else None,
-                "max": i.max if math.isfinite(i.max) else None,
-            }
-            | ({"whole": True} if i.whole else {})
-            | ({"port": True} if i.port else {})
-            | ({"role": int(i.role)} if i.role else {})
-            | ({"tried": i.tried} if i.tried is not None else {})
-            | ({"near": i.near} if i.near else {})
-            | ({"figures": list(i.figures)} if i.figures else {})
-            for i in model.inputs
-        ],
-        "sensors": [
-            {"name": s.name, "unit": s.unit, "description": s.description}
-            | ({"whole": True} if s.whole else {})
-            | ({"display_unit": s.display_unit} if s.display_unit else {})
-            | ({"notice": s.notice} if s.notice else {})
-            | ({} if s.computed else {"computed": False})
-            for s in model.sensors
-        ],
-        "parameters": [
-            {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
-            | ({} if p.tunable else {"fixed": True})
-            | ({} if p.works is None else {"works": list(p.works)})
-            | ({"whole": True} if p.whole else {})
-            | _built_in_road(model, p)
-            for p in model.parameters
-        ],
+        "inputs": [_input_entry(i) for i in model.inputs],
+        "sensors": [_sensor_entry(s) for s in model.sensors],
+        "parameters": [_parameter_entry(model, p) for p in model.parameters],
         "road_files": [
             {"name": f.name, "road": f.road, "start": f.start, "description": f.description} for f in model.road_files
         ],
@@ -97,3 +68,45 @@ def metadata(
         "gravity": math.hypot(*model.gravity),
         "coordinate_lengths": lengths,
     }
+
+
+def _input_entry(i: Input) -> dict[str, Any]:
+    """Entry of an input; what is usual is left out."""
+    return (
+        {
+            "name": i.name,
+            "unit": i.unit,
+            "description": i.description,
+            "start": i.start,
+            "min": i.min if math.isfinite(i.min) else None,
+            "max": i.max if math.isfinite(i.max) else None,
+        }
+        | ({"whole": True} if i.whole else {})
+        | ({"port": True} if i.port else {})
+        | ({"role": int(i.role)} if i.role else {})
+        | ({"tried": i.tried} if i.tried is not None else {})
+        | ({"near": i.near} if i.near else {})
+        | ({"figures": list(i.figures)} if i.figures else {})
+    )
+
+
+def _sensor_entry(s: Sensor) -> dict[str, Any]:
+    """Entry of a sensor; what is usual is left out."""
+    return (
+        {"name": s.name, "unit": s.unit, "description": s.description}
+        | ({"whole": True} if s.whole else {})
+        | ({"display_unit": s.display_unit} if s.display_unit else {})
+        | ({"notice": s.notice} if s.notice else {})
+        | ({} if s.computed else {"computed": False})
+    )
+
+
+def _parameter_entry(model: Model, p: Parameter) -> dict[str, Any]:
+    """Entry of a parameter; what is usual is left out."""
+    return (
+        {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
+        | ({} if p.tunable else {"fixed": True})
+        | ({} if p.works is None else {"works": list(p.works)})
+        | ({"whole": True} if p.whole else {})
+        | _built_in_road(model, p)
+    )

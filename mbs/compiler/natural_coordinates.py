@@ -37,7 +37,7 @@ class NaturalCoordinates:
 
 
 def natural_coordinates(model: Model) -> NaturalCoordinates:
-    """The natural coordinates of a model."""
+    """Choose coordinates of rigid bodies that joints share, in place of their centres of mass and unit axes."""
     info = [*model.coordinates]
     expressions = [Affine({i: 1.0}) for i in range(len(info))]
     for body in model.bodies:

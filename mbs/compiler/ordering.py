@@ -14,12 +14,10 @@ def clique_pattern(n: int, cliques: Iterable[Sequence[int]]) -> sparse.csc_matri
     """Symmetric 0/1 pattern with a full diagonal in which every clique is a dense block."""
     blocks = [[k] for k in range(n)] + [list(clique) for clique in cliques]
     members = np.array([k for block in blocks for k in block], dtype=np.int64)
-    sizes = np.array([len(block) for block in blocks], dtype=np.int64)
-    # each member has one row of its block, with all members as columns
-    lengths, first = np.repeat(sizes, sizes), np.repeat(np.cumsum(sizes) - sizes, sizes)
-    i = np.repeat(members, lengths)
-    j = members[np.repeat(first - np.cumsum(lengths) + lengths, lengths) + np.arange(len(i))]
-    pattern = sparse.coo_matrix((np.ones(len(i)), (i, j)), shape=(n, n)).tocsc()
+    starts = np.cumsum([0, *map(len, blocks)])
+    incidence = sparse.csr_matrix((np.ones(len(members)), members, starts), shape=(len(blocks), n))
+    pattern = (incidence.T @ incidence).tocsc()
+    pattern.sort_indices()
     pattern.data[:] = 1.0
     return pattern
 

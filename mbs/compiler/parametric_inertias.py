@@ -20,7 +20,7 @@ def inertia_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
 
 
 def inertia_arrays(model: Model, signals: Signals) -> dict[str, Any]:
-    """The `inertia_` arrays."""
+    """Arrays `inertia_` of a System: bodies whose mass properties parameters write."""
     return {
         "inertia_real": [r for body in model.written_inertias for r in body.reals],
         "inertia_signal": [

@@ -1,7 +1,5 @@
 """Engine, converter, automatic gears and differential."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise

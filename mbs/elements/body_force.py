@@ -1,7 +1,5 @@
 """Force at a point, given by inputs along the axes of a frame."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Torque on a body from inputs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal

@@ -1,7 +1,5 @@
 """Brake that holds by sticking."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

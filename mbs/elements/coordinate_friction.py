@@ -1,7 +1,5 @@
 """Coulomb friction on one coordinate that holds by sticking."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -39,7 +37,6 @@ class CoordinateFriction(Element):
     )
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         force, sticking = self._outputs
         force = replace(force, unit=text(self.unit, f"The unit of {self._label(name)}"))
         return self._record(name, (coordinate,), outputs=(force, sticking))

@@ -1,7 +1,5 @@
 """Electric motor with a fixed ratio and an open differential."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

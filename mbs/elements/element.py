@@ -18,7 +18,7 @@ class Element:
     """Force element whose numbers are fields; a subclass is a frozen dataclass in a file with the name of its type.
 
     Fields are numbers of the kernel, in its order, with the check in the type and the unit and meaning in the docstring
-    (see `reals`).
+    (see `reals`). `record` of a class makes the record for the kernel from the signals.
     """
 
     _noun: ClassVar[str]

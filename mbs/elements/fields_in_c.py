@@ -1,4 +1,4 @@
-"""C headers of the force elements: indices of their numbers, checks and sizes.
+"""C headers of the force elements: indices of their numbers and outputs, checks and sizes.
 
 They are written from the classes, after each change of one, by
 
@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import mbs.kernel
-from mbs.common.checks import not_negative, number, positive
+from mbs.common.checks import capital, not_negative, number, positive
 from mbs.elements.element import Element
 from mbs.elements.integers import Integer, IntegerKind
 from mbs.elements.reals import Check, Group, Real, declared, each_real, texts_of
@@ -53,7 +53,6 @@ def header(kind: type[Element]) -> str:
         "/* clang-format off */",
         *_comment(f"Numbers of {noun}. Written by `python -m mbs.elements.fields_in_c` from {kind.__name__}."),
         *_comment(f"Signals: {signals_of(kind)}."),
-        *_comment("Outputs: " + ("; ".join(f"{o.name} ({o.unit}), {o.description}" for o in kind._outputs) or "none")),
         f"#ifndef ALI3_{upper}_FIELDS_H",
         f"#define ALI3_{upper}_FIELDS_H",
         '#include "element.h"',
@@ -67,6 +66,12 @@ def header(kind: type[Element]) -> str:
             f"  {upper}_INTEGERS",
             "};",
         ]
+    if kind._outputs:
+        lines += ["enum {"]
+        for output in kind._outputs:
+            meaning = capital(output.description) + ("." if output.unit == "1" else f", {output.unit}.")
+            lines += [*(f"  {line}" for line in _comment(meaning)), f"  {upper}_OUT_{output.name.upper()},"]
+        lines += [f"  {upper}_OUTPUTS", "};"]
     sizes = _sizes(kind, required)
     lines += ["#ifndef ALI3_WIDTH"]
     if required_reals or optional_reals:

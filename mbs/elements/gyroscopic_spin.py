@@ -1,7 +1,5 @@
 """Gyroscopic moment of a wheel that is reduced to one coordinate."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
@@ -25,5 +23,4 @@ class GyroscopicSpin(Element):
     _signals = (("f", 3), ("g", 3), ("spin", 1))
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         return self._record(name, (*carrier_signals(f, g, self._label(name)), spin))

@@ -1,7 +1,5 @@
 """Force and moment on the hub of a wheel, given by inputs instead of a tyre."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -29,6 +27,5 @@ class HubWrench(Element):
     _outputs = (Output("power", "W", "power of force and moment on wheel and carrier together"),)
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         label = self._label(name)
         return self._record(name, wheel_signals(centre, axis, spin, label), check_inputs(self.inputs, 6, label))

@@ -1,7 +1,5 @@
 """Generalised force given by an input."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -47,8 +47,9 @@ class Integer:
         if self.kind is IntegerKind.NUMBERS:
             counted = ((self.reals, "real"), (self.states, "state"))
             each = " and ".join(f"{n} {name}{'s' if n > 1 else ''}" for n, name in counted if n)
-            return f"Number of items with {each} each." if each else "A choice."
-        text = "Index of an input" if self.kind is IntegerKind.INPUTS else "Index of a road"
+            return f"Number of items with {each} each." if each else f"{capital(self.phrase)}."
+        is_named = "input" in self.phrase or self.kind is IntegerKind.ROADS
+        text = f"Index of {self.phrase}" if is_named else f"Index of an input, {self.phrase}"
         return text + (", -1: none." if self.least == -1 else ".")
 
     def checked(self, value: int | None, label: str) -> int:

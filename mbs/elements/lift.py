@@ -1,7 +1,5 @@
 """Aerodynamic lift."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from mbs.common.affine import AffineVector

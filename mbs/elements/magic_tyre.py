@@ -1,7 +1,5 @@
 """Tyre by the Magic Formula on first-order carcass deflections."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi, tan

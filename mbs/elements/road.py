@@ -1,7 +1,5 @@
 """Roads as data of the kernel (`mbs/kernel/src/elements/road.h`): planes, kerbs, grids, files, ports."""
 
-from __future__ import annotations
-
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Spring and damper on one coordinate."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -39,7 +37,6 @@ class ScalarSpringDamper(Element):
     _elastic = True
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         (force,) = self._outputs
         force = replace(force, unit=text(self.unit, f"The unit of {self._label(name)}"))
         return self._record(name, (coordinate,), outputs=(force,))

@@ -1,7 +1,5 @@
 """Angle of a wheel with one coordinate on its carrier."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

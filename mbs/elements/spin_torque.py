@@ -1,7 +1,5 @@
 """Torque between a wheel and its carrier, given by an input."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
@@ -32,5 +30,4 @@ class SpinTorque(Element):
     )
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """Make the record of the element for the kernel."""
         return self._record(name, (*carrier_signals(f, g, self._label(name)), spin), (self.input,))

@@ -1,7 +1,5 @@
 """Spring and damper between two points, with stops."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Torsion bar of a steering with power assistance."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine

@@ -1,7 +1,5 @@
 """Tyre: TMeasy characteristics on first-order carcass deflections."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated

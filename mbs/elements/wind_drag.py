@@ -1,7 +1,5 @@
 """Aerodynamic drag in wind."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import AffineVector

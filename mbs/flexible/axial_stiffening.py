@@ -1,7 +1,5 @@
 """Stiffness by axial forces in the beams of a reduced body, which linear modes leave out."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cholesky, solve_triangular

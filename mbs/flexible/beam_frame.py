@@ -1,7 +1,5 @@
 """Frames of beams: nodes, beams and sections, with the axes of each beam."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Models written by CalculiX with ``*FREQUENCY, SOLVER=MATRIXSTORAGE`` (mesh reader: meshio, extra `fem`)."""
 
-from __future__ import annotations
-
 from functools import partial
 from io import StringIO
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Craig-Bampton reduction with the floating frame clamped at a reference node."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -169,6 +167,7 @@ def _with_inertia_modes(fixed: FixedInterface, dynamic: np.ndarray) -> tuple[np.
 
 
 def _static_names(fixed: FixedInterface) -> list[str]:
+    """Names of the static modes: node and axis of the unit motion."""
     names = []
     for interface in fixed.interfaces:
         node = fixed.model.names[fixed.model.node(interface.node)]
@@ -178,6 +177,7 @@ def _static_names(fixed: FixedInterface) -> list[str]:
 
 
 def _interface_modes(fixed: FixedInterface, origin: np.ndarray) -> dict[str, InterfaceModes]:
+    """Columns of the modes that move each interface, by the name of its node. `origin`: of the floating frame, m."""
     modes, column = {}, 0
     for interface in fixed.interfaces:
         node = fixed.model.node(interface.node)

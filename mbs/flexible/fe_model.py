@@ -1,7 +1,5 @@
 """A free linear finite-element model: nodes, stiffness, and mass as points."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 

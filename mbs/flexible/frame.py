@@ -1,7 +1,5 @@
 """Finite-element models of frames of beams."""
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.sparse as sp
 

@@ -1,7 +1,5 @@
 """Natural frequencies and mode shapes of large sparse models, free or held."""
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike

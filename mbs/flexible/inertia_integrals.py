@@ -1,7 +1,5 @@
 """Constant shape integrals, from which ``M = B' M_FEM B`` and ``Q_v`` of a flexible body are computed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

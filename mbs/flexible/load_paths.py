@@ -1,7 +1,5 @@
 """Reduction of a flexible body to the deformations that interface forces can excite."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.linalg import eigh
 

@@ -17,6 +17,8 @@ from mbs.flexible.foreign_file import MAX_BYTES
 
 _SIGNS = {"general": 0.0, "symmetric": 1.0, "skew-symmetric": -1.0}
 _FIELDS = ("real", "double", "integer", "pattern")
+_INDEX_ARRAYS = {"coo": ("row", "col")} | dict.fromkeys(("csc", "csr", "bsr"), ("indices", "indptr"))
+"""Names of the arrays of indices in a file of SciPy, by its format."""
 _COPIES = 4
 """Copies of rows, columns and values: as read, of both triangles, and in the order of columns."""
 
@@ -91,6 +93,3 @@ def read_sparse_arrays(path: Path) -> sp.csc_array:
     matrix = kind((data.astype(float), *indices), shape=shape)
     matrix.check_format(full_check=True)
     return sp.csc_array(matrix)
-
-
-_INDEX_ARRAYS = {"coo": ("row", "col")} | dict.fromkeys(("csc", "csr", "bsr"), ("indices", "indptr"))

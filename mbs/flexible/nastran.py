@@ -1,7 +1,5 @@
 """Models written by Nastran: matrices in OUTPUT4, grid points in the bulk data."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 

@@ -5,8 +5,6 @@ inertia forces load the beams between their ends (for weight: of free fall). `Mo
 accept both; a frame that is loaded only at its nodes needs the first 6 n columns.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

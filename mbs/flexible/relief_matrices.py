@@ -1,7 +1,5 @@
 """Matrices of inertia relief: outputs of a frame per interface force, weight and rigid acceleration."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cross-sections of beams: closed-form constants of tubes, round and rectangular bars."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

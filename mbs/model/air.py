@@ -1,7 +1,5 @@
 """Drag and lift of a model, with or without wind."""
 
-from __future__ import annotations
-
 from numpy.typing import ArrayLike
 
 from mbs.common.checks import direction

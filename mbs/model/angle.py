@@ -1,7 +1,5 @@
 """Relative angle as an unwrapped coordinate: one coordinate and one row."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,7 +1,5 @@
 """Anti-roll bar: a torsion spring between two arms on one axis."""
 
-from __future__ import annotations
-
 from numpy.typing import ArrayLike
 
 from mbs.common.checks import flag, positive, shown

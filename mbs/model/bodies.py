@@ -1,7 +1,5 @@
 """Rigid bodies of a model: how they are added, and checks of bodies and points at joints."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Undoing of a refused call, and shapes that are deferred until they are needed."""
 
-from __future__ import annotations
-
 import functools
 import weakref
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Sensors of inputs, guides and the solver, constants, and notices of a run."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -12,8 +10,8 @@ from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import GuideType, SensorType, SolverValue
 from mbs.model.guides import owned_guide
 from mbs.model.inputs import owned_input
+from mbs.model.joint_reactions import guide_terms
 from mbs.model.joints.joint import Joint
-from mbs.model.reactions import guide_terms
 from mbs.model.records import Guide, Input
 from mbs.model.sensor import Sensor
 from mbs.model.sensor_arguments import sensed_joints

@@ -1,14 +1,12 @@
 """Constants of a model for the users of its System."""
 
-from __future__ import annotations
-
 from mbs.common.checks import number, shown, text
 from mbs.model.records import Constant
 from mbs.model.register import Register
 
 
 class ConstantVocabulary(Register):
-    """Vocabulary of constants."""
+    """Calls that add constants to a model."""
 
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
         """A number about the model that its users need and its equations do not, such as a wheelbase.

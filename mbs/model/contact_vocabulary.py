@@ -1,7 +1,5 @@
 """Answers of other programs on a road, and points of bodies that touch one."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

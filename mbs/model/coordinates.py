@@ -1,7 +1,5 @@
 """Name, dimension and full coordinates of a model, and expressions of them."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Shafts, travels, and rotors that turn with a coordinate."""
 
-from __future__ import annotations
-
 from mbs.common.checks import not_negative, number, one_of, positive, shown
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.coordinate import Coordinate

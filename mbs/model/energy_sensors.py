@@ -1,7 +1,5 @@
 """Sensors of energy, work and mass."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import overload

@@ -1,7 +1,5 @@
 """Vocabulary of flexible bodies and of rigid ones with a quasi-static deformation."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

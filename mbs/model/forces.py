@@ -1,7 +1,5 @@
 """Forces and torques by name: thin wrappers around the records of `mbs.elements`."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Literal
 

@@ -1,7 +1,5 @@
 """Guides: motions s(t) with two continuous rates, from an input through a filter or by a table from another guide."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Input channels."""
 
-from __future__ import annotations
-
 import math
 
 from mbs.common.checks import flag, limit, number, shown, text

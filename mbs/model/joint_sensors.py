@@ -1,7 +1,5 @@
 """Sensors of joints: forces and moments from the multipliers of their rows."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -13,16 +11,15 @@ from mbs.common.checks import number, one_of, shown
 from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
-from mbs.model.joint_reactions import force_on_first, moment_terms, rod_terms
+from mbs.model.joint_reactions import fold_constants, force_on_first, moment_terms, rod_terms
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
-from mbs.model.reactions import fold_constants
 from mbs.model.sensor import Sensor, Term
 from mbs.model.sensor_arguments import component_number, sensed_joint, sensed_joints
 from mbs.model.sensors import SensorVocabulary
 
 
 class JointSensorVocabulary(SensorVocabulary):
-    """Sensors of joints."""
+    """Calls that add sensors of forces, torques and gaps in joints."""
 
     def sense_joint(
         self,

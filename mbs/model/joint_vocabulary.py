@@ -1,7 +1,5 @@
 """Joints by name: each method of a model is made from the function that makes the joint."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 from typing import Concatenate, ParamSpec, TypeVar

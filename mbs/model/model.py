@@ -1,7 +1,5 @@
 """Modelling vocabulary, in earth axes in the reference configuration."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sensors of points and coordinates, and their rates."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,7 +1,5 @@
 """Sensors of orientation: rotation of bodies, and angles."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.affine import Affine, AffineVector

@@ -1,7 +1,5 @@
 """Parameters: numbers of a System that are set without a new compilation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias

@@ -1,7 +1,5 @@
 """Particles, which have a position and a mass."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

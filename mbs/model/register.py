@@ -1,7 +1,5 @@
 """Register of a model: lists of its objects by kind, in the order of their addition."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol, Self, TypeVar
 

@@ -1,7 +1,5 @@
 """Roads of a model."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from mbs.common.checks import instance_of

@@ -1,7 +1,5 @@
 """Sensors: numbers computed from the state, by the sensor types of the System file."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from mbs.common.affine import Affine, AffineVector

@@ -1,7 +1,5 @@
 """Shapes on bodies and between points of several bodies, for drawing only."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Drawn parts that slide along a line of a body, and computed meshes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Guides in time, of one input, and by a table from another guide."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Axisymmetric wheels with their absolute axial rate as coordinate, and their axes, which parameters change."""
 
-from __future__ import annotations
-
 from math import asin, atan2
 
 import numpy as np

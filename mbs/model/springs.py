@@ -1,7 +1,5 @@
 """Springs and dampers by name: thin wrappers around the records of `mbs.elements`."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.checks import instance_of

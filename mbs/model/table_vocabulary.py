@@ -1,7 +1,5 @@
 """Vocabulary of lookup-table bodies and numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Error of a run with fixed steps: estimated from the energy balance, and for suspect runs from a refined run."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Animations of runs: as a page, in a notebook, as a glTF file, as a film."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Errors of stepping, with the part of the run recorded so far."""
 
-from __future__ import annotations
-
 from mbs.results.trajectory import Trajectory
 
 

@@ -1,7 +1,5 @@
 """Record of a run under a tolerance: the method and steps that were chosen, and the estimated error."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

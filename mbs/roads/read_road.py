@@ -1,7 +1,5 @@
 """Reads a whole road from a file of any kind."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

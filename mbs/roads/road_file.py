@@ -1,7 +1,5 @@
 """Road files in Python: reference to a file for a model, and its complete content."""
 
-from __future__ import annotations
-
 import os
 import struct
 import zlib

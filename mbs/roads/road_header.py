@@ -1,7 +1,5 @@
 """The header of a road file: `mbs/kernel/src/roads/road_file.h` has its layout."""
 
-from __future__ import annotations
-
 import os
 import struct
 import zlib

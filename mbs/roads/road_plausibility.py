@@ -64,7 +64,7 @@ class Place:
 
 
 def grid_location(road: GridRoad) -> Place:
-    """Location of a grid road."""
+    """Origin, spacing and numbers of points of a grid road."""
     origin, spacing = (tuple(map(float, pair)) for pair in (road.origin, road.spacing))
     return Place(origin, spacing, np.shape(road.heights))
 

@@ -1,7 +1,5 @@
 """Faces of a grid that are walls for a wheel."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.elements.road import GridRoad

@@ -1,7 +1,5 @@
 """Writes road files."""
 
-from __future__ import annotations
-
 import os
 import struct
 import warnings

@@ -7,8 +7,6 @@ towards the coupler. The "5 mm" of the round section are its radius: a diameter 
 radius the moments of the paper's Figure 5, from -10 to 6 N m.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -2,8 +2,6 @@
 wheels as spins that roll without slip on a level road. Upright it is stable by itself between 4.292 and 6.024 m/s.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.checks import flag, number

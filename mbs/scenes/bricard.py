@@ -1,7 +1,5 @@
 """Bricard's loop (IFToMM benchmark A04): five rods, six revolutes, one degree of freedom, always overconstrained."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.model.model import Model

@@ -2,8 +2,6 @@
 falls almost straight down and the cart swings round beneath it at thousands of rad/s.
 """
 
-from __future__ import annotations
-
 from mbs.model.model import Model
 
 CART, BOB = 1e-6, 1.0  # kg

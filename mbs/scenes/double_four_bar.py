@@ -1,7 +1,5 @@
 """N-four-bar mechanism (paper, section 3.1 for N = 2; IFToMM benchmark A02): passes ten singular positions in 10 s."""
 
-from __future__ import annotations
-
 from mbs.common.checks import whole
 from mbs.model.model import Model
 

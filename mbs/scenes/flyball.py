@@ -3,8 +3,6 @@
 Stiff springs and dampers hold the slider: the fastest eigenvalue is 27000 1/s, the motion takes a second.
 """
 
-from __future__ import annotations
-
 from math import cos, pi, radians, sin
 
 import numpy as np

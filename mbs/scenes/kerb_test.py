@@ -4,8 +4,6 @@ The forward motion of the chassis is prescribed in time; the paper prescribes th
 speed and the three intervals are the paper's; the times within them and the position of the kerb are assumed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

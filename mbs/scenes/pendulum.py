@@ -1,7 +1,5 @@
 """Planar pendulum (IFToMM benchmark A01): a point mass on a massless rod."""
 
-from __future__ import annotations
-
 from mbs.common.checks import positive
 from mbs.model.model import Model
 

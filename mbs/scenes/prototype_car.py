@@ -1,7 +1,5 @@
 """The prototype car of the paper (sections 3.4 and 4), rigid or with a flexible chassis: steering, throttle, brake."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from mbs.elements.road import Road

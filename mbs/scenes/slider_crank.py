@@ -3,8 +3,6 @@
 Then the slider moves on, or stays while both arms rotate together.
 """
 
-from __future__ import annotations
-
 from math import cos, radians, sin
 
 from mbs.model.model import Model

@@ -3,8 +3,6 @@
 Engines with relative coordinates need the least time for such trees.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.checks import whole

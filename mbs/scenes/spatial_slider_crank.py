@@ -1,7 +1,5 @@
 """Spatial rigid slider-crank (IFToMM benchmark library): a crank turns about x beside the line of the slider."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.model.model import Model

@@ -2,8 +2,6 @@
 15 s. It is stiff in shear; centrifugal tension acts between its parts.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PPoly
 

@@ -3,8 +3,6 @@
 Data and start angles: W. Schiehlen, Multibody System Dynamics 1, 1997; E. Hairer, G. Wanner, Solving ODEs II.
 """
 
-from __future__ import annotations
-
 from math import cos, sin
 
 from mbs.model.model import Model

@@ -1,7 +1,5 @@
 """Settings of the time integration: method, tolerances and options of the solver."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 
 from mbs.common.checks import LARGEST, flag, is_finite, shown, whole

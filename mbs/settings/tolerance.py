@@ -1,7 +1,5 @@
 """Tolerance of a run, of positions or of single sensors, and its check."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -8,8 +8,6 @@ chain of 1, 2, 4 and 8 bodies is off by 11, 4.8, 2.1 and 1.4 mm of 1 m where its
 has a frequency 42, 9.3 and 2.4 % too high.
 """
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Runs of many variants of one System, several at once on each core (`simulate_many`)."""
 
-from __future__ import annotations
-
 import os
 import threading
 import time

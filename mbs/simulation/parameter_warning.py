@@ -1,7 +1,5 @@
 """Warning of parameter values outside the range of validity of their model."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Mapping
 from typing import Any

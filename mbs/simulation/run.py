@@ -1,7 +1,5 @@
 """Run of a System from start to end, in equal steps or to a tolerance (`simulate`)."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Start pose and saved state of a run."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

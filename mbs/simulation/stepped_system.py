@@ -1,7 +1,5 @@
 """Instance of a System in the kernel that is stepped, with its counters."""
 
-from __future__ import annotations
-
 from mbs.common.checks import instance_of
 from mbs.results.run_report import Report
 from mbs.settings.settings import Settings
@@ -52,7 +50,6 @@ class SteppedSystem(SystemInstance):
         return text + remedy if (text := self.instance.start_text()) else ""
 
     def change_settings(self, settings: Settings) -> None:
-        """Change the settings."""
         instance_of(Settings, settings, "The settings", "Settings(...)")
         self.instance.set_settings(**settings.kernel_fields())
         self.settings = settings

@@ -1,7 +1,5 @@
 """Stepping of a System by the caller (`Simulation`)."""
 
-from __future__ import annotations
-
 import math
 import os
 import warnings

@@ -1,7 +1,5 @@
 """Instance of a System in the kernel and its state."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -152,7 +152,7 @@ class Drawing:
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """The scene."""
+        """The scene with the entries of `late`."""
         return {**self.base, "flexible": [*self.base["flexible"], *(entry for make in self.late for entry in make())]}
 
     def to_bytes(self) -> bytes:

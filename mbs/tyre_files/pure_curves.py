@@ -1,16 +1,23 @@
 """Steady forces at pure slip and trail of both tyre formulas, without camber and shifts, for fits."""
 
 from collections.abc import Mapping, Sequence
-from math import atan, sin
+from math import atan, sin, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.elements.magic_tyre import MagicTyre
-from mbs.elements.tyre import TyreCurve
+from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 
 Array = NDArray[np.float64]
+LOADS = (0.5, 1.0, 1.5, 2.0)
+"""Loads at which curves are fitted and compared, relative to the nominal load."""
+LONGITUDINAL_SLIPS = np.concatenate([-np.geomspace(0.5, 1e-3, 60), np.geomspace(1e-3, 1.0, 60)])
+TANGENTS = np.geomspace(1e-3, 0.6, 80)
+"""Tangents of the slip angle."""
+TMEASY_SLIPS = LONGITUDINAL_SLIPS / (1.0 + LONGITUDINAL_SLIPS)
+"""Slips of TMeasy, which are relative to the rolling speed instead of the speed of travel."""
 
 
 def at_load(pair: Sequence[float], load_ratio: float) -> float:
@@ -141,3 +148,16 @@ def magic_trail(
     E = min(c["QEZ1"] + c["QEZ2"] * dfz + c["QEZ3"] * dfz**2, 1.0)
     scaled = B * a
     return np.asarray(D * np.cos(c["QCZ1"] * np.arctan(scaled - E * (scaled - np.arctan(scaled)))) * np.cos(alpha))
+
+
+def patch_length(radius: float, load_ratio: float, nominal: float, stiffness: float) -> float:
+    """Length of the contact patch, m."""
+    return 2.0 * sqrt(radius * load_ratio * nominal / stiffness)
+
+
+def trail_at_load(tyre: Tyre, load_ratio: float) -> Array:
+    """Trail of TMeasy at the slips `TANGENTS`, m."""
+    pairs = (tyre.trail, tyre.trail_zero, tyre.trail_end)
+    trail, zero, end = (slip_at_load(pair, load_ratio) for pair in pairs)
+    length = patch_length(tyre.radius, load_ratio, tyre.nominal_load, tyre.stiffness)
+    return length * tmeasy_trail(trail, zero, end, TANGENTS)

@@ -142,7 +142,7 @@ def magic_plausibility(
 
 
 def tmeasy_plausibility(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Plausibility:
-    """Plausibility of a TMeasy tyre."""
+    """Plausibility of a TMeasy tyre: slopes per degree or per cent and the like are named as mistakes."""
     mistakes = []
     for name, per in (("lateral", "degree"), ("longitudinal", "percent")):
         factor = DEG if per == "degree" else 0.01

@@ -75,7 +75,18 @@ def link_mass(link: Element, factors: Factors) -> LinkMass:
     if inertia is not None:
         upper[np.triu_indices(3)] = [factors.inertias * inertia.numbers(name)[0] for name in INERTIA]
     tensor = upper + np.triu(upper, 1).T
-    moment = tensor[0, 0]
-    if factors.solid and moment > 0.0 and abs(math.log10(moment) % 1.0) < 1e-9 and np.all(tensor == moment * np.eye(3)):
-        tensor = 0.4 * mass_value * (mass_value / (4.0 / 3.0 * math.pi * SOLID_DENSITY)) ** (2.0 / 3.0) * np.eye(3)
+    if factors.solid and _is_placeholder(tensor):
+        tensor = _ball_inertia(mass_value)
     return LinkMass(mass_value, centre, tensor, inertial.line)
+
+
+def _is_placeholder(inertia: NDArray[np.float64]) -> bool:
+    """Whether an inertia is the same power of ten about all axes."""
+    moment = inertia[0, 0]
+    return bool(moment > 0.0 and abs(math.log10(moment) % 1.0) < 1e-9 and np.all(inertia == moment * np.eye(3)))
+
+
+def _ball_inertia(mass: float) -> NDArray[np.float64]:
+    """Inertia of a ball of `SOLID_DENSITY`, kg m2, shape (3, 3)."""
+    radius_squared = (mass / (4.0 / 3.0 * math.pi * SOLID_DENSITY)) ** (2.0 / 3.0)
+    return np.asarray(0.4 * mass * radius_squared * np.eye(3))

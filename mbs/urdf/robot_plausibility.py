@@ -1,7 +1,5 @@
 """Plausibility of a robot: masses, sizes, inertias and ranges of joints."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Container, Iterator, Mapping

@@ -27,6 +27,7 @@ from mbs.vehicle.chassis.mass_parameters import write_inertia
 from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import Rest, find_equilibrium, rest_outputs
+from mbs.vehicle.checks.ground import level_within, warn_of_steep_face
 from mbs.vehicle.checks.working_ranges import working_ranges
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
@@ -36,7 +37,6 @@ from mbs.vehicle.names import NAME_WORDS, PATTERN_WORDS
 from mbs.vehicle.outputs import car_outputs
 from mbs.vehicle.plausibility.car_plausibility import car_plausibility
 from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
-from mbs.vehicle.road import level_within, warn_of_steep_face
 from mbs.vehicle.schema_version import check_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.steering.steering_section import Steered

@@ -83,7 +83,6 @@ def _key_row(key: str, field: FieldInfo) -> tuple[str, ...]:
 
 
 def _range_text(quantity: Quantity) -> str:
-    """Range of a quantity as text."""
     limits = f"{quantity.low:g}" if quantity.low == quantity.high else f"{quantity.low:g} to {quantity.high:g}"
     return f"0 or {limits}" if quantity.zero and quantity.low > 0.0 else limits
 
@@ -106,7 +105,6 @@ def _value_text(annotation: Any) -> str:
 
 
 def _default_text(value: object) -> str:
-    """A default value as text."""
     if isinstance(value, tuple):
         return "[" + ", ".join(map(_default_text, value)) + "]"
     return f"{value:g}" if isinstance(value, float) else f"`{value!r}`"

@@ -1,7 +1,5 @@
 """`python -m benchmarks.car_peers`: cars in other programs turn as expected, and get the same inputs as ours."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -9,7 +9,7 @@ from benchmarks.shared.pages import DOCS, table
 from benchmarks.validation import __main__ as command
 from benchmarks.validation import acceleration, avoidance, published_tests, tyre_rig
 from benchmarks.validation.published_figures import Published
-from mbs.tyre_files.fits import tmeasy_of_magic
+from mbs.tyre_files.fit_tmeasy import tmeasy_of_magic
 
 
 @pytest.mark.parametrize(("angle", "slip"), [(8.0, 0.0), (-3.0, 0.0), (0.0, -5.0), (0.0, 5.0)])

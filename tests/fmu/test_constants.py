@@ -1,7 +1,5 @@
 """Constants of a model: given by every FMU, settable by none, no outputs, and no change of other value references."""
 
-from __future__ import annotations
-
 import tomllib
 import zipfile
 from collections.abc import Callable

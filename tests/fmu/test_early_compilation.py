@@ -1,7 +1,5 @@
 """Compilation begins before the model is compiled; the object files are shared and never part of an FMU."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import tempfile

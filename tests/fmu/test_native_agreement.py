@@ -1,7 +1,5 @@
 """All kinds of FMU and the engine give the same bits on every manoeuvre."""
 
-from __future__ import annotations
-
 import random
 import re
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Runs with wrong results warn once; accurate runs do not."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from pathlib import Path

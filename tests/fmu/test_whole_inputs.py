@@ -1,7 +1,5 @@
 """Inputs that are whole numbers: integers of FMI, discrete, without derivatives, the same in every host."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Whole numbers are integers of FMI; for a release they can be read and set as real ones too."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import fmpy

@@ -1,7 +1,5 @@
 """Hosts drive FMUs of FMI 3.0 as those of FMI 2.0: the same names, the same bits where inputs are held."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Callable
 from functools import cache

@@ -1,7 +1,5 @@
 """Steps in which a force of a contact or a stop changes abruptly are made in halves, others are not."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -11,7 +11,8 @@ import pytest
 from mbs.elements import MagicTyre, Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files import read_tyre
-from mbs.tyre_files.fits import magic_of_tmeasy, tmeasy_of_magic
+from mbs.tyre_files.fit_magic_formula import magic_of_tmeasy
+from mbs.tyre_files.fit_tmeasy import tmeasy_of_magic
 from mbs.tyre_files.magic_file import asymmetric_coefficients
 from mbs.tyre_files.property_writer import write_tyre
 from mbs.tyre_files.pure_curves import magic_trail

@@ -2,17 +2,13 @@
 
 from collections.abc import Collection, Sequence
 
+from ali3.message_text import word_list
 from hosts.simulator.devices.mapping import DeviceMapping
-
-
-def and_list(names: Sequence[str]) -> str:
-    """``a``, ``a and b``, ``a, b and c``."""
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def drivable_text(names: Sequence[str]) -> str:
     """The part of a message on the inputs that a device can drive."""
-    return f"a device can drive {and_list(names)}" if names else "a device can drive none of its inputs"
+    return f"a device can drive {word_list(names)}" if names else "a device can drive none of its inputs"
 
 
 def connection_text(label: str, kind: str, mapping: DeviceMapping, from_file: bool, inputs: Collection[str]) -> str:
@@ -21,4 +17,4 @@ def connection_text(label: str, kind: str, mapping: DeviceMapping, from_file: bo
     if not drives:
         return f"{label} is plugged in and drives nothing yet: assign its axes under Devices in the page."
     origin = "as it was assigned" if from_file else f"as a {kind} for now; calibrate it under Devices in the page"
-    return f"{label} is plugged in and drives {and_list(drives)}, {origin}."
+    return f"{label} is plugged in and drives {word_list(drives)}, {origin}."

@@ -7,10 +7,11 @@ from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
 
+from ali3.message_text import word_list
 from hosts.common.errors import HostError
 from hosts.simulator.devices.calibration import Assignment, Calibration
 from hosts.simulator.devices.device import ANGLE_MAX, Device, Steering
-from hosts.simulator.devices.device_text import and_list, drivable_text
+from hosts.simulator.devices.device_text import drivable_text
 from hosts.simulator.devices.mapping import DeviceMapping, drivable, read_input, read_settings
 from hosts.simulator.devices.reader import ArbiterLike, Reader
 from hosts.simulator.devices.reading import Source
@@ -107,9 +108,9 @@ class Devices:
             mapping, calibrated, unmoved = calibration.result()
             self._reader.remap(connected, mapping)
             if calibrated:
-                self._reader.tell(f"{connected.label}: the ends of {and_list(calibrated)} are found.")
+                self._reader.tell(f"{connected.label}: the ends of {word_list(calibrated)} are found.")
             if unmoved:
-                self._reader.tell(f"{connected.label}: {and_list(unmoved)} was not moved far enough and is as before.")
+                self._reader.tell(f"{connected.label}: {word_list(unmoved)} was not moved far enough and is as before.")
 
     def reset_mapping(self, device: str) -> None:
         """Return to the default mapping of the kind of device, and remove its file."""

@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ali3.errors import UserError
+from ali3.message_text import word_list
 from hosts.common.errors import HostError
 from hosts.simulator.devices import sdl as sdl_library
 from hosts.simulator.devices.defaults import default_mapping
 from hosts.simulator.devices.device import ANGLE_MAX, Device, Steering
-from hosts.simulator.devices.device_text import and_list, connection_text
+from hosts.simulator.devices.device_text import connection_text
 from hosts.simulator.devices.joysticks import Joystick, Joysticks
 from hosts.simulator.devices.mapping import DeviceMapping
 from hosts.simulator.devices.mapping_files import MappingFiles
@@ -172,7 +173,7 @@ class Reader:
         self.tell(connection_text(label, joystick.kind, mapping, from_file, self.inputs))
         missing = [m.source for m in mapping.inputs.values() if not Source.read(m.source).is_in(device.reading)]
         if missing:
-            self.tell(f"{label} has no {and_list(missing)}, as its file says; it has {device.reading.counts()}.")
+            self.tell(f"{label} has no {word_list(missing)}, as its file says; it has {device.reading.counts()}.")
         if mapping.settings.rotation and self._steering.lacks_angle and not self._angle_reported:
             self._angle_reported = True
             self.tell(f"The car does not say {ANGLE_MAX}, so a wheel's whole turn is full steering.")
@@ -201,7 +202,7 @@ class Reader:
             del self.devices[device.id]
         let_go = self._arbiter.gone(device.source)
         self._identities.leave(device.id)
-        message = f"; {and_list(let_go)} let go" if let_go else ""
+        message = f"; {word_list(let_go)} let go" if let_go else ""
         self.tell(f"{device.label} was pulled out{message}. Plug it in again and it drives as before.")
         device.close(_END_TIME)
 

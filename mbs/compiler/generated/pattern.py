@@ -81,7 +81,7 @@ class Pattern:
         self.sig_col, self.sig_val = [col[k] for k in flat], [val[k] for k in flat]
 
     def entries(self, signal: int) -> range:
-        """Entries of a signal."""
+        """Places of a signal in `sig_col` and `sig_val`."""
         return range(self.sig_ptr[signal], self.sig_ptr[signal + 1])
 
     def _is_triple(self, ptr: Integers, col: Integers, val: Sequence[float], i: int) -> bool:

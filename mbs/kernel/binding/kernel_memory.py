@@ -1,7 +1,5 @@
 """Objects that own memory of the kernel."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 

@@ -1,7 +1,5 @@
 """The shared library of the kernel: its path, the signatures of its functions, the check of its version."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import sys

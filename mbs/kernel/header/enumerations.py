@@ -59,7 +59,7 @@ class SolverValue(IntEnum):
 
 
 class ParameterTarget(IntEnum):
-    """Target of a parameter."""
+    """What a parameter writes to."""
 
     ELEMENT = 0
     GUIDE = 1

@@ -1,7 +1,5 @@
 """Two bodies that slide along axes of their carriers in a constant ratio."""
 
-from __future__ import annotations
-
 from numpy.typing import ArrayLike
 
 from mbs.common.checks import not_zero

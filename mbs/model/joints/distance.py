@@ -1,7 +1,5 @@
 """Constant or driven distance between two points: a massless rod is one row."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -28,7 +26,7 @@ def end_point(model: BodyVocabulary, end: End, subject: str) -> tuple[AffineVect
 
 
 def end_body(end: End, subject: str) -> Body:
-    """The body of an end."""
+    """The body at an end of a rod, also if its point slides."""
     return end.body if isinstance(end, SlidingPoint) else body_and_point(end, subject, ENDS)[0]
 
 

@@ -1,7 +1,5 @@
 """A coordinate or a distance that follows a guide."""
 
-from __future__ import annotations
-
 from mbs.common.affine import Affine
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError

@@ -1,7 +1,5 @@
 """A lever on a carrier and a rod from its end to another body, both without mass: one angle and one row."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

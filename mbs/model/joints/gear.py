@@ -1,7 +1,5 @@
 """A pair of gears: two wheels turn against their carriers in a constant ratio."""
 
-from __future__ import annotations
-
 from mbs.common.checks import not_zero
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary

@@ -1,7 +1,5 @@
 """Pin: holds a point of a body at its present position, switched on and off at run time."""
 
-from __future__ import annotations
-
 from numpy.typing import ArrayLike
 
 from mbs.common.errors import ModelError

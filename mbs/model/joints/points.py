@@ -1,7 +1,5 @@
 """Equations of joints with a shared point or axis, and the spherical joint."""
 
-from __future__ import annotations
-
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import AffineVector

@@ -1,7 +1,5 @@
 """Rack and pinion: a body slides along an axis of a carrier by the radius of a pinion per radian."""
 
-from __future__ import annotations
-
 from numpy.typing import ArrayLike
 
 from mbs.common.checks import not_zero

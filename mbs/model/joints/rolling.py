@@ -12,8 +12,6 @@ with w the absolute axial rate. A body with the unit vectors f, g square to n an
 two c_z c' - R^2 (f_z f' + g_z g') = 0 in x and y.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,7 +1,5 @@
 """Screw joint: a cylindrical joint whose slide and turn are coupled by a pitch."""
 
-from __future__ import annotations
-
 import math
 
 from numpy.typing import ArrayLike

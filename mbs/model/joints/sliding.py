@@ -1,7 +1,5 @@
 """Equations of joints that slide along a line, the point-on-line and the cylindrical joint."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

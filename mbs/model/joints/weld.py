@@ -1,7 +1,5 @@
 """The weld."""
 
-from __future__ import annotations
-
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.joint_ends import different

@@ -11,7 +11,7 @@ from ali3.columns import in_columns
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
 from ali3.files import check_writable, write_json
-from ali3.message_text import brief
+from ali3.message_text import brief, word_list
 from ali3.near_names import did_you_mean
 from ali3.units import number_with_unit
 from ali3.warning_lines import warning_lines
@@ -129,8 +129,7 @@ def _largest_text(rows: Sequence[Mapping[str, Any]], key: str, factor: float, fo
 
 def _tolerance_text(tolerances: Mapping[str, float]) -> str:
     """Tolerances in words."""
-    limits = [f"{100.0 * most:g} % {TITLES[output]}" for output, most in tolerances.items()]
-    return ", ".join(limits[:-1]) + (" and " if len(limits) > 1 else "") + limits[-1]
+    return word_list([f"{100.0 * most:g} % {TITLES[output]}" for output, most in tolerances.items()])
 
 
 def _choice_sentence(choice: LevelChoice, tolerances: Mapping[str, float]) -> str:

@@ -13,8 +13,8 @@ from scipy.interpolate import CubicSpline
 
 from ali3.tables import TextTable
 from mbs.model.smooth_table import MIN_POINTS, SPACING_TOLERANCE
+from mbs.vehicle.car_files import car_file_path
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.table import car_file_path
 
 Array = NDArray[np.float64]
 

@@ -13,9 +13,9 @@ from pydantic import Field, PrivateAttr
 from mbs.elements.magic_tyre import FACTORS, MagicTyre
 from mbs.elements.tyre_bore import TyreBore
 from mbs.tyre_files import TyreFileError, read_tyre
+from mbs.vehicle.car_files import car_file_path
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
-from mbs.vehicle.table import car_file_path
 from mbs.vehicle.tyres.tyre_section import Bore, TyreSection
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
+from hosts.compare.measured_speed import make_speed_holder
 from hosts.compare.plausibility import scale_mistake
 from hosts.compare.replay import follower_demand
-from hosts.compare.segment_fmu import _make_speed_holder
 from hosts.compare.segments import Segment
 from hosts.compare.windows import held_speed_text
 from hosts.driving.manoeuvre import Manoeuvre
@@ -20,7 +20,7 @@ from hosts.measures.signal import Signal
 def test_a_measured_speed_is_held_closely_by_pedals_that_do_not_swing(step: float) -> None:
     """By a car of 8 m/s2 of throttle and 12 of brake, whose drag the driver does not know."""
     t = np.arange(0.0, 20.0, 0.01)
-    holder = _make_speed_holder(Signal("speed", "v", "m/s", t, 20.0 + 2.0 * np.sin(0.8 * t)), 0.2, step)
+    holder = make_speed_holder(Signal("speed", "v", "m/s", t, 20.0 + 2.0 * np.sin(0.8 * t)), 0.2, step)
     speed, errors, pedals = 20.0, [], []
     for k in range(round(19.0 / step)):
         act = holder.act(k * step, {"speed": speed})

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hosts.compare.command import main
-from hosts.compare.segment_fmu import smooth_speed
+from hosts.compare.measured_speed import smooth_speed
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu import Fmu

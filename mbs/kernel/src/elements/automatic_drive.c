@@ -128,8 +128,8 @@ static void apply_locking(ali3_element_args *a, double limit) {
   const double b[ALI3_DRIVEN_SIGNALS] = {1.0, -1.0};
   for (int i = 0; i < 2; i++) {
     a->f[i] -= transferred * b[i];
-    a->out[6 + i] -= transferred * b[i];
-    a->out[4 + i] -= transferred * b[i] * (a->ud[i] - ali3_frame_rate(a));
+    a->out[AUTOMATIC_DRIVE_OUT_LEFT_TORQUE + i] -= transferred * b[i];
+    a->out[AUTOMATIC_DRIVE_OUT_LEFT_POWER + i] -= transferred * b[i] * (a->ud[i] - ali3_frame_rate(a));
   }
   if (a->S) ali3_add_outer(a->S, ALI3_DRIVEN_SIGNALS, a->wC * limit / (LOCKING_RATE * w * w * w), b);
 }
@@ -149,13 +149,13 @@ static void evaluate(ali3_element_args *a) {
   a->piece |= (uint32_t)(IN_GEAR * (direction > 0 ? gear : direction < 0 ? gears + 1 : 0));
   ali3_drive_wheels(a, wheel_torque, slope);
   a->potential = 0.0;
-  a->out[0] = speed;
-  a->out[1] = direction > 0 ? gear : direction;
-  a->out[2] = 0.5 * wheel_torque;
-  a->out[3] = engine;
+  a->out[AUTOMATIC_DRIVE_OUT_ENGINE_SPEED] = speed;
+  a->out[AUTOMATIC_DRIVE_OUT_GEAR] = direction > 0 ? gear : direction;
+  a->out[AUTOMATIC_DRIVE_OUT_WHEEL_TORQUE] = 0.5 * wheel_torque;
+  a->out[AUTOMATIC_DRIVE_OUT_ENGINE_TORQUE] = engine;
   for (int i = 0; i < 2; i++) {
-    a->out[4 + i] = 0.5 * wheel_torque * (a->ud[i] - ali3_frame_rate(a));
-    a->out[6 + i] = 0.5 * wheel_torque;
+    a->out[AUTOMATIC_DRIVE_OUT_LEFT_POWER + i] = 0.5 * wheel_torque * (a->ud[i] - ali3_frame_rate(a));
+    a->out[AUTOMATIC_DRIVE_OUT_LEFT_TORQUE + i] = 0.5 * wheel_torque;
   }
   if (p[LOCKING] > 0.0) apply_locking(a, 0.5 * p[LOCKING] * fabs(wheel_torque));
 }

@@ -1,10 +1,6 @@
 /* clang-format off */
 /* Numbers of a drive. Written by `python -m mbs.elements.fields_in_c` from AutomaticDrive. */
 /* Signals: left (1), right (1), f (3), g (3). */
-/* Outputs: engine_speed (rad/s), speed of the engine; gear (1), gear engaged; wheel_torque (N m), torque on each
- * of the two wheels, the mean if the differential locks; engine_torque (N m), torque of the engine; left_power
- * (W), power on the left wheel; right_power (W), power on the right wheel; left_torque (N m), torque on the left
- * wheel; right_torque (N m), torque on the right wheel */
 #ifndef ALI3_AUTOMATIC_DRIVE_FIELDS_H
 #define ALI3_AUTOMATIC_DRIVE_FIELDS_H
 #include "element.h"
@@ -58,12 +54,31 @@ enum {
   ENGAGE_TIME,
 };
 enum {
-  THROTTLE, /* Index of an input. */
+  THROTTLE, /* Index of the input. */
   GEARS, /* Number of items with 1 real each. */
-  SELECTOR, /* Index of an input. */
-  REQUEST, /* Index of an input, -1: none. */
-  CLUTCH, /* Index of an input. */
+  SELECTOR, /* Index of an input, the selector. */
+  REQUEST, /* Index of an input, the request, -1: none. */
+  CLUTCH, /* Index of an input, the clutch. */
   AUTOMATIC_DRIVE_INTEGERS
+};
+enum {
+  /* Speed of the engine, rad/s. */
+  AUTOMATIC_DRIVE_OUT_ENGINE_SPEED,
+  /* Gear engaged. */
+  AUTOMATIC_DRIVE_OUT_GEAR,
+  /* Torque on each of the two wheels, the mean if the differential locks, N m. */
+  AUTOMATIC_DRIVE_OUT_WHEEL_TORQUE,
+  /* Torque of the engine, N m. */
+  AUTOMATIC_DRIVE_OUT_ENGINE_TORQUE,
+  /* Power on the left wheel, W. */
+  AUTOMATIC_DRIVE_OUT_LEFT_POWER,
+  /* Power on the right wheel, W. */
+  AUTOMATIC_DRIVE_OUT_RIGHT_POWER,
+  /* Torque on the left wheel, N m. */
+  AUTOMATIC_DRIVE_OUT_LEFT_TORQUE,
+  /* Torque on the right wheel, N m. */
+  AUTOMATIC_DRIVE_OUT_RIGHT_TORQUE,
+  AUTOMATIC_DRIVE_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field automatic_drive_fields[] = {

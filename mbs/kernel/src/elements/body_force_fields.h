@@ -1,15 +1,14 @@
 /* clang-format off */
 /* Numbers of a force. Written by `python -m mbs.elements.fields_in_c` from BodyForce. */
 /* Signals: point (3 or 2), axes (9 or 2). */
-/* Outputs: none */
 #ifndef ALI3_BODY_FORCE_FIELDS_H
 #define ALI3_BODY_FORCE_FIELDS_H
 #include "element.h"
 
 enum {
-  FIRST, /* Index of an input, -1: none. */
-  SECOND, /* Index of an input, -1: none. */
-  THIRD, /* Index of an input, -1: none. */
+  FIRST, /* Index of an entry of the inputs, -1: none. */
+  SECOND, /* Index of an entry of the inputs, -1: none. */
+  THIRD, /* Index of an entry of the inputs, -1: none. */
   BODY_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -1,16 +1,15 @@
 /* clang-format off */
 /* Numbers of a torque. Written by `python -m mbs.elements.fields_in_c` from BodyTorque. */
 /* Signals: frame (9 or 2). */
-/* Outputs: none */
 #ifndef ALI3_BODY_TORQUE_FIELDS_H
 #define ALI3_BODY_TORQUE_FIELDS_H
 #include "element.h"
 
 enum {
-  FIRST, /* Index of an input, -1: none. */
-  SECOND, /* Index of an input, -1: none. */
-  THIRD, /* Index of an input, -1: none. */
-  AXES, /* A choice. */
+  FIRST, /* Index of an entry of the inputs, -1: none. */
+  SECOND, /* Index of an entry of the inputs, -1: none. */
+  THIRD, /* Index of an entry of the inputs, -1: none. */
+  AXES, /* The axes. */
   BODY_TORQUE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -28,10 +28,10 @@ static void evaluate(ali3_element_args *a) {
   for (int i = 0; i < 3; i++) b[i] = -0.5 * g[i], b[3 + i] = 0.5 * f[i];
   b[6] = ali3_same(1.0);
   for (int i = 0; i < 7; i++) a->f[i] = -torque * b[i];
-  a->out[0] = -torque;
-  a->out[1] = ali3_where(slider.sticks, ali3_same(1.0), ali3_same(0.0));
-  a->out[2] = w;
-  a->out[3] = -torque * w;
+  a->out[BRAKE_OUT_TORQUE] = -torque;
+  a->out[BRAKE_OUT_STICKING] = ali3_where(slider.sticks, ali3_same(1.0), ali3_same(0.0));
+  a->out[BRAKE_OUT_RATE] = w;
+  a->out[BRAKE_OUT_POWER] = -torque * w;
   if (a->S) ali3_add_outer(a->S, 7, a->wC * slider.slope, b); /* without the rotation of f, g within the step */
 }
 

@@ -1,9 +1,6 @@
 /* clang-format off */
 /* Numbers of a brake. Written by `python -m mbs.elements.fields_in_c` from Brake. */
 /* Signals: f (3), g (3), spin (1). */
-/* Outputs: torque (N m), torque of the brake on the wheel about the axis; sticking (1), 1 while the brake sticks,
- * else 0; rate (rad/s), spin of the wheel relative to its carrier; power (W), power of the torque on wheel and
- * carrier together */
 #ifndef ALI3_BRAKE_FIELDS_H
 #define ALI3_BRAKE_FIELDS_H
 #include "element.h"
@@ -24,10 +21,21 @@ enum {
   BRAKE_REALS
 };
 enum {
-  PEDAL, /* Index of an input. */
-  HAND, /* Index of an input, -1: none. */
-  BY_SIZE, /* A choice. */
+  PEDAL, /* Index of the input. */
+  HAND, /* Index of an input, the hand brake, -1: none. */
+  BY_SIZE, /* The choice of a size as the input. */
   BRAKE_INTEGERS
+};
+enum {
+  /* Torque of the brake on the wheel about the axis, N m. */
+  BRAKE_OUT_TORQUE,
+  /* 1 while the brake sticks, else 0. */
+  BRAKE_OUT_STICKING,
+  /* Spin of the wheel relative to its carrier, rad/s. */
+  BRAKE_OUT_RATE,
+  /* Power of the torque on wheel and carrier together, W. */
+  BRAKE_OUT_POWER,
+  BRAKE_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field brake_fields[] = {

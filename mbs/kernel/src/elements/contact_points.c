@@ -20,7 +20,6 @@
 #include "road.h"
 
 enum { LOW = CONTACT_POINTS_REALS, HIGH = LOW + 3, HEAD = HIGH + 3 };
-enum { NORMAL_FORCE, TOUCHING, FORCE, DEPTH = FORCE + 3, OUTPUTS };
 enum { SIGNALS = 12, STATES = 4 }; /* states of each point */
 enum { STICKS = 1, SLIPS, PIECES };
 
@@ -106,11 +105,11 @@ static normal_contact add_normal_forces(ali3_element_args *a, const double local
     for (int i = 0; i < SIGNALS; i++) a->f[i] += force * b[i];
     for (int i = 0; i < 3; i++) {
       t.normal[i] += force * c->gradient[i];
-      a->out[FORCE + i] += force * c->gradient[i];
+      a->out[CONTACT_POINTS_OUT_FORCE_X + i] += force * c->gradient[i];
     }
     t.friction = t.load / (t.load + load) * t.friction + load / (t.load + load) * c->friction;
     t.load += load;
-    if (depth[1] > a->out[DEPTH]) a->out[DEPTH] = depth[1];
+    if (depth[1] > a->out[CONTACT_POINTS_OUT_DEPTH]) a->out[CONTACT_POINTS_OUT_DEPTH] = depth[1];
     if (a->S) ali3_add_outer(a->S, SIGNALS, a->wK * slope * factor + a->wC * mean * loss_slope, b);
   }
   return t;
@@ -166,7 +165,7 @@ static void add_friction(ali3_element_args *a, const double local[3], const norm
   for (int i = 0; i < 2; i++) {
     const double force = scale * trial[i];
     for (int j = 0; j < SIGNALS; j++) a->f[j] -= force * row[i][j];
-    for (int j = 0; j < 3; j++) a->out[FORCE + j] -= force * plane[i][j];
+    for (int j = 0; j < 3; j++) a->out[CONTACT_POINTS_OUT_FORCE_X + j] -= force * plane[i][j];
     y_new[i] = y_old[i];
     y_new[2 + i] = y_old[2 + i];
     if (a->h > 0.0) {
@@ -181,7 +180,7 @@ static void add_friction(ali3_element_args *a, const double local[3], const norm
 /* by_gradients: discrete gradients over a step. */
 static void evaluate_points(ali3_element_args *a, int by_gradients) {
   memset(a->y_new, 0, (size_t)a->nstate * sizeof(double));
-  memset(a->out, 0, OUTPUTS * sizeof(double));
+  memset(a->out, 0, CONTACT_POINTS_OUTPUTS * sizeof(double));
   a->potential = 0.0;
   /* a step by gradients may start in contact and have its middle above the road */
   if (!by_gradients && is_far_above(a)) {
@@ -195,8 +194,8 @@ static void evaluate_points(ali3_element_args *a, int by_gradients) {
     /* a point that leaves the road loses its deflection, which has decreased with the load */
     if (!(t.load > 0.0)) continue;
     add_friction(a, local, &t, a->y_old + STATES * i, a->y_new + STATES * i);
-    a->out[NORMAL_FORCE] += t.load;
-    a->out[TOUCHING] += 1.0;
+    a->out[CONTACT_POINTS_OUT_NORMAL_FORCE] += t.load;
+    a->out[CONTACT_POINTS_OUT_TOUCHING] += 1.0;
   }
 }
 
@@ -229,6 +228,11 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_contact_points = {
-    ALI3_CONTACT_POINTS, .evaluate = evaluate, .discrete = evaluate_discrete, .depth = find_depth, .first_force = FORCE,
-    .n_forces = 3,       .check = check,
+    ALI3_CONTACT_POINTS,
+    .evaluate = evaluate,
+    .discrete = evaluate_discrete,
+    .depth = find_depth,
+    .first_force = CONTACT_POINTS_OUT_FORCE_X,
+    .n_forces = 3,
+    .check = check,
 };

@@ -1,10 +1,6 @@
 /* clang-format off */
 /* Numbers of contact points. Written by `python -m mbs.elements.fields_in_c` from ContactPoints. */
 /* Signals: origin (3), axes (9). */
-/* Outputs: normal_force (N), sum of the normal forces of the road on the points; touching (1), number of points
- * that touch the road; force_x (N), force of the road on the body, earth axes; force_y (N), force of the road on
- * the body, earth axes; force_z (N), force of the road on the body, earth axes; depth (m), deepest penetration of
- * a point */
 #ifndef ALI3_CONTACT_POINTS_FIELDS_H
 #define ALI3_CONTACT_POINTS_FIELDS_H
 #include "element.h"
@@ -29,9 +25,24 @@ enum {
   CONTACT_POINTS_REALS
 };
 enum {
-  ROAD, /* Index of a road. */
+  ROAD, /* Index of the road. */
   POINTS, /* Number of items with 3 reals and 4 states each. */
   CONTACT_POINTS_INTEGERS
+};
+enum {
+  /* Sum of the normal forces of the road on the points, N. */
+  CONTACT_POINTS_OUT_NORMAL_FORCE,
+  /* Number of points that touch the road. */
+  CONTACT_POINTS_OUT_TOUCHING,
+  /* Force of the road on the body, earth axes, N. */
+  CONTACT_POINTS_OUT_FORCE_X,
+  /* Force of the road on the body, earth axes, N. */
+  CONTACT_POINTS_OUT_FORCE_Y,
+  /* Force of the road on the body, earth axes, N. */
+  CONTACT_POINTS_OUT_FORCE_Z,
+  /* Deepest penetration of a point, m. */
+  CONTACT_POINTS_OUT_DEPTH,
+  CONTACT_POINTS_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field contact_points_fields[] = {

@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a friction. Written by `python -m mbs.elements.fields_in_c` from CoordinateFriction. */
 /* Signals: coordinate (1). */
-/* Outputs: force (N m), friction on the coordinate; sticking (1), 1 while it sticks, else 0 */
 #ifndef ALI3_COORDINATE_FRICTION_FIELDS_H
 #define ALI3_COORDINATE_FRICTION_FIELDS_H
 #include "element.h"
@@ -14,6 +13,13 @@ enum {
   /* While it holds, N m s/rad or N s/m. */
   STICK_DAMPING,
   COORDINATE_FRICTION_REALS
+};
+enum {
+  /* Friction on the coordinate, N m. */
+  COORDINATE_FRICTION_OUT_FORCE,
+  /* 1 while it sticks, else 0. */
+  COORDINATE_FRICTION_OUT_STICKING,
+  COORDINATE_FRICTION_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field coordinate_friction_fields[] = {

@@ -10,7 +10,7 @@ static void evaluate(ali3_element_args *a) {
   for (int32_t i = 0; i < n; i++) square += a->ud[i] * a->ud[i];
   const real speed = ali3_sqrt(square);
   for (int32_t i = 0; i < n; i++) a->f[i] = -factor * speed * a->ud[i];
-  a->out[0] = factor * square;
+  a->out[DRAG_OUT_FORCE] = factor * square;
   a->potential = ali3_same(0.0);
   if (!a->S) return;
   const truth moves = speed > 0.0;

@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a drag. Written by `python -m mbs.elements.fields_in_c` from Drag. */
 /* Signals: point (3 or 2). */
-/* Outputs: force (N), size of the drag */
 #ifndef ALI3_DRAG_FIELDS_H
 #define ALI3_DRAG_FIELDS_H
 #include "element.h"
@@ -12,6 +11,11 @@ enum {
   /* Density of the air, kg/m^3. */
   AIR_DENSITY,
   DRAG_REALS
+};
+enum {
+  /* Size of the drag, N. */
+  DRAG_OUT_FORCE,
+  DRAG_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field drag_fields[] = {

@@ -18,8 +18,6 @@
 #define GEAR_FADE 5.0 /* rad/s of the motor, below which the loss of the gears, a friction, fades */
 #define BARELY 1e-3 /* fraction of GEAR_FADE below which the loss of the gears is negligible */
 
-enum { MOTOR_SPEED, MOTOR_TORQUE, WHEEL_TORQUE, ELECTRIC_POWER, GEAR, WHEEL_POWER }; /* outputs; one power a wheel */
-
 /* Bits of the active smooth pieces of the law. */
 enum { BY_POWER = 1, LIMITED = 2, CUT_OFF = 4, TAKES_BY_POWER = 8, DRIVES = 16, DIRECTIONS = 32 };
 
@@ -87,12 +85,12 @@ static void evaluate(ali3_element_args *a) {
   a->piece = wheels.piece + (uint32_t)(DIRECTIONS * (direction + 1));
   ali3_drive_wheels(a, total, slope);
   a->potential = 0.0;
-  a->out[MOTOR_SPEED] = speed;
-  a->out[MOTOR_TORQUE] = m.value;
-  a->out[WHEEL_TORQUE] = 0.5 * total;
-  a->out[ELECTRIC_POWER] = power > 0.0 ? power / p[EFFICIENCY] : power * p[EFFICIENCY];
-  a->out[GEAR] = direction;
-  for (int i = 0; i < 2; i++) a->out[WHEEL_POWER + i] = 0.5 * total * (a->ud[i] - ali3_frame_rate(a));
+  a->out[ELECTRIC_DRIVE_OUT_MOTOR_SPEED] = speed;
+  a->out[ELECTRIC_DRIVE_OUT_MOTOR_TORQUE] = m.value;
+  a->out[ELECTRIC_DRIVE_OUT_WHEEL_TORQUE] = 0.5 * total;
+  a->out[ELECTRIC_DRIVE_OUT_ELECTRIC_POWER] = power > 0.0 ? power / p[EFFICIENCY] : power * p[EFFICIENCY];
+  a->out[ELECTRIC_DRIVE_OUT_GEAR] = direction;
+  for (int i = 0; i < 2; i++) a->out[ELECTRIC_DRIVE_OUT_LEFT_POWER + i] = 0.5 * total * (a->ud[i] - ali3_frame_rate(a));
 }
 
 static void accept(ali3_element_args *a) {

@@ -1,10 +1,6 @@
 /* clang-format off */
 /* Numbers of a drive. Written by `python -m mbs.elements.fields_in_c` from ElectricDrive. */
 /* Signals: left (1), right (1), f (3), g (3). */
-/* Outputs: motor_speed (rad/s), speed of the motor; motor_torque (N m), torque of the motor; wheel_torque (N m),
- * torque on each of the two wheels; electric_power (W), power from the battery, negative in regeneration; gear
- * (1), direction engaged: -1 reverse, 0 neutral, 1 drive; left_power (W), power on the left wheel; right_power
- * (W), power on the right wheel */
 #ifndef ALI3_ELECTRIC_DRIVE_FIELDS_H
 #define ALI3_ELECTRIC_DRIVE_FIELDS_H
 #include "element.h"
@@ -40,9 +36,26 @@ enum {
   ELECTRIC_DRIVE_REALS
 };
 enum {
-  THROTTLE, /* Index of an input. */
-  SELECTOR, /* Index of an input. */
+  THROTTLE, /* Index of the input. */
+  SELECTOR, /* Index of an input, the selector. */
   ELECTRIC_DRIVE_INTEGERS
+};
+enum {
+  /* Speed of the motor, rad/s. */
+  ELECTRIC_DRIVE_OUT_MOTOR_SPEED,
+  /* Torque of the motor, N m. */
+  ELECTRIC_DRIVE_OUT_MOTOR_TORQUE,
+  /* Torque on each of the two wheels, N m. */
+  ELECTRIC_DRIVE_OUT_WHEEL_TORQUE,
+  /* Power from the battery, negative in regeneration, W. */
+  ELECTRIC_DRIVE_OUT_ELECTRIC_POWER,
+  /* Direction engaged: -1 reverse, 0 neutral, 1 drive. */
+  ELECTRIC_DRIVE_OUT_GEAR,
+  /* Power on the left wheel, W. */
+  ELECTRIC_DRIVE_OUT_LEFT_POWER,
+  /* Power on the right wheel, W. */
+  ELECTRIC_DRIVE_OUT_RIGHT_POWER,
+  ELECTRIC_DRIVE_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field electric_drive_fields[] = {

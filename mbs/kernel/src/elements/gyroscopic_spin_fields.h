@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a spinning wheel. Written by `python -m mbs.elements.fields_in_c` from GyroscopicSpin. */
 /* Signals: f (3), g (3), spin (1). */
-/* Outputs: none */
 #ifndef ALI3_GYROSCOPIC_SPIN_FIELDS_H
 #define ALI3_GYROSCOPIC_SPIN_FIELDS_H
 #include "element.h"

@@ -15,8 +15,8 @@ static void evaluate(ali3_element_args *a) {
   ali3_cross(moment, e, a->f + 3); /* no contribution to S: the tangent is antisymmetric */
   a->f[6] = ali3_dot(moment, e);
   a->potential = 0.0;
-  a->out[0] = 0.0;
-  for (int i = 0; i < 7; i++) a->out[0] += a->f[i] * a->ud[i];
+  a->out[HUB_WRENCH_OUT_POWER] = 0.0;
+  for (int i = 0; i < 7; i++) a->out[HUB_WRENCH_OUT_POWER] += a->f[i] * a->ud[i];
   for (int i = 0; a->S && i < 3; i++) a->S[6 * 7 + 3 + i] = a->S[(3 + i) * 7 + 6] = -0.5 * a->wK * moment[i];
 }
 

@@ -1,19 +1,23 @@
 /* clang-format off */
 /* Numbers of a wrench. Written by `python -m mbs.elements.fields_in_c` from HubWrench. */
 /* Signals: centre (3), axis (3), spin (1). */
-/* Outputs: power (W), power of force and moment on wheel and carrier together */
 #ifndef ALI3_HUB_WRENCH_FIELDS_H
 #define ALI3_HUB_WRENCH_FIELDS_H
 #include "element.h"
 
 enum {
-  FORCE_X, /* Index of an input. */
-  FORCE_Y, /* Index of an input. */
-  FORCE_Z, /* Index of an input. */
-  MOMENT_X, /* Index of an input. */
-  MOMENT_Y, /* Index of an input. */
-  MOMENT_Z, /* Index of an input. */
+  FORCE_X, /* Index of an entry of the inputs. */
+  FORCE_Y, /* Index of an entry of the inputs. */
+  FORCE_Z, /* Index of an entry of the inputs. */
+  MOMENT_X, /* Index of an entry of the inputs. */
+  MOMENT_Y, /* Index of an entry of the inputs. */
+  MOMENT_Z, /* Index of an entry of the inputs. */
   HUB_WRENCH_INTEGERS
+};
+enum {
+  /* Power of force and moment on wheel and carrier together, W. */
+  HUB_WRENCH_OUT_POWER,
+  HUB_WRENCH_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_integer hub_wrench_integers[] = {

@@ -1,13 +1,12 @@
 /* clang-format off */
 /* Numbers of an input force. Written by `python -m mbs.elements.fields_in_c` from InputForce. */
 /* Signals: any number. */
-/* Outputs: none */
 #ifndef ALI3_INPUT_FORCE_FIELDS_H
 #define ALI3_INPUT_FORCE_FIELDS_H
 #include "element.h"
 
 enum {
-  INPUT, /* Index of an input. */
+  INPUT, /* Index of the input. */
   INPUT_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -15,7 +15,7 @@ static void evaluate(ali3_element_args *a) {
   double v = 0.0;
   for (int32_t i = 0; i < n; i++) v += velocity[i] * forward[i];
   for (int32_t i = 0; i < n; i++) a->f[i] = factor * v * v * up[i];
-  a->out[0] = factor * v * v;
+  a->out[LIFT_OUT_FORCE] = factor * v * v;
   a->potential = 0.0;
   if (!a->S) return;
   /* symmetric part of -df/d(point rate), -df/d(axes) */

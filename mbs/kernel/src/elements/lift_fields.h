@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a lift. Written by `python -m mbs.elements.fields_in_c` from Lift. */
 /* Signals: point (3 or 2), forward (3 or 2), up (3 or 2). */
-/* Outputs: force (N), lift, positive along the upward axis */
 #ifndef ALI3_LIFT_FIELDS_H
 #define ALI3_LIFT_FIELDS_H
 #include "element.h"
@@ -14,9 +13,14 @@ enum {
   LIFT_REALS
 };
 enum {
-  WIND_SPEED, /* Index of an input. */
-  WIND_HEADING, /* Index of an input. */
+  WIND_SPEED, /* Index of an input, the speed of the air. */
+  WIND_HEADING, /* Index of an input, the heading of the air. */
   LIFT_INTEGERS
+};
+enum {
+  /* Lift, positive along the upward axis, N. */
+  LIFT_OUT_FORCE,
+  LIFT_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field lift_fields[] = {

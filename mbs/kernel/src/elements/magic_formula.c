@@ -1,14 +1,13 @@
-/* Magic Formula: forces and moments of a tyre with their derivatives with respect to the slips. Numbers of equations:
- * see magic_formula.h. */
+/* Magic Formula: forces of a tyre with their derivatives with respect to the slips. Numbers of equations: see
+ * magic_formula.h. */
 #include "magic_formula.h"
 
 #include <math.h>
 #include <stdbool.h>
 
 #include "../algebra/elementary.h"
+#include "magic_terms.h"
 
-#define PI 3.14159265358979323846
-#define MIN_FACTOR 0.05 /* of camber, load and pressure: large ones must not reverse friction or stiffness */
 #define MIN_WEIGHT 0.05 /* of combined slip, in the damping of the carcass: it must stay stable at large slips */
 #define MIN_LENGTH_RATIO 0.05 /* of a relaxation length to the default one, which is taken below it */
 #define SMALL_SLIP 1e-9 /* below it a secant is the tangent; keeps the ratio of slips finite */
@@ -16,70 +15,11 @@
 #define DEFAULT_LONGITUDINAL_RELAXATION 0.5
 #define DEFAULT_LATERAL_RELAXATION 1.0
 
-/* Dual number: value v, derivatives k, t with respect to longitudinal slip and tan(slip angle). */
-typedef struct {
-  double v, k, t;
-} dual;
-
-/* Functions of dual numbers; chain: a function with value v and slope at x. */
-static dual constant(double v) { return (dual){v, 0.0, 0.0}; }
-static dual chain(dual x, double v, double slope) { return (dual){v, slope * x.k, slope * x.t}; }
-static dual add(dual a, dual b) { return (dual){a.v + b.v, a.k + b.k, a.t + b.t}; }
-static dual add_constant(dual a, double b) { return (dual){a.v + b, a.k, a.t}; }
-static dual scale(dual a, double b) { return (dual){a.v * b, a.k * b, a.t * b}; }
-static dual multiply(dual a, dual b) { return (dual){a.v * b.v, a.k * b.v + a.v * b.k, a.t * b.v + a.v * b.t}; }
-static dual arctan(dual x) { return chain(x, ali3_atan2(x.v, 1.0), 1.0 / (1.0 + x.v * x.v)); }
-static dual sine(dual x) { return chain(x, ali3_sin(x.v), ali3_cos(x.v)); }
-static dual cosine(dual x) { return chain(x, ali3_cos(x.v), -ali3_sin(x.v)); }
-
-/* 1 for x = 0. */
-static double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
-static double at_most_one(double e) { return e < 1.0 ? e : 1.0; }
-static double at_least_min_factor(double x) { return x > MIN_FACTOR ? x : MIN_FACTOR; }
-
-/* C atan(B x - E (B x - atan(B x))) */
-static dual magic_argument(dual B, double C, double E, dual x) {
-  const dual z = multiply(B, x);
-  if (E == 0.0) return scale(arctan(z), C);
-  return scale(arctan(add(scale(z, 1.0 - E), scale(arctan(z), E))), C);
-}
-
-/* cos(atan(x)) */
-static dual cos_atan(dual x) {
-  const double size2 = 1.0 + x.v * x.v, value = 1.0 / sqrt(size2);
-  return chain(x, value, -x.v * value / size2);
-}
-
 /* y/x, which tends to `limit` where both vanish. */
 static dual secant(dual y, dual x, double limit) {
   if (fabs(x.v) < SMALL_SLIP) return constant(limit);
   const double value = y.v / x.v;
   return (dual){value, (y.k - value * x.k) / x.v, (y.t - value * x.t) / x.v};
-}
-
-/* One direction at pure slip: coefficients of 4.E9 and 4.E19, longitudinal or lateral. */
-typedef struct {
-  double B, C, E, D, K, SH, SV;
-  dual slip, force_without_SV, force; /* slip: with SH */
-} pure_slip;
-
-typedef struct {
-  double nominal, dfz, dpi; /* nominal load, N; relative deviations of load and pressure */
-  bool is_mf6; /* version 6.1 or later */
-  double gamma_star; /* 4.E4; PAC2002: the camber angle */
-  double sliding_factor; /* on friction by the sliding speed, 4.E7 */
-} operating_point;
-
-/* Quantities that both directions use. */
-static operating_point make_operating_point(const ali3_magic_state *s) {
-  const double *c = s->c, nominal = s->nominal_load * c[ALI3_MF_LFZO];
-  const bool is_mf6 = s->version >= ALI3_MAGIC_61;
-  return (operating_point){.nominal = nominal,
-                           .dfz = (s->load - nominal) / nominal,
-                           .dpi = s->pressure,
-                           .is_mf6 = is_mf6,
-                           .gamma_star = is_mf6 ? ali3_sin(s->camber) : s->camber,
-                           .sliding_factor = 1.0 / (1.0 + c[ALI3_MF_LMUV] * s->slide / c[ALI3_MF_LONGVL])};
 }
 
 /* 4.E8 with A_mu = 10: shifts vanish more slowly than friction. */
@@ -206,113 +146,6 @@ static dual evaluate_ellipse(const pure_slip *own, const pure_slip *other, dual 
   return chain(x, value, -0.5 * value / sum);
 }
 
-typedef struct { /* terms that the trail and the residual moment have in common */
-  double gamma, lambda_mu, stiffness, direction, cosine_alpha; /* direction: of travel, 0 at rest */
-  double longitudinal; /* longitudinal slip times the ratio of both slip stiffnesses */
-} aligning_terms;
-
-/* Slip of the trail and of the residual moment, longitudinal slip included; 4.E77, 4.E78. */
-static double find_equivalent_slip(const operating_point *op, const aligning_terms *m, double slip) {
-  if (op->is_mf6) return sign(slip) * sqrt(slip * slip + m->longitudinal * m->longitudinal);
-  const double tangent = ali3_sin(slip) / ali3_cos(slip);
-  return sign(slip) * ali3_atan2(sqrt(tangent * tangent + m->longitudinal * m->longitudinal), 1.0);
-}
-
-/* Pneumatic trail, m. */
-static double evaluate_trail(const ali3_magic_state *s, const operating_point *op, const aligning_terms *m,
-                             double alpha) {
-  const double *c = s->c, dfz = op->dfz, gamma = m->gamma, camber = op->is_mf6 ? fabs(gamma) : gamma;
-  const double shift = c[ALI3_MF_QHZ1] + c[ALI3_MF_QHZ2] * dfz + (c[ALI3_MF_QHZ3] + c[ALI3_MF_QHZ4] * dfz) * gamma;
-  const double alpha_t = alpha + shift;
-  const double B = (c[ALI3_MF_QBZ1] + c[ALI3_MF_QBZ2] * dfz + c[ALI3_MF_QBZ3] * dfz * dfz) *
-                   (1.0 + c[ALI3_MF_QBZ4] * gamma + c[ALI3_MF_QBZ5] * fabs(gamma) + c[ALI3_MF_QBZ6] * gamma * gamma) *
-                   m->stiffness;
-  const double D = s->load * s->radius / op->nominal * (c[ALI3_MF_QDZ1] + c[ALI3_MF_QDZ2] * dfz) *
-                   (1.0 - c[ALI3_MF_PPZ1] * op->dpi) *
-                   (1.0 + c[ALI3_MF_QDZ3] * camber + c[ALI3_MF_QDZ4] * gamma * gamma) * c[ALI3_MF_LTR] * m->direction;
-  const double E = at_most_one((c[ALI3_MF_QEZ1] + c[ALI3_MF_QEZ2] * dfz + c[ALI3_MF_QEZ3] * dfz * dfz) *
-                               (1.0 + (c[ALI3_MF_QEZ4] + c[ALI3_MF_QEZ5] * gamma) * (2.0 / PI) *
-                                          ali3_atan2(B * c[ALI3_MF_QCZ1] * alpha_t, 1.0)));
-  const dual slip = constant(find_equivalent_slip(op, m, alpha_t));
-  return D * cosine(magic_argument(constant(B), c[ALI3_MF_QCZ1], E, slip)).v * m->cosine_alpha;
-}
-
-/* Residual moment, N m. */
-static double evaluate_residual_moment(const ali3_magic_state *s, const operating_point *op, const aligning_terms *m,
-                                       const pure_slip *y, double alpha) {
-  const double *c = s->c, dfz = op->dfz, alpha_r = alpha + y->SH + y->SV / y->K;
-  const double B = c[ALI3_MF_QBZ9] * m->stiffness + c[ALI3_MF_QBZ10] * y->B * y->C;
-  const double D = s->load * s->radius * m->lambda_mu * m->direction *
-                   ((c[ALI3_MF_QDZ6] + c[ALI3_MF_QDZ7] * dfz) * c[ALI3_MF_LRES] +
-                    ((c[ALI3_MF_QDZ8] + c[ALI3_MF_QDZ9] * dfz) * (1.0 + c[ALI3_MF_PPZ2] * op->dpi) +
-                     (c[ALI3_MF_QDZ10] + c[ALI3_MF_QDZ11] * dfz) * fabs(m->gamma)) *
-                        m->gamma * c[ALI3_MF_LKZC]);
-  return D * cos_atan(constant(B * find_equivalent_slip(op, m, alpha_r))).v * m->cosine_alpha;
-}
-
-/* Aligning moment, trail and lever of the longitudinal force, 4.E71 to 4.E78. trail_force: lateral force, N, that acts
- * at the trail. */
-static void write_aligning_moment(const ali3_magic_state *s, const operating_point *op, const pure_slip *x,
-                                  const pure_slip *y, double kappa, double alpha, double cosine_alpha,
-                                  double trail_force, ali3_magic_force *out) {
-  const double *c = s->c, lambda_mu = c[ALI3_MF_LMUY] * s->friction[1] * op->sliding_factor;
-  const double stiffness_ratio = s->combined == ALI3_MAGIC_WEIGHTED ? x->K / y->K : 0.0;
-  const aligning_terms m = {.gamma = op->gamma_star * (op->is_mf6 ? 1.0 : c[ALI3_MF_LGAZ]),
-                            .lambda_mu = lambda_mu,
-                            .stiffness = c[ALI3_MF_LKY] * s->stiffness[1] / lambda_mu,
-                            .direction = s->direction * s->moving,
-                            .cosine_alpha = cosine_alpha,
-                            .longitudinal = stiffness_ratio * kappa};
-  out->trail = evaluate_trail(s, op, &m, alpha);
-  out->arm = s->moving * s->radius * c[ALI3_MF_LS] *
-             (c[ALI3_MF_SSZ1] + c[ALI3_MF_SSZ2] * out->F[1] / op->nominal +
-              (c[ALI3_MF_SSZ3] + c[ALI3_MF_SSZ4] * op->dfz) * op->gamma_star);
-  out->Mz = -out->trail * trail_force + evaluate_residual_moment(s, op, &m, y, alpha) + out->arm * out->F[0];
-}
-
-/* Overturning moment, 4.E69, N m; QSX12 to QSX14 are of version 6.2. As in 4.E70, LFZO does not scale the nominal
- * load. */
-static double evaluate_overturning_moment(const ali3_magic_state *s, const operating_point *op, double Fy) {
-  const double *c = s->c, gamma = s->camber, lateral_ratio = Fy / s->nominal_load, load = s->load / s->nominal_load;
-  const double term =
-      c[ALI3_MF_QSX4] == 0.0
-          ? 0.0
-          : c[ALI3_MF_QSX4] *
-                ali3_cos(c[ALI3_MF_QSX5] * ali3_atan2(c[ALI3_MF_QSX6] * load * c[ALI3_MF_QSX6] * load, 1.0)) *
-                ali3_sin(c[ALI3_MF_QSX7] * gamma + c[ALI3_MF_QSX8] * ali3_atan2(c[ALI3_MF_QSX9] * lateral_ratio, 1.0));
-  const double coefficient = c[ALI3_MF_QSX1] * c[ALI3_MF_LVMX] -
-                             c[ALI3_MF_QSX2] * gamma * (1.0 + c[ALI3_MF_PPMX1] * op->dpi) -
-                             c[ALI3_MF_QSX12] * gamma * fabs(gamma) + c[ALI3_MF_QSX3] * lateral_ratio + term +
-                             c[ALI3_MF_QSX10] * ali3_atan2(c[ALI3_MF_QSX11] * load, 1.0) * gamma;
-  return s->moving * s->radius * c[ALI3_MF_LMX] *
-         (s->load * coefficient + Fy * (c[ALI3_MF_QSX13] + c[ALI3_MF_QSX14] * fabs(gamma)));
-}
-
-/* ln(x) for x > 0, the same on every platform */
-static double logarithm(double x) {
-  int exponent;
-  const double mantissa = frexp(x, &exponent), z = (mantissa - 1.0) / (mantissa + 1.0), z2 = z * z;
-  double sum = 0.0;
-  for (int k = 41; k > 0; k -= 2) sum = sum * z2 + 1.0 / k;
-  return 2.0 * z * sum + exponent * 0.69314718055994531;
-}
-
-/* x^p for x > 0 */
-static double power(double x, double p) { return p == 0.0 ? 1.0 : ali3_exp(p * logarithm(x)); }
-
-/* Rolling resistance moment, N m, >= 0: 4.E70 for PAC2002 and without QSY7; otherwise eq. (A48) of Besselink et al.,
- * whose exponent of the load is reduced by one because the sum is multiplied by the load here. */
-static double evaluate_rolling_resistance(const ali3_magic_state *s, const operating_point *op, double Fx) {
-  const double *c = s->c, gamma2 = s->camber * s->camber, load = s->load / s->nominal_load;
-  const double v = s->speed / c[ALI3_MF_LONGVL];
-  const double load_exponent = op->is_mf6 && c[ALI3_MF_QSY7] != 0.0 ? c[ALI3_MF_QSY7] - 1.0 : c[ALI3_MF_QSY7];
-  const double sum = c[ALI3_MF_QSY1] + c[ALI3_MF_QSY2] * Fx / s->nominal_load + c[ALI3_MF_QSY3] * v +
-                     c[ALI3_MF_QSY4] * v * v * v * v + (c[ALI3_MF_QSY5] + c[ALI3_MF_QSY6] * load) * gamma2;
-  const double moment =
-      sum * s->load * s->radius * c[ALI3_MF_LMY] * power(load, load_exponent) * power(1.0 + op->dpi, c[ALI3_MF_QSY8]);
-  return moment > 0.0 ? moment : 0.0; /* outside its range a fit could become negative and drive the wheel */
-}
-
 /* Carcass stiffness, N/m: from the stiffnesses of the file (Besselink et al., eqs. 13 and 14), otherwise slip stiffness
  * divided by the relaxation length of the file, or by a default one. */
 static void write_carcass_stiffness(const ali3_magic_state *s, const operating_point *op, const pure_slip *x,
@@ -401,23 +234,5 @@ void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, 
   out->peak[1] = fabs(y.D) + fabs(y.SV);
   write_carcass_stiffness(s, &op, &x, &y, out->carcass);
   const double at_trail = find_trail_force(s, &op, out->F[1], induced.v, kappa, alpha.v, factor[1].v);
-  write_aligning_moment(s, &op, &x, &y, kappa, alpha.v, cosine_alpha, at_trail, out);
-}
-
-void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_magic_force *out) {
-  const operating_point op = make_operating_point(s);
-  out->Mx = evaluate_overturning_moment(s, &op, acting[1]);
-  out->My = evaluate_rolling_resistance(s, &op, acting[0]);
-  out->Mz += out->arm * (acting[0] - out->F[0]) - out->trail * (acting[1] - out->F[1]);
-}
-
-double ali3_magic_rolling_radius(const ali3_magic_state *s, double free_radius, double stiffness, double deflection,
-                                 double stiffness_ratio) {
-  const double *c = s->c;
-  if (c[ALI3_MF_DREFF] == 0.0 && c[ALI3_MF_FREFF] == 0.0) return free_radius - deflection / 3.0;
-  const double nominal_deflection = s->nominal_load / stiffness;
-  const double relative_deflection = stiffness_ratio * deflection / nominal_deflection;
-  return free_radius -
-         nominal_deflection * (c[ALI3_MF_DREFF] * ali3_atan2(c[ALI3_MF_BREFF] * relative_deflection, 1.0) +
-                               c[ALI3_MF_FREFF] * relative_deflection);
+  ali3_magic_aligning_moment(s, &op, &x, &y, kappa, alpha.v, cosine_alpha, at_trail, out);
 }

@@ -29,7 +29,6 @@
 
 enum { COEFFICIENTS = MAGIC_TYRE_REALS };
 enum { SLIP, CAMBER, FORCE }; /* indices of the signs that convert ISO axes to axes of the file */
-enum { OVERTURNING = ALI3_TYRE_OUTPUTS, RESISTANCE };
 
 /* The steady force at a slip velocity, ISO axes of the road. */
 typedef struct {
@@ -245,8 +244,8 @@ static void evaluate(ali3_element_args *a) {
   const double roll = ali3_tanh(omega);
   add_moments(a, n, m.forward, e, &r, roll, bore);
   ali3_tyre_outputs(a, &contact, e, &m, spring.radius, ratio, r.F, r.Mz, -r.My * roll);
-  a->out[OVERTURNING] = r.Mx;
-  a->out[RESISTANCE] = -r.My * roll;
+  a->out[MAGIC_TYRE_OUT_OVERTURNING_MOMENT] = r.Mx;
+  a->out[MAGIC_TYRE_OUT_RESISTANCE_MOMENT] = -r.My * roll;
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {

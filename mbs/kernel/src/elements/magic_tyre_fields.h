@@ -1,19 +1,6 @@
 /* clang-format off */
 /* Numbers of a tyre. Written by `python -m mbs.elements.fields_in_c` from MagicTyre. */
 /* Signals: centre (3), axis (3), spin (1). */
-/* Outputs: longitudinal_force (N), force of the road along the wheel's heading; lateral_force (N), force of the
- * road to the left; vertical_force (N), force of the road along its normal; aligning_moment (N m), moment about
- * the road's normal; slip (1), longitudinal slip, positive when driven, between about -1 and 1; slip_angle (rad),
- * direction of travel from the wheel's heading, positive to the left; deflection (m), radial deflection;
- * loaded_radius (m), distance of the contact patch from the centre; contact_x (m), x of the contact point, earth;
- * in the air of the road's nearest point in the wheel plane; contact_y (m), y of the contact point, earth; in the
- * air of the road's nearest point in the wheel plane; contact_z (m), z of the contact point, earth; in the air of
- * the road's nearest point in the wheel plane; inclination (rad), of the wheel plane from the road's normal,
- * positive with the top right; normal_x (1), x of the road's unit normal at the contact point, earth, upwards;
- * normal_y (1), y of the road's unit normal at the contact point, earth, upwards; normal_z (1), z of the road's
- * unit normal at the contact point, earth, upwards; rolling_moment (N m), about the contact point: rolling
- * resistance, and Fx by its lever; overturning_moment (N m), moment about the wheel's heading in the plane of the
- * road; resistance_moment (N m), moment of rolling resistance about the wheel's axis */
 #ifndef ALI3_MAGIC_TYRE_FIELDS_H
 #define ALI3_MAGIC_TYRE_FIELDS_H
 #include "element.h"
@@ -67,11 +54,50 @@ enum {
   BORE = MAGIC_TYRE_REALS + 178,
 };
 enum {
-  ROAD, /* Index of a road. */
-  VERSION, /* A choice. */
-  COMBINATION, /* A choice. */
-  WITH_BORE, /* A choice. */
+  ROAD, /* Index of the road. */
+  VERSION, /* The version. */
+  COMBINATION, /* The combination. */
+  WITH_BORE, /* The number of bore torques. */
   MAGIC_TYRE_INTEGERS
+};
+enum {
+  /* Force of the road along the wheel's heading, N. */
+  MAGIC_TYRE_OUT_LONGITUDINAL_FORCE,
+  /* Force of the road to the left, N. */
+  MAGIC_TYRE_OUT_LATERAL_FORCE,
+  /* Force of the road along its normal, N. */
+  MAGIC_TYRE_OUT_VERTICAL_FORCE,
+  /* Moment about the road's normal, N m. */
+  MAGIC_TYRE_OUT_ALIGNING_MOMENT,
+  /* Longitudinal slip, positive when driven, between about -1 and 1. */
+  MAGIC_TYRE_OUT_SLIP,
+  /* Direction of travel from the wheel's heading, positive to the left, rad. */
+  MAGIC_TYRE_OUT_SLIP_ANGLE,
+  /* Radial deflection, m. */
+  MAGIC_TYRE_OUT_DEFLECTION,
+  /* Distance of the contact patch from the centre, m. */
+  MAGIC_TYRE_OUT_LOADED_RADIUS,
+  /* X of the contact point, earth; in the air of the road's nearest point in the wheel plane, m. */
+  MAGIC_TYRE_OUT_CONTACT_X,
+  /* Y of the contact point, earth; in the air of the road's nearest point in the wheel plane, m. */
+  MAGIC_TYRE_OUT_CONTACT_Y,
+  /* Z of the contact point, earth; in the air of the road's nearest point in the wheel plane, m. */
+  MAGIC_TYRE_OUT_CONTACT_Z,
+  /* Of the wheel plane from the road's normal, positive with the top right, rad. */
+  MAGIC_TYRE_OUT_INCLINATION,
+  /* X of the road's unit normal at the contact point, earth, upwards. */
+  MAGIC_TYRE_OUT_NORMAL_X,
+  /* Y of the road's unit normal at the contact point, earth, upwards. */
+  MAGIC_TYRE_OUT_NORMAL_Y,
+  /* Z of the road's unit normal at the contact point, earth, upwards. */
+  MAGIC_TYRE_OUT_NORMAL_Z,
+  /* About the contact point: rolling resistance, and Fx by its lever, N m. */
+  MAGIC_TYRE_OUT_ROLLING_MOMENT,
+  /* Moment about the wheel's heading in the plane of the road, N m. */
+  MAGIC_TYRE_OUT_OVERTURNING_MOMENT,
+  /* Moment of rolling resistance about the wheel's axis, N m. */
+  MAGIC_TYRE_OUT_RESISTANCE_MOMENT,
+  MAGIC_TYRE_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field magic_tyre_fields[] = {

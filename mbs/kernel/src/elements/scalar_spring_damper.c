@@ -9,7 +9,7 @@ static void evaluate(ali3_element_args *a) {
   const double c = p[DAMPING] * p[DAMPING_FACTOR];
   const double deflection = a->u[0] - p[FREE_VALUE];
   a->f[0] = p[CONSTANT] - k * deflection - c * a->ud[0];
-  a->out[0] = a->f[0];
+  a->out[SCALAR_SPRING_DAMPER_OUT_FORCE] = a->f[0];
   a->potential = 0.5 * k * deflection * deflection - p[CONSTANT] * deflection;
   if (a->S) a->S[0] = a->wK * k + a->wC * c;
 }

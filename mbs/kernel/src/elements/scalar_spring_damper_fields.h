@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a spring-damper. Written by `python -m mbs.elements.fields_in_c` from ScalarSpringDamper. */
 /* Signals: coordinate (1). */
-/* Outputs: force (N m), generalised force on the coordinate */
 #ifndef ALI3_SCALAR_SPRING_DAMPER_FIELDS_H
 #define ALI3_SCALAR_SPRING_DAMPER_FIELDS_H
 #include "element.h"
@@ -20,6 +19,11 @@ enum {
   /* Factor on the damping, for parameters. */
   DAMPING_FACTOR,
   SCALAR_SPRING_DAMPER_REALS
+};
+enum {
+  /* Generalised force on the coordinate, N m. */
+  SCALAR_SPRING_DAMPER_OUT_FORCE,
+  SCALAR_SPRING_DAMPER_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field scalar_spring_damper_fields[] = {

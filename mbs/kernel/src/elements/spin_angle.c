@@ -34,7 +34,7 @@ static void evaluate(ali3_element_args *a) {
     a->y_new[TURN] -= find_carrier_turn(a->y_old, f, g);
     for (int i = 0; i < 3; i++) a->y_new[F + i] = f[i], a->y_new[G + i] = g[i];
   }
-  a->out[0] = a->u[6] + a->y_new[TURN];
+  a->out[SPIN_ANGLE_OUT_ANGLE] = a->u[6] + a->y_new[TURN];
   a->potential = ali3_same(0.0);
   a->idle = 1;
 }

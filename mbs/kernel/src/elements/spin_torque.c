@@ -13,8 +13,8 @@ static void evaluate(ali3_element_args *a) {
   }
   a->f[6] = torque;
   a->potential = 0.0;
-  a->out[0] = torque;
-  a->out[1] = torque * (a->ud[6] - 0.5 * (ali3_dot(a->ud, a->u + 3) - ali3_dot(a->ud + 3, a->u)));
+  a->out[SPIN_TORQUE_OUT_TORQUE] = torque;
+  a->out[SPIN_TORQUE_OUT_POWER] = torque * (a->ud[6] - 0.5 * (ali3_dot(a->ud, a->u + 3) - ali3_dot(a->ud + 3, a->u)));
 }
 
 const ali3_element_type ali3_spin_torque = {

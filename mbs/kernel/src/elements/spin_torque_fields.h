@@ -1,8 +1,6 @@
 /* clang-format off */
 /* Numbers of a spin torque. Written by `python -m mbs.elements.fields_in_c` from SpinTorque. */
 /* Signals: f (3), g (3), spin (1). */
-/* Outputs: torque (N m), torque on the wheel about the axis; power (W), power of the torque on wheel and carrier
- * together */
 #ifndef ALI3_SPIN_TORQUE_FIELDS_H
 #define ALI3_SPIN_TORQUE_FIELDS_H
 #include "element.h"
@@ -13,8 +11,15 @@ enum {
   SPIN_TORQUE_REALS
 };
 enum {
-  INPUT, /* Index of an input. */
+  INPUT, /* Index of the input. */
   SPIN_TORQUE_INTEGERS
+};
+enum {
+  /* Torque on the wheel about the axis, N m. */
+  SPIN_TORQUE_OUT_TORQUE,
+  /* Power of the torque on wheel and carrier together, W. */
+  SPIN_TORQUE_OUT_POWER,
+  SPIN_TORQUE_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field spin_torque_fields[] = {

@@ -21,10 +21,10 @@ static void evaluate(ali3_element_args *a) {
   ali3_line_force(a, &line, tension, t.stiffness, t.damping);
   a->potential = t.potential;
   a->piece = t.piece;
-  a->out[0] = line.length;
-  a->out[1] = tension;
-  a->out[2] = line.rate;
-  a->out[3] = c * line.rate;
+  a->out[SPRING_DAMPER_OUT_LENGTH] = line.length;
+  a->out[SPRING_DAMPER_OUT_FORCE] = tension;
+  a->out[SPRING_DAMPER_OUT_RATE] = line.rate;
+  a->out[SPRING_DAMPER_OUT_DAMPER_FORCE] = c * line.rate;
 }
 
 #ifndef ALI3_WIDTH

@@ -1,8 +1,6 @@
 /* clang-format off */
 /* Numbers of a spring-damper. Written by `python -m mbs.elements.fields_in_c` from SpringDamper. */
 /* Signals: difference (3 or 2). */
-/* Outputs: length (m), distance of the two points; force (N), force of spring, damper and stops, tension positive;
- * rate (m/s), rate of the length; damper_force (N), force of the damper without spring and stops, tension positive */
 #ifndef ALI3_SPRING_DAMPER_FIELDS_H
 #define ALI3_SPRING_DAMPER_FIELDS_H
 #include "element.h"
@@ -21,6 +19,17 @@ enum {
   /* Bump and rebound stops. */
   STOPS,
   SPRING_DAMPER_REALS = 9
+};
+enum {
+  /* Distance of the two points, m. */
+  SPRING_DAMPER_OUT_LENGTH,
+  /* Force of spring, damper and stops, tension positive, N. */
+  SPRING_DAMPER_OUT_FORCE,
+  /* Rate of the length, m/s. */
+  SPRING_DAMPER_OUT_RATE,
+  /* Force of the damper without spring and stops, tension positive, N. */
+  SPRING_DAMPER_OUT_DAMPER_FORCE,
+  SPRING_DAMPER_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field spring_damper_fields[] = {

@@ -1,8 +1,6 @@
 /* clang-format off */
 /* Numbers of a spring-damper. Written by `python -m mbs.elements.fields_in_c` from SpringDamperTable. */
 /* Signals: difference (3 or 2). */
-/* Outputs: length (m), distance of the two points; force (N), force of spring, damper and stops, tension positive;
- * rate (m/s), rate of the length; damper_force (N), force of the damper without spring and stops, tension positive */
 #ifndef ALI3_SPRING_DAMPER_TABLE_FIELDS_H
 #define ALI3_SPRING_DAMPER_TABLE_FIELDS_H
 #include "element.h"
@@ -28,6 +26,17 @@ enum {
   SPRING_POINTS, /* Number of items with 4 reals each. */
   DAMPER_POINTS, /* Number of items with 3 reals each. */
   SPRING_DAMPER_TABLE_INTEGERS
+};
+enum {
+  /* Distance of the two points, m. */
+  SPRING_DAMPER_TABLE_OUT_LENGTH,
+  /* Force of spring, damper and stops, tension positive, N. */
+  SPRING_DAMPER_TABLE_OUT_FORCE,
+  /* Rate of the length, m/s. */
+  SPRING_DAMPER_TABLE_OUT_RATE,
+  /* Force of the damper without spring and stops, tension positive, N. */
+  SPRING_DAMPER_TABLE_OUT_DAMPER_FORCE,
+  SPRING_DAMPER_TABLE_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field spring_damper_table_fields[] = {

@@ -15,8 +15,8 @@ static void evaluate(ali3_element_args *a) {
   a->f[0] = -torque;
   a->f[1] = torque + assistance;
   a->potential = 0.5 * p[STIFFNESS] * twist * twist;
-  a->out[0] = torque;
-  a->out[1] = assistance;
+  a->out[TORSION_BAR_OUT_TORQUE] = torque;
+  a->out[TORSION_BAR_OUT_ASSISTANCE] = assistance;
   if (!a->S) return;
   /* neglects the dependence of the motor's torque on the wheel's angle, so that the tangent is symmetric and
    * positive */

@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a torsion bar. Written by `python -m mbs.elements.fields_in_c` from TorsionBar. */
 /* Signals: wheel (1), pinion (1). */
-/* Outputs: torque (N m), torque of the bar on the pinion; assistance (N m), torque of the assistance on the pinion */
 #ifndef ALI3_TORSION_BAR_FIELDS_H
 #define ALI3_TORSION_BAR_FIELDS_H
 #include "element.h"
@@ -17,6 +16,13 @@ enum {
   /* Largest torque of the power assistance on the pinion, N m. */
   ASSISTANCE_LIMIT,
   TORSION_BAR_REALS
+};
+enum {
+  /* Torque of the bar on the pinion, N m. */
+  TORSION_BAR_OUT_TORQUE,
+  /* Torque of the assistance on the pinion, N m. */
+  TORSION_BAR_OUT_ASSISTANCE,
+  TORSION_BAR_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field torsion_bar_fields[] = {

@@ -7,6 +7,7 @@
 #include "../algebra/elementary.h"
 #include "element_math.h"
 #include "road.h"
+#include "tyre_fields.h"
 
 #define TOUCH_DEPTH 0.005 /* m: deflection over which the radial damping increases to its full value */
 #define CLEAR 1e-6 /* m: largest depth at a start that is ignored */
@@ -199,9 +200,6 @@ void ali3_tyre_add_force(ali3_element_args *a, const ali3_tyre_motion *m, const 
   ali3_add_outer(a->S, 7, a->wC * C[2], m->row[1]);
 }
 
-enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, INCLINATION = CONTACT_X + 3, NORMAL_X };
-enum { ROLLING_MOMENT = NORMAL_X + 3 };
-
 void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
                        real radius, real ratio, const real force[2], real moment, real resisting) {
   const real none = {0}, hub_reached = contact->beyond;
@@ -211,18 +209,23 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
   const real drive = -ratio * ali3_dot(m->forward, m->push) * a->ud[6]; /* circumferential speed */
   const real reference_speed =
       ali3_hypot(ali3_where(ali3_abs(drive) > ali3_abs(m->travel[0]), drive, m->travel[0]), min_speed);
-  const real slip = -m->v[0] / reference_speed, slip_angle = ali3_atan2(m->v[1], ali3_hypot(m->travel[0], min_speed));
-  const real out[] = {force[0], force[1], contact->load, moment, slip, slip_angle, deflection, radius - deflection};
-  for (int i = 0; i < CONTACT_X; i++) a->out[i] = out[i];
+  a->out[TYRE_OUT_LONGITUDINAL_FORCE] = force[0];
+  a->out[TYRE_OUT_LATERAL_FORCE] = force[1];
+  a->out[TYRE_OUT_VERTICAL_FORCE] = contact->load;
+  a->out[TYRE_OUT_ALIGNING_MOMENT] = moment;
+  a->out[TYRE_OUT_SLIP] = -m->v[0] / reference_speed;
+  a->out[TYRE_OUT_SLIP_ANGLE] = ali3_atan2(m->v[1], ali3_hypot(m->travel[0], min_speed));
+  a->out[TYRE_OUT_DEFLECTION] = deflection;
+  a->out[TYRE_OUT_LOADED_RADIUS] = radius - deflection;
   const truth bears = contact->load > 0.0;
   for (int i = 0; i < 3; i++) {
-    a->out[CONTACT_X + i] = a->u[i] + ali3_where(bears, contact->rho[i], contact->near_rho[i]);
-    a->out[NORMAL_X + i] = ali3_where(bears, contact->normal[i], contact->near_normal[i]);
+    a->out[TYRE_OUT_CONTACT_X + i] = a->u[i] + ali3_where(bears, contact->rho[i], contact->near_rho[i]);
+    a->out[TYRE_OUT_NORMAL_X + i] = ali3_where(bears, contact->normal[i], contact->near_normal[i]);
   }
   /* moment about the axis beyond that of the force at the contact point */
   const real about_axis = force[0] * (ratio - 1.0) * ali3_dot(m->forward, m->push) + resisting;
-  a->out[ROLLING_MOMENT] = about_axis * ali3_dot(e, m->left);
-  a->out[INCLINATION] = ali3_atan2(ali3_dot(e, contact->normal), m->upright);
+  a->out[TYRE_OUT_ROLLING_MOMENT] = about_axis * ali3_dot(e, m->left);
+  a->out[TYRE_OUT_INCLINATION] = ali3_atan2(ali3_dot(e, contact->normal), m->upright);
 }
 
 #ifndef ALI3_WIDTH

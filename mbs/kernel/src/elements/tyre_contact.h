@@ -67,8 +67,7 @@ ALI3_PER_WIDTH void ali3_tyre_velocities(const ali3_element_args *a, const ali3_
 ALI3_PER_WIDTH void ali3_tyre_add_force(ali3_element_args *a, const ali3_tyre_motion *m, const real F[2],
                                         const real C[3]);
 
-enum { ALI3_TYRE_DEFLECTION = 6, ALI3_TYRE_OUTPUTS = 16 };
-/* Writes the first ALI3_TYRE_OUTPUTS outputs, common to all tyres: radius: free, m; ratio: slip radius over loaded
+/* Writes the outputs of tyre_fields.h, the first of all tyres: radius: free, m; ratio: slip radius over loaded
  * radius; force: along forward and left, N; moment: about the normal, resisting: of rolling resistance about the axis,
  * N m. */
 ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],

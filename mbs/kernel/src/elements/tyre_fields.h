@@ -1,18 +1,6 @@
 /* clang-format off */
 /* Numbers of a tyre. Written by `python -m mbs.elements.fields_in_c` from Tyre. */
 /* Signals: centre (3), axis (3), spin (1). */
-/* Outputs: longitudinal_force (N), force of the road along the wheel's heading; lateral_force (N), force of the
- * road to the left; vertical_force (N), force of the road along its normal; aligning_moment (N m), moment about
- * the road's normal; slip (1), longitudinal slip, positive when driven, between about -1 and 1; slip_angle (rad),
- * direction of travel from the wheel's heading, positive to the left; deflection (m), radial deflection;
- * loaded_radius (m), distance of the contact patch from the centre; contact_x (m), x of the contact point, earth;
- * in the air of the road's nearest point in the wheel plane; contact_y (m), y of the contact point, earth; in the
- * air of the road's nearest point in the wheel plane; contact_z (m), z of the contact point, earth; in the air of
- * the road's nearest point in the wheel plane; inclination (rad), of the wheel plane from the road's normal,
- * positive with the top right; normal_x (1), x of the road's unit normal at the contact point, earth, upwards;
- * normal_y (1), y of the road's unit normal at the contact point, earth, upwards; normal_z (1), z of the road's
- * unit normal at the contact point, earth, upwards; rolling_moment (N m), about the contact point: rolling
- * resistance, and Fx by its lever */
 #ifndef ALI3_TYRE_FIELDS_H
 #define ALI3_TYRE_FIELDS_H
 #include "element.h"
@@ -62,9 +50,44 @@ enum {
   TYRE_BORE = TYRE_REALS,
 };
 enum {
-  TYRE_ROAD, /* Index of a road. */
-  TYRE_WITH_BORE, /* A choice. */
+  TYRE_ROAD, /* Index of the road. */
+  TYRE_WITH_BORE, /* The number of bore torques. */
   TYRE_INTEGERS
+};
+enum {
+  /* Force of the road along the wheel's heading, N. */
+  TYRE_OUT_LONGITUDINAL_FORCE,
+  /* Force of the road to the left, N. */
+  TYRE_OUT_LATERAL_FORCE,
+  /* Force of the road along its normal, N. */
+  TYRE_OUT_VERTICAL_FORCE,
+  /* Moment about the road's normal, N m. */
+  TYRE_OUT_ALIGNING_MOMENT,
+  /* Longitudinal slip, positive when driven, between about -1 and 1. */
+  TYRE_OUT_SLIP,
+  /* Direction of travel from the wheel's heading, positive to the left, rad. */
+  TYRE_OUT_SLIP_ANGLE,
+  /* Radial deflection, m. */
+  TYRE_OUT_DEFLECTION,
+  /* Distance of the contact patch from the centre, m. */
+  TYRE_OUT_LOADED_RADIUS,
+  /* X of the contact point, earth; in the air of the road's nearest point in the wheel plane, m. */
+  TYRE_OUT_CONTACT_X,
+  /* Y of the contact point, earth; in the air of the road's nearest point in the wheel plane, m. */
+  TYRE_OUT_CONTACT_Y,
+  /* Z of the contact point, earth; in the air of the road's nearest point in the wheel plane, m. */
+  TYRE_OUT_CONTACT_Z,
+  /* Of the wheel plane from the road's normal, positive with the top right, rad. */
+  TYRE_OUT_INCLINATION,
+  /* X of the road's unit normal at the contact point, earth, upwards. */
+  TYRE_OUT_NORMAL_X,
+  /* Y of the road's unit normal at the contact point, earth, upwards. */
+  TYRE_OUT_NORMAL_Y,
+  /* Z of the road's unit normal at the contact point, earth, upwards. */
+  TYRE_OUT_NORMAL_Z,
+  /* About the contact point: rolling resistance, and Fx by its lever, N m. */
+  TYRE_OUT_ROLLING_MOMENT,
+  TYRE_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field tyre_fields[] = {

@@ -10,7 +10,7 @@ static void evaluate(ali3_element_args *a) {
   ali3_relative_to_air(a->input, a->integer, a->ud, w);
   const double speed = ali3_norm(w);
   for (int i = 0; i < 3; i++) a->f[i] = -factor * speed * w[i];
-  a->out[0] = factor * speed * speed;
+  a->out[WIND_DRAG_OUT_FORCE] = factor * speed * speed;
   a->potential = 0.0;
   if (!a->S) return;
   for (int i = 0; i < 3; i++) a->S[i * 3 + i] = a->wC * factor * speed;

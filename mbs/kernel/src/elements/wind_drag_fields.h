@@ -1,7 +1,6 @@
 /* clang-format off */
 /* Numbers of a drag. Written by `python -m mbs.elements.fields_in_c` from WindDrag. */
 /* Signals: point (3). */
-/* Outputs: force (N), size of the drag */
 #ifndef ALI3_WIND_DRAG_FIELDS_H
 #define ALI3_WIND_DRAG_FIELDS_H
 #include "element.h"
@@ -14,9 +13,14 @@ enum {
   WIND_DRAG_REALS
 };
 enum {
-  WIND_SPEED, /* Index of an input. */
-  WIND_HEADING, /* Index of an input. */
+  WIND_SPEED, /* Index of an input, the speed of the air. */
+  WIND_HEADING, /* Index of an input, the heading of the air. */
   WIND_DRAG_INTEGERS
+};
+enum {
+  /* Size of the drag, N. */
+  WIND_DRAG_OUT_FORCE,
+  WIND_DRAG_OUTPUTS
 };
 #ifndef ALI3_WIDTH
 static const ali3_field wind_drag_fields[] = {

@@ -249,25 +249,23 @@ static void balance(ali3_instance *in, double h) {
   ali3_balance_motion(in, speed, change, fmax(miss, back));
 }
 
-/* Makes a step of h from in->now, which changes only if it succeeds. */
-static ali3_status step(ali3_instance *in, const ali3_request *request, const ali3_tableau *rule) {
-  const ali3_system *S = in->system;
-  const ali3_tree *T = S->tree;
-  const int32_t n = T->n;
-  const int64_t before = in->report.iterations;
-  const double h = request->h;
-  const bool read = request->reading != ALI3_READ_NOTHING;
+/* Sets the state of the method at the start of a step: stored, from natural coordinates, or after a jump of inputs. */
+static ali3_status start_step(ali3_instance *in) {
   const bool has_state = in->now.history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
-  ali3_tree_work *w = in->tree;
-  ali3_status status = ali3_inputs_at(in, 0.0);
+  const ali3_status status = ali3_inputs_at(in, 0.0);
   if (status != ALI3_OK) return status;
   in->inputs.forces = in->inputs.middle;
-  if (!(has_state && restore(in, in->now.own)))
-    status = start_from_natural(in);
-  else if (ali3_inputs_jump(in))
-    status = accelerations_after_jump(in);
-  else
-    ali3_work_recall(in);
+  if (!(has_state && restore(in, in->now.own))) return start_from_natural(in);
+  if (ali3_inputs_jump(in)) return accelerations_after_jump(in);
+  ali3_work_recall(in);
+  return ALI3_OK;
+}
+
+/* Evaluates the rates of all stages of a step. */
+static ali3_status evaluate_stages(ali3_instance *in, double h, const ali3_tableau *rule) {
+  const int32_t n = in->system->tree->n;
+  ali3_tree_work *w = in->tree;
+  ali3_status status = ALI3_OK;
   ali3_work_first(in, h * rule->b[0]);
   memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
@@ -281,12 +279,39 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
     status = accelerations(in, w->sum + n, w->stage[stage] + n);
     ali3_work_stage(in, h * rule->b[stage], in->watch.now, in->watch.sum);
   }
+  return status;
+}
+
+/* Sets w->sum at the end of a step, on the rows, and w->qdd there. */
+static ali3_status evaluate_end(ali3_instance *in, double h, const ali3_tableau *rule) {
+  ali3_tree_work *w = in->tree;
+  combine(in, h, rule->b, rule->stages);
+  const ali3_status status = project(in);
+  return status == ALI3_OK ? accelerations(in, w->sum + in->system->tree->n, w->qdd) : status;
+}
+
+/* Copies in->now to in->next, which keeps the outputs of elements: the last stage evaluated them at the end of the
+ * step. */
+static void copy_but_outputs(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const size_t outputs = S->n_contact > 0 ? (size_t)S->size.nout * sizeof(double) : 0;
+  memcpy(in->element.out, in->next.out, outputs);
+  ali3_vectors_copy(in, &in->next, &in->now);
+  memcpy(in->next.out, in->element.out, outputs);
+}
+
+/* Makes a step of h from in->now, which changes only if it succeeds. */
+static ali3_status step(ali3_instance *in, const ali3_request *request, const ali3_tableau *rule) {
+  const ali3_system *S = in->system;
+  const int32_t n = S->tree->n;
+  const int64_t before = in->report.iterations;
+  const double h = request->h;
+  const bool read = request->reading != ALI3_READ_NOTHING;
+  ali3_tree_work *w = in->tree;
+  ali3_status status = start_step(in);
+  if (status == ALI3_OK) status = evaluate_stages(in, h, rule);
   in->inputs.forces = in->inputs.set;
-  if (status == ALI3_OK) {
-    combine(in, h, rule->b, rule->stages);
-    status = project(in);
-  }
-  if (status == ALI3_OK) status = accelerations(in, w->sum + n, w->qdd);
+  if (status == ALI3_OK) status = evaluate_end(in, h, rule);
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   if (!ali3_finite(w->sum, 2 * n) || !ali3_finite(w->qdd, n)) return ALI3_NOT_FINITE;
@@ -294,12 +319,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
   remove_turns(S, w);
   ali3_vectors *v = read ? &in->next : &in->now;
-  if (read) { /* keeps the outputs of elements at the end of the step, which the last stage evaluated */
-    const size_t outputs = S->n_contact > 0 ? (size_t)S->size.nout * sizeof(double) : 0;
-    memcpy(in->element.out, v->out, outputs);
-    ali3_vectors_copy(in, v, &in->now);
-    memcpy(v->out, in->element.out, outputs);
-  }
+  if (read) copy_but_outputs(in);
   ali3_work_stage(in, 1.0, in->watch.sum, v->work);
   ali3_work_store(in, v);
   if (read) {

@@ -3,6 +3,7 @@
 
 #include "../elements/road.h"
 #include "../elements/tyre_contact.h"
+#include "../elements/tyre_fields.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"
 #include "initialise.h"
@@ -83,7 +84,7 @@ static ali3_status find_wheel(const ali3_instance *in, ali3_report *report, int3
     double u[ALI3_MAX_SIGNALS] = {0.0}, spacing[2];
     if (S->el_kind[e]->depth != ali3_tyre_depth) continue;
     const bool grid = ali3_road_spacing(&in->roads.used[S->el_int[S->el_int_ptr[e]]], spacing);
-    if (!grid && !(report != NULL && in->now.out[S->el_out_ptr[e] + ALI3_TYRE_DEFLECTION] > hub_depth(in, e))) continue;
+    if (!grid && !(report != NULL && in->now.out[S->el_out_ptr[e] + TYRE_OUT_DEFLECTION] > hub_depth(in, e))) continue;
     const ali3_element_args a = ali3_start_arguments(in, in->roads.used, in->now.q, e, u);
     const ali3_start_verdict v = S->el_kind[e]->start(&a, 0.0);
     const double depth = v.excess, pressed = grid ? v.pressed : depth + a.real[0] - hub_depth(in, e);

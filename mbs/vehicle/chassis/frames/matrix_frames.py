@@ -12,11 +12,12 @@ from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.matrix_files import external_model, read_matrix
 from mbs.flexible.nastran import read_nastran
 from mbs.flexible.sparse_matrices import Sparse
+from mbs.vehicle.car_files import car_file_path
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.chassis.gauges.matrix_gauges import MatrixGauge
 from mbs.vehicle.chassis.gauges.reading import sort_readings
 from mbs.vehicle.names import Name
-from mbs.vehicle.table import car_file_path, read_table
+from mbs.vehicle.table import read_table
 
 MAX_COORDINATE = 1e3  # m
 

@@ -1,7 +1,5 @@
 """SDL without video, and `Devices` on virtual devices."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path

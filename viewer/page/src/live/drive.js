@@ -3,14 +3,12 @@ import { button, el, fixed, short } from "../common/dom.js";
 import { DRIVING_WORDS } from "../common/key_table.js";
 import { instead } from "../common/notices.js";
 import { Shell } from "../shell/shell.js";
-import { decodePage } from "../sources/decode.js";
+import { decodeContent } from "./content.js";
 import { InputArbiter } from "./input_arbiter.js";
 import { inputPanel, parameterPanel } from "./panel.js";
 import { Session } from "../sources/fmu.js";
 import { Stage } from "./stage.js";
 import { levers } from "./touch.js";
-import { Sampler } from "../sources/sampler.js";
-import { unpack, unpackJson } from "../bytes.js";
 import { missingParts } from "../common/browser_support.js";
 
 const ACTS = ["steering", "throttle", "brake"];
@@ -144,26 +142,9 @@ class Drive extends Shell {
   }
 
   async _open(parts, { beside, ends, script }) {
-    const runs = beside ? (await decodePage(beside)).runs : [];
-    const recordings = runs.map((run, k) => {
-      const sampler = new Sampler(run);
-      return { title: `${run.name} (recorded)`, scene: run.scene, sample: (time) => sampler.at(time), recording: { ...run, end: ends[k] } };
-    });
-    const table = script ? await unpackJson(script) : null;
+    const { fmus, drawings, recordings, table } = await decodeContent(parts, { beside, ends, script });
     this.script = table;
-    const fmus = [];
-    for (const part of parts) {
-      const resources = {};
-      for (const [path, compressed] of Object.entries(part.resources ?? {})) resources[path] = await unpack(compressed);
-      fmus.push({ ...part, scene: await unpackJson(part.scene), wasm: await unpack(part.wasm), resources });
-    }
-    const pictures = [];
-    for (const [k, { title, scene, roads, world: compressed, description }] of fmus.entries()) {
-      const choices = roads ? await unpackJson(roads) : {};
-      const world = compressed ? await unpackJson(compressed) : null;
-      const drawn = world ? { ...scene, roads: choices[world.road], scenery: world.scenery } : scene;
-      pictures.push({ title, scene: drawn, sample: (time) => this.session.sample(time)[k], roads: choices, world, variables: new Map(description.variables.map((v) => [v.name, v])) });
-    }
+    const pictures = drawings.map((drawing, k) => ({ ...drawing, sample: (time) => this.session.sample(time)[k] }));
     // No `await` before the listeners exist, so that the first answer is not lost.
     this.session = new Session(fmus, { ...this.options, script: table }, {
       started: () => this._started(),

@@ -37,7 +37,7 @@ class Simulator {
     this.link = new Link(address.href, {
       hello: (hello) => this._hello(hello).catch((error) => this._fail(error)),
       frame: (frame) => this._frame(frame),
-      event: (event) => this._event(event),
+      event: (event) => this.cockpit?.event(event),
       refused: ({ text }) => this.cockpit?.tell(text),
       report: (report) => this.cockpit?.report.show(report),
       devices: ({ devices }) => this.cockpit?.devices(devices),
@@ -117,10 +117,6 @@ class Simulator {
 
   _frame(frame) {
     if (this.cockpit && frame.values.length === this.cockpit.source.index.size) this.cockpit.add(frame);
-  }
-
-  _event(event) {
-    this.cockpit?.event(event);
   }
 
   _closed(sentence) {
