@@ -1,6 +1,5 @@
 """A parameter of an FMU, set to another value, gives the run of a model that is built with it."""
 
-
 import pytest
 
 import mbs

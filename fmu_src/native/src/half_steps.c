@@ -1,9 +1,9 @@
 /* Error estimate by a second motion. After an abrupt change of a force of a tyre, a contact or a spring with end stops,
- * and after a start in long steps, the motion is computed again with 1/2 of a short step up to 1/8 of a long one, and at
- * most half of the mean part of a halved one, until both motions agree for 0.5 s or the budget is spent; the difference
- * of their outputs estimates the error of the step. Without a road the growth of the error is extrapolated. There is no
- * second motion in runs without abrupt forces, or after a warning. It is a snapshot of the same instance; late steps are
- * those that it has not computed yet: expensive ones are left to calls with fewer iterations. */
+ * and after a start in long steps, the motion is computed again with 1/2 of a short step up to 1/8 of a long one, and
+ * at most half of the mean part of a halved one, until both motions agree for 0.5 s or the budget is spent; the
+ * difference of their outputs estimates the error of the step. Without a road the growth of the error is extrapolated.
+ * There is no second motion in runs without abrupt forces, or after a warning. It is a snapshot of the same instance;
+ * late steps are those that it has not computed yet: expensive ones are left to calls with fewer iterations. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -312,8 +312,8 @@ static void run_second(slave *s, size_t most, int64_t made, int64_t room) {
 }
 
 /* Appends the communication step to the late steps. `span`: s for which the second motion runs after an abrupt force;
- * 0: there was none. `halvings`: of its inner steps; the parts of the second motion are at most half as long as the mean
- * part of the first one. */
+ * 0: there was none. `halvings`: of its inner steps; the parts of the second motion are at most half as long as the
+ * mean part of the first one. */
 static void store_late_step(slave *s, double now, double span, int64_t halvings) {
   slave_half_steps *t = &s->half_steps;
   const double made = 1.0 + (double)halvings / (double)s->completed.n;

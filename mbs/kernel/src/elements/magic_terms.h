@@ -1,4 +1,4 @@
-/* Terms that the forces and the moments of the Magic Formula have in common; for magic_formula.c and magic_moments.c. */
+/* Terms that forces and moments of the Magic Formula have in common (magic_formula.c, magic_moments.c). */
 #ifndef ALI3_MAGIC_TERMS_H
 #define ALI3_MAGIC_TERMS_H
 #include <math.h>
