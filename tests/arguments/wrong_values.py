@@ -110,5 +110,6 @@ class Call:
 def kinds_of(function: Any, arguments: Iterable[str] | None = None) -> dict[str, str]:
     """Types of a function's arguments beside `self` or the model, or of some of them."""
     items = inspect.signature(function).parameters.items()
-    parameters = {n: str(p.annotation) for n, p in items if n not in ("self", "model")}
+    annotations = {n: p.annotation for n, p in items if n not in ("self", "model")}
+    parameters = {n: a if isinstance(a, str) else inspect.formatannotation(a) for n, a in annotations.items()}
     return parameters if arguments is None else {n: kind for n, kind in parameters.items() if n in arguments}

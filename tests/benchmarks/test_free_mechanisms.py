@@ -23,7 +23,7 @@ def test_each_joint_and_each_force_has_a_mechanism(monkeypatch):
     message = {
         name
         for name, method in inspect.getmembers(mbs.Model, inspect.isfunction)
-        if method.__annotations__.get("return") in KINDS and not name.startswith("_")
+        if getattr(kind := method.__annotations__.get("return"), "__name__", kind) in KINDS and not name.startswith("_")
     }
     used, types = set(), set()
 
@@ -52,7 +52,7 @@ def test_energy_momentum_keeps_the_energy_of_each():
 
 def test_a_force_that_gives_energy_is_seen():
     """A spring without its energy: what the bodies have is not kept."""
-    result = measure("spring, stops", 0.5, 500, "runge_kutta_8", with_check=True)
+    result = measure("spring, stops", 0.5, 500, "radau_5", with_check=True)
     assert result["energy"] > WRONG
     assert result["grows"]
     assert "AccuracyWarning" in result["told"]

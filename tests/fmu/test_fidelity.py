@@ -139,6 +139,20 @@ def test_a_stress_causes_no_warning(kerb: Path) -> None:
         assert logged(kerb, fidelity, list(OUTPUTS)) == []
 
 
+def test_rates_of_round_off_of_a_car_that_stands_cause_no_warning(kerb: Path) -> None:
+    messages: list[str] = []
+
+    class Heard(Fmu):
+        def _log(self, status: int, category: str, message: str) -> None:
+            messages.append(message)
+
+    for fidelity in (0.0, 1.0, 3.0):
+        with Heard(kerb) as fmu:
+            fmu.initialise({"fidelity": fidelity})
+            values(fmu, 60)
+    assert messages == []
+
+
 @pytest.mark.slow
 def test_an_output_that_no_system_computes_is_reported_once_a_run(tmp_path: Path) -> None:
     """The rigid car alone: there is no System with ports beside it."""

@@ -7,6 +7,7 @@ import pytest
 
 import mbs
 from benchmarks.car import accuracy, manoeuvres, trajectories
+from mbs.results.run_report import Report
 from mbs.vehicle import load as load_car
 from mbs.vehicle.levels import errors
 
@@ -16,7 +17,7 @@ STEP = 0.005  # s
 NEVER = mbs.Settings(max_halvings=0)
 
 
-def load_error(h: float, settings: mbs.Settings | None = None) -> tuple[float, mbs.Report]:
+def load_error(h: float, settings: mbs.Settings | None = None) -> tuple[float, Report]:
     """Of the hardest manoeuvre against its reference, over the largest load."""
     every = round(manoeuvres.sampling(NAME, CAR) / h)
     run = manoeuvres.run(NAME, h, car=CAR, every=every, settings=settings)

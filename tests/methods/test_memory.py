@@ -133,7 +133,7 @@ def sealed(state: bytearray) -> bytes:
 @pytest.mark.parametrize("count", [-1, 1 << 53, (1 << 63) - 1])
 def test_a_counter_that_would_overflow_is_refused(count: int) -> None:
     instance = started(double_four_bar.build(), "ali3p")
-    for at in (COUNT_AT, HEADER + 72):  # of steps of this size, and of the report
+    for at in (COUNT_AT, HEADER + 80):  # of steps of this size, and of the report
         state = bytearray(instance.save())
         struct.pack_into("<q", state, at, count)
         with pytest.raises(KernelError) as refusal:

@@ -59,7 +59,7 @@ class SolverValue(IntEnum):
 
 
 class ParameterTarget(IntEnum):
-    """What a parameter writes to."""
+    """Target of a parameter."""
 
     ELEMENT = 0
     GUIDE = 1

@@ -10,8 +10,6 @@
 #include "abrupt_force.h"
 #include "energy_balance.h"
 
-static const double REST = 1e-6; /* m/s: a slower motion is rest, without energy error */
-
 /* Potential energy of v, J; flexible bodies are prepared at its position. `weight`: the energy of gravity, J, NULL: not
  * computed yet. */
 static double potential(const ali3_instance *in, const ali3_vectors *v, const double *weight) {
@@ -49,7 +47,7 @@ void ali3_balance_start(ali3_instance *in, bool balanced) {
   if (!balanced) return;
   const double kinetic = ali3_kinetic_energy(in);
   double rest = 0.0;
-  for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass.floor[i];
+  for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * ALI3_REST_SPEED * ALI3_REST_SPEED * in->mass.floor[i];
   for (int32_t i = 0; i < in->system->size.nq; i++)
     in->report.energy_floor += in->system->fine * in->settings.tolerance_r * fabs(in->mass.gravity[i]);
   in->report.kinetic_peak = fmax(in->report.kinetic_peak, rest);

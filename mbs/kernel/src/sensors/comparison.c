@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "../../include/ali3.h"
+#include "../methods/energy_balance.h"
 
 static const double PI = 3.141592653589793;
 static const double STANDS = 0.01; /* of the largest coordinate: with a smaller motion the System is at rest */
@@ -78,9 +79,10 @@ void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compar
                          : unit == ALI3_JUDGED_COORDINATE ? fmax(length, 1.0)
                                                           : HUGE_VAL;
     const double resolution = limit < HUGE_VAL ? DBL_EPSILON * limit /* of coordinates: below it there is no motion */
-                              : unit == ALI3_JUDGED_N   ? energy / length
-                              : unit == ALI3_JUDGED_N_M ? energy
-                                                        : 0.0;
+                              : unit == ALI3_JUDGED_N     ? energy / length
+                              : unit == ALI3_JUDGED_N_M   ? energy
+                              : unit == ALI3_JUDGED_RAD_S ? ALI3_REST_SPEED / length
+                                                          : ALI3_REST_SPEED;
     const double in_unit = fmax(largest[group], largest[group ^ 1]); /* small forces beside large ones are round-off */
     const double rest = fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(in_unit, limit), resolution);
     /* places that rest in this motion, and not in the other, are compared with their way in that one */
