@@ -1,7 +1,7 @@
 """Standard tests with cars side by side: ali3 catalogue FMU|CAR... [--tests NAME,...] [--out DIR].
 
-Each FMU is run with each parameter set. The folder gets measures.csv, measures.json, a table of each
-run and report.html. Exit code 1: a test could not be done, or a limit is not kept.
+Each FMU with each parameter set is a car. The folder gets measures.csv, measures.json, a table of each run and
+report.html. Exit code 1: a test could not be done, or a limit is not kept.
 """
 
 import sys
@@ -33,7 +33,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
         default=[],
         type=Path,
         metavar="SSV",
-        help="parameter set, which makes one more car of every FMU; 'as-is' is the FMU without one; repeatable",
+        help="parameter set with which every FMU is a car, in place of the FMU as it is; 'as-is' adds that; repeatable",
     )
     add_option(parser, "--set", action="append")
     parser.add_argument(

@@ -88,10 +88,10 @@ def check_reset(subject: Subject) -> Finding:
         instance.run(len(first) - 1)
         instance.reset()
         if not first_difference(subject, first[:-1], instance.start().run(len(first) - 1)):
-            message = "not as at the first start after it has requested the end; reset everything"
+            message = "not as at the first start after it has requested the end of the run; set everything back in it"
             return Finding("reset", "note", f"{message} {subject.clause('2.1.6', '2.3.1')}")
     if differs:
-        message = f"not as at the first start: {differs}; set all back in it"
+        message = f"not as at the first start: {differs}; set everything back in it"
         return Finding("reset", "bad", f"{message} {subject.clause('2.1.6', '2.3.1')}")
     return Finding("reset", "good", "as at the first start")
 

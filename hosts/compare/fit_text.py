@@ -88,7 +88,7 @@ def fit_problems(fit: Fit) -> list[str]:
     if not fit.converged:
         problems.append("The fit has not converged; begin nearer (--set) or with fewer parameters.")
     if fit.after > _BETTER * fit.before:
-        problems.append(f"The fit is not better: the residuals are {fit.after / fit.before:.3f} times what it was.")
+        problems.append(f"The fit is not better: the residuals are {fit.after / fit.before:.3f} times what they were.")
     elif fit.chance > _CHANCE:
         problems.append(
             f"The fit is hardly better: noise alone would make it so with a probability of {100.0 * fit.chance:.0f} %."

@@ -100,7 +100,7 @@ def worker_fault(key: str, dask_worker: Worker) -> str:
     """Why this worker would not make the same runs as the sending program, as a clause; empty: it would."""
     state = _states.get(f"{key} {dask_worker.address}")
     if state is None:
-        return "it has not received what it shall run"
+        return "it has not received what it is to run"
     if program_digest() != state.unpacked_fmu.program:
         return "it has another version of ALi3"
     if hashlib.sha256(read_bytes(state.fmu, LARGEST_ARCHIVE, HostError)).hexdigest() != state.unpacked_fmu.sha256:

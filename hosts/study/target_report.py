@@ -54,7 +54,7 @@ def _unmet_lines(runs: TargetRuns, search: SearchResult, best: Run) -> list[str]
     low, high = runs.y_text(min(ys)), runs.y_text(max(ys))
     ends = " to ".join(runs.x_text(x) for x in (runs.parameter.low, runs.parameter.high))
     lines = [
-        f"{runs.column} = {runs.y_text(runs.target_value)} cannot be met with {runs.target.by} from {ends}.",
+        f"{runs.column} = {runs.y_text(runs.target_value)} is not met with {runs.target.by} from {ends}.",
         f"The nearest is {runs.y_text(best.y)}, at {runs.x_text(best.x)}; the runs lie between {low} and {high}.",
     ]
     changes = (False, False) if _is_flat(runs, search) else (search.rises, search.falls)

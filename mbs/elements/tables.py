@@ -37,7 +37,7 @@ def number_table() -> str:
 
 
 def law_table() -> str:
-    """Table of law and C file of each element type, for the page of the theory."""
+    """Table of law and C file of each element type, for the page of force laws."""
     rows = []
     for kind in ElementType:
         element_class = class_of(kind)

@@ -1,7 +1,8 @@
 """Command `ali3 car`: copies a car of the package to a folder, or checks a car file and prints its plausibility.
 
-With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints their values as
-drawn. With --cheapest: measures error and cost of each fidelity and step, and names the cheapest within tolerances.
+With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints their values in
+the drawn position. With --cheapest: measures error and cost of each fidelity and step, and names the cheapest within
+tolerances.
 """
 
 import argparse

@@ -27,7 +27,8 @@ inputs:
   .png         8 or 16 bits of grey, seen from above with x to the right and y up
 
 worlds: DIR gets NAME.road, what wheels feel (road.file of an FMU), and NAME.json, what is drawn and where a car may
-start. A world is stored in the folder ALI3_CACHE, and copied when it is requested again.
+start. A world is stored in the cache of the user, or in the folder that the environment variable ALI3_CACHE names, and
+copied when it is requested again.
 """
 _ROAD_OPTIONS = ("input", "output", "frictions", "origin", "spacing", "range", "friction_range", "part", "start")
 
@@ -64,7 +65,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     parser.add_argument(
         "--part", type=Path, metavar="FILE", help="write the drawing of the road as JSON, an entry of a scene's roads"
     )
-    parser.add_argument("--thin", action="store_true", help="reduce a world to fewer points, for a page")
+    parser.add_argument("--thin", action="store_true", help="fewer points and rounded heights of a world, for a page")
     add_option(parser, "--json", "none")
     add_option(parser, "--world", "none, the road of INPUT")
     add_option(parser, "--out", "out/worlds")

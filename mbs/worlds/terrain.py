@@ -86,7 +86,7 @@ class Terrain:
                 neighbour = (i + 1, j) if axis == 0 else (i, j + 1)
                 raise RoadFileError(
                     f"The course '{layer.name}' comes so near to itself at x = {self.x[i]:.5g}, y = {self.y[j]:.5g} m "
-                    f"that its heights there, {level[i, j]:.3g} and {level[neighbour]:.3g} m, differ; "
+                    f"that its heights there, {level[i, j]:.3g} and {level[neighbour]:.3g} m, make a step; "
                     "make its blend smaller or move it."
                 )
 

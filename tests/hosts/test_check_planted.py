@@ -55,7 +55,7 @@ PLANTS: dict[str, tuple[str, str, str]] = {
     "RESET_KEEPS": (
         "reset",
         "BAD",
-        "not as at the first start: y is 0.005 and then 0.055 at 0.01 s; set all back in it",
+        "not as at the first start: y is 0.005 and then 0.055 at 0.01 s; set everything back in it",
     ),
     "SHARED": ("repeats", "BAD", "a run beside a second one differs: y is "),
     "RANDOM": ("repeats", "BAD", "; keep all that a run needs in its instance"),

@@ -1,4 +1,4 @@
-"""The CI job of docs/commands.md on a small repository; JUnit files by a second reader."""
+"""The CI job of docs/checking.md on a small repository; JUnit files by a second reader."""
 
 import csv
 import re
@@ -17,7 +17,7 @@ from hosts.run.command import main as run_main
 from tests.in_process import run
 
 junitparser = pytest.importorskip("junitparser")
-PAGE = Path(__file__).parents[2] / "docs" / "commands.md"
+PAGE = Path(__file__).parents[2] / "docs" / "checking.md"
 PULL = '"time","pull"\n0,0\n0.4,{0}\n0.4,-20\n1,0\n'
 
 

@@ -152,7 +152,7 @@ def _outcome_cell(record: TestRecord | str | None) -> HtmlElement:
 def _count_text(kept: int, limits: int) -> str:
     if kept == limits:
         return "limit kept" if limits == 1 else f"{limits} limits kept"
-    return "limit not kept" if limits == 1 else f"{limits - kept} of {limits} limits violated"
+    return "limit not kept" if limits == 1 else f"{limits - kept} of {limits} limits not kept"
 
 
 def _measure_row(name: str, measures: Sequence[Measure | None]) -> list[Content]:

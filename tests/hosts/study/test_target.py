@@ -66,7 +66,7 @@ def test_a_value_that_cannot_be_met(seek, tmp_path, capsys):
     (tmp_path / "out" / f"{STEM}.ssv").write_text("of an earlier search")
     assert seek("--target", "lowest=-3") == 1
     message = capsys.readouterr().out
-    assert "lowest = -3 m cannot be met with spring.stiffness from 50 N/m to 80 N/m." in message
+    assert "lowest = -3 m is not met with spring.stiffness from 50 N/m to 80 N/m." in message
     assert "The nearest is -1.38" in message
     assert ", at 50 N/m" in message
     assert "runs from end to end the measure only rises with it and does not reach what is wanted; try" in message

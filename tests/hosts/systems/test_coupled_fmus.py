@@ -378,5 +378,5 @@ def test_the_code_of_the_page_stops_at_its_stated_position(tmp_path):
     completed = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert completed.returncode == 0, completed.stderr[-2000:]
     distance = completed.stdout.split("stands after ")[1].split(" m")[0]
-    assert f"It stands after {distance} m" in page
+    assert f"The car stops after {distance} m" in page
     assert (tmp_path / "dist" / "anti_lock_brakes.ssp").is_file()

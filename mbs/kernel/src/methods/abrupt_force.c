@@ -8,7 +8,7 @@
 
 static const double ABRUPT = 0.1; /* change of a force in a step, of the largest force */
 /* 1/s: change of a force in a part that is halved, of the largest force, over the requested step, if it is less than
- * ABRUPT. So parts decrease with the step: of stops below 2 ms, of contacts below 20 ms. Measured in docs/theory.md. */
+ * ABRUPT. So parts decrease with the step: of stops below 2 ms, of contacts below 20 ms (docs/force_laws.md). */
 static const double STOP_RATE = 50.0, CONTACT_RATE = 5.0;
 enum { MAX_DEPTH = 2 }; /* depth to which a step is halved at such a change */
 enum { MIN_ITERATIONS = 4 }; /* iterations of a half for which the whole was not tried, with a limit of iterations */

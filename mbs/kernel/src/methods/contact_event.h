@@ -9,7 +9,7 @@
 void ali3_events_begin(ali3_instance *in, int32_t depth);
 /* Whether to divide the step from one state to another, whose outputs are evaluated, at the fraction
  * in->parting.event. End stops of Systems with roads do not divide it: for cars it costs more than it gains
- * (theory.md). */
+ * (docs/force_laws.md). */
 bool ali3_contact_event(ali3_instance *in, const ali3_request *request, const ali3_vectors *from,
                         const ali3_vectors *to);
 /* Whether a step of h, s, from one state to another, whose outputs are evaluated, meets or leaves an end stop with a
