@@ -60,3 +60,9 @@ def test_no_circle_of_c_files(folder: str, prefix: str) -> None:
     graph = c_files(folder, prefix)
     assert sum(map(len, graph.values())) > 50
     assert circle(graph) == ""
+
+
+def test_a_circle_is_seen(imports: dict[str, set[str]]) -> None:
+    turned = {**imports, "mbs.common.errors": {"mbs.common.checks", "mbs.compiler.rows"}}
+    assert "mbs.common.errors" in circle(turned)
+    assert "mbs.common" in circle(rooms(turned))

@@ -123,6 +123,24 @@ def test_the_kernel_includes_in_one_direction():
     assert wrong_in_kernel(texts) == []
 
 
+@pytest.mark.parametrize(
+    ("file", "line", "message"),
+    [
+        ("algebra/fronts.c", '#include "../rows/constraints.h"', "against the order"),
+        ("elements/tyre.c", '#include "../instance.h"\n  # include "../api/run.h"', "api/run.h, which is not there"),
+        ("system.h", '#include "rows/constraints.h"', "against the order"),
+        ("rows/guides.h", '#include "../tree/tree.h"', "against the order"),
+        ("system/message.h", '#include "loading.h"', "circle of includes"),
+        ("state/report.c", "int x = ali3_balance_step;", "calls ali3_balance_step: against the order"),
+        ("more.c", "", "more.c lies in no room"),
+    ],
+)
+def test_a_direction_turned_round_is_seen(file, line, message):
+    texts = sources(KERNEL)
+    texts[file] = f"{texts.get(file, '')}\n{line}\n"
+    assert any(message in sentence for sentence in wrong_in_kernel(texts))
+
+
 @pytest.mark.slow
 def test_every_header_of_the_kernel_includes_what_it_uses(tmp_path):
     files = []

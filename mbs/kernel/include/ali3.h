@@ -174,7 +174,7 @@ typedef struct {
   /* what says whether the run is right, see ali3_energy_balance; the first three of methods with an energy balance */
   double energy; /* kinetic and potential energy of the state, J */
   double work; /* what inputs and forces without a potential gave and took: sum over the steps, J */
-  double kinetic_peak; /* largest kinetic energy, at least the one at 1e-6 m/s, J */
+  double kinetic_peak; /* largest kinetic energy, at least that at ALI3_REST_SPEED, J */
   /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, length of the path of the velocity (over the
    * largest: radians that the motion has turned), sum of the errors of v + h a over the steps, of methods of order
    * above two the larger of what start and end of a step give */
@@ -467,6 +467,7 @@ ALI3_API void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const al
 ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *size, int32_t latest,
                                     int32_t *worst);
 #define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
+#define ALI3_REST_SPEED 1e-6 /* m/s: a slower motion has no energy error and no rates to compare */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
 #define ALI3_RESOLVED 0.5 /* largest resolved fraction of missed changes of velocity, h w/2 of a vibration of w */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */

@@ -245,6 +245,11 @@ def test_files_that_are_refused(functions, source, function, sentence):
         parse_measure(f"mine.py:{function}", folder=functions)
 
 
+def test_no_file(tmp_path):
+    with pytest.raises(HostError, match=r"in which the function f is to be, cannot be read: there is no such file"):
+        parse_measure("none.py:f", folder=tmp_path)
+
+
 def test_digests_tell_changes(functions):
     before = parse_measure("mine.py:peak", folder=functions).digest
     (functions / "mine.py").write_text(FUNCTIONS.replace("TWICE *", "TWICE +"))

@@ -4,8 +4,6 @@
 #define ALI3_METHODS_ENERGY_BALANCE_H
 #include "../instance.h"
 
-#define ALI3_REST_SPEED 1e-6 /* m/s: a slower motion is rest, without energy error and without rates to compare */
-
 /* Kinetic energy of in->now, J; prepares flexible and tabled bodies at in->now.q. */
 double ali3_kinetic_energy(ali3_instance *in);
 /* Kinetic and potential energy of in->now, J; updates report.kinetic_peak. */

@@ -5,7 +5,6 @@
 #include <stdbool.h>
 
 #include "../../include/ali3.h"
-#include "../methods/energy_balance.h"
 
 static const double PI = 3.141592653589793;
 static const double STANDS = 0.01; /* of the largest coordinate: with a smaller motion the System is at rest */
