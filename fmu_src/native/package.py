@@ -109,9 +109,9 @@ class NativeContents:
 
     def table_c(self, identity: str, token: str) -> str:
         """The table of the shell in C, with 32 hexadecimal digits and the GUID or instantiation token."""
-        sensors, judged = [sensor["name"] for sensor in self.system.meta["sensors"]], compared_sensors(self.system)
+        sensors = [sensor["name"] for sensor in self.system.meta["sensors"]]
+        judged = compared_sensors(self.system, converted=False)
         judged_sensors = {number: judged[name] for number, name in enumerate(sensors) if name in judged}
-        judged_sensors = {k: quantity for k, quantity in judged_sensors.items() if quantity.factor == 1.0}
         length = length_of(self.system)
         code = [name for name, _ in self.code]
         return c_table(

@@ -89,6 +89,17 @@ def test_a_located_event_is_counted_and_loses_no_energy() -> None:
     assert speed == pytest.approx(np.ones(len(speed)), abs=5e-3)
 
 
+@pytest.mark.parametrize(("method", "h"), [("runge_kutta_8", 0.05), ("radau_5", 0.1)])
+def test_an_event_in_a_part_that_may_not_be_halved_is_reported_and_does_not_end_the_run(method: str, h: float) -> None:
+    """Its step was refused as one whose energy balance is violated."""
+    settings = mbs.Settings(method=method, max_halvings=1)
+    run = mbs.simulate(between_stops(0.05), 6.0, h, settings=settings, estimate_error=False, progress=False)
+    assert run.t[-1] == pytest.approx(6.0)
+    assert run.report is not None
+    assert run.report.halvings > 0
+    assert run.report.abrupt_steps > 0
+
+
 def test_lanes_and_a_saved_state_have_the_bits_of_a_single_run() -> None:
     """Before, between and behind steps that are divided."""
     system, h = between_stops(0.02), 0.004

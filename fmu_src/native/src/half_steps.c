@@ -113,10 +113,12 @@ void slave_half_steps_begin(slave *s) {
   const double now = ali3_time(s->fidelity.kernel);
   t->at_start = s->completed.n == 0;
   /* without a road the error of a start is extrapolated from its growth, which has no part that could go on */
-  t->resumed = has_road(s) && !t->at_start && now >= t->since ? fmin(SPAN, t->scheduled - now) : 0.0;
+  t->resumed =
+      has_road(s) && !t->at_start && now >= t->since ? fmin(SPAN, (t->scheduled - now) / stretch(s->completed.h)) : 0.0;
   if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, now, "a state was set", t->resumed > 0.0);
   t->remaining = 0.0;
-  t->scheduled = -HUGE_VAL; /* a start may have any time */
+  /* a start may have any time; time that is left stays until a step succeeds, as another state may be set before */
+  if (!(t->resumed > 0.0)) t->scheduled = -HUGE_VAL;
   t->n_late = 0;
   t->cost = 0;
   t->n_made = 0;
@@ -411,6 +413,7 @@ slave_status slave_half_steps_advance(slave *s) {
   const double length = counted_length(s->completed.n, s->completed.h), now = ali3_time(s->fidelity.kernel);
   const int64_t halvings = report.halvings - t->halvings;
   const double span = at_start ? start_span(s, s->completed.h) : abrupt ? SPAN : t->resumed;
+  if (t->resumed > 0.0) t->scheduled = -HUGE_VAL; /* the second motion begins with this step */
   t->resumed = 0.0;
   t->abrupt = abrupt_steps(&report);
   t->halvings = report.halvings;

@@ -13,7 +13,7 @@ typedef struct {
   /* Makes a step from in->now, after ali3_inputs_begin. in->next is a copy of in->now, so that it has values that a
    * method does not change, such as switches. A completed step ends with ali3_accept, after which in->next is its
    * start; a refused one returns its status and leaves in->now unchanged, or has called ali3_back_up before it changed
-   * it. A step does not allocate, counts iterations, factorizations and solves in in->report and does not accept NaN. */
+   * it. A step does not allocate, counts iterations, factorizations and solves in in->report and accepts no NaN. */
   ali3_status (*step)(ali3_instance *in, const ali3_request *request);
   /* The following may be NULL. */
   /* Changes in->now before a step, after ali3_back_up. */

@@ -59,7 +59,7 @@ bool ali3_contact_event(ali3_instance *in, const ali3_request *request, const al
   const double h = request->h, fraction = share_to_event(in, from->out, to->out, h, in->system->nr == 0, &at_row),
                near = ALI3_AT_END * in->inputs.whole_length;
   if (!(fraction * h > near && (1.0 - fraction) * h > near)) return false;
-  if (in->parting.events_left == 0) {
+  if (in->parting.events_left == 0 || request->depth <= 0) {
     in->report.abrupt_steps++; /* an event that is not located is reported */
     return false;
   }
