@@ -75,8 +75,8 @@ class CoarserRuns:
         # past a singular position long steps of high order may be right while the run is wrong
         by_order = refined.is_smooth and METHOD_TABLE[settings.method].order <= 2
         for factor in coarser_step_factors(settings, refined.compared, has_states, refined.unresolved, report):
-            # the parts of divided steps resolve what is abrupt, and have the ratio of the steps
-            clear = (1.0 - AGREED) * WRONG_ERROR if report.divisions else CLEAR
+            # the parts of steps with an abrupt force resolve it, and have the ratio of the steps
+            clear = (1.0 - AGREED) * WRONG_ERROR if report.divisions and report.abrupt_steps else CLEAR
             limit = clear * (factor - 1) if by_order else clear
             compared = self.run(factor, iterations, limit)
             if compared is None:

@@ -205,8 +205,8 @@ class RefinedRuns:
     def _is_unsure(self, known: Accuracy, parts: int) -> bool:
         """Whether the error of the finest run itself could change the verdict.
 
-        It is estimated with order one from two refined runs. A single one shows no order: it may be off by as much as
-        the first run is with order one, and by their difference.
+        It is estimated with order one from two refined runs. A single one shows no order: it may be off by the sum of
+        the errors of both runs with order one.
         """
         other, factor = self._refined.get(parts // 2), 1.0
         if other is None:
