@@ -12,7 +12,7 @@ from mbs.common.checks import flag, instance_of, is_finite, number, positive, sh
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.instance import Instance
-from mbs.kernel.header.limits import LONGEST_SETTLING
+from mbs.kernel.header.limits import LONGEST_SETTLING, MOST_PARTS
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
@@ -35,6 +35,7 @@ from mbs.simulation.arguments import (
     check_time,
     check_tolerance_settings,
     check_values,
+    count_steps,
     record_times,
     requested_tolerance,
 )
@@ -397,8 +398,8 @@ class Simulation(SteppedSystem):
             None shows a bar if the run takes longer than two seconds, True at once, False never; a function receives
             the fraction done.
         estimate_error : bool or float, optional
-            As in `simulate`, for the first doubtful run. The last refined run continues in the following calls with the
-            same inputs, parameters and switches, until `step` is called.
+            As in `simulate`, for the first doubtful run after eight steps. The last refined run continues in the
+            following calls with the same inputs, parameters and switches, until `step` is called.
         tolerance : float or mapping of str to float, optional
             As in `simulate`, for the error that this part adds; with the method of the settings.
 
@@ -432,8 +433,9 @@ class Simulation(SteppedSystem):
         estimate_error = check_estimate(estimate_error)
         every = check_every(every)
         check_progress(progress)
-        check_step(h)
-        checked = estimate_error is not False
+        # in the first few steps a range is so small that the start of a motion is a large share of it
+        steps = self.report.steps + count_steps(self.time, t_end, check_step(h))
+        checked = estimate_error is not False and steps >= MOST_PARTS
         existing = self._refined if checked else None
         state = self.instance.save() if checked and existing is None else b""
         is_started = False
@@ -459,7 +461,7 @@ class Simulation(SteppedSystem):
                 inputs,
                 every,
                 progress,
-                estimate_error,
+                estimate_error if checked else False,
                 self._extremes,
                 divisor,
             )
@@ -471,7 +473,7 @@ class Simulation(SteppedSystem):
         if run_accuracy is not None and run_accuracy.message and not self._warned:
             self._warned = True
             warnings.warn(run_accuracy.message, AccuracyWarning, stacklevel=2)
-        if checked:
+        if estimate_error is not False:
             self._warn_once(right=run_accuracy is not None and bool(run_accuracy.notice))
         return trajectory
 
