@@ -3,15 +3,19 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "small.h"
 
 enum { QUIET, LEAVE, CRASH, NOT_A_NUMBER, MOVE, PRINT, FORK, CLOSE, EAT, WRITE };
 
+/* Starts three processes whose parents have ended. */
 static void fork_away(void) {
-  for (int k = 0; k < 3; k++)
-    if (!fork()) {
+  for (int k = 0; k < 3; k++) {
+    pid_t parent = fork();
+    if (parent > 0) waitpid(parent, NULL, 0);
+    if (!parent) {
       setsid();
       if (!fork()) {
         char name[] = "odd_child";
@@ -19,6 +23,7 @@ static void fork_away(void) {
       }
       _exit(0);
     }
+  }
 }
 
 static fmi2Status advance(small *s, double end) {
