@@ -86,13 +86,14 @@ static void reset_difference(slave_half_steps *t) {
   for (int32_t i = 0; i < t->n; i++) t->compared[i].gap = 0.0;
 }
 
-/* Logged for hosts that ask for all messages, as it is no sign of an error. `goes_on`: from there. */
-static void log_unchecked(slave *s, double time, const char *why, bool goes_on) {
+/* Logged for hosts that ask for all messages, as it is no sign of an error. */
+static void log_unchecked(slave *s, double time, const char *why) {
   if (s->error_warned || s->unchecked_logged) return;
   s->unchecked_logged = true;
   slave_log(s, SLAVE_OK, "From %.4g s on %s: %s. This is reported once.", time,
-            goes_on ? "the second motion begins at the first one, so that errors of earlier steps are not seen to grow"
-                    : "no second motion is computed, so that the error is unknown",
+            s->half_steps.resumed > 0.0
+                ? "the second motion begins at the first one, so that errors of earlier steps are not seen to grow"
+                : "no second motion is computed, so that the error is unknown",
             why);
 }
 
@@ -115,7 +116,7 @@ void slave_half_steps_begin(slave *s) {
   /* without a road the error of a start is extrapolated from its growth, which has no part that could go on */
   t->resumed =
       has_road(s) && !t->at_start && now >= t->since ? fmin(SPAN, (t->scheduled - now) / stretch(s->completed.h)) : 0.0;
-  if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, now, "a state was set", t->resumed > 0.0);
+  if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, now, "a state was set");
   t->remaining = 0.0;
   /* a start may have any time; time that is left stays until a step succeeds, as another state may be set before */
   if (!(t->resumed > 0.0)) t->scheduled = -HUGE_VAL;
@@ -211,7 +212,7 @@ static bool begin_late_step(slave *s, const slave_late_step *step) {
   const bool rests = !(t->remaining > 0.0);
   t->start_needed = t->start_needed && !step->starts;
   if (step->span > 0.0 && budget_is_spent(t, step)) {
-    log_unchecked(s, step->end, "the time of the second motion is spent", false);
+    log_unchecked(s, step->end, "the time of the second motion is spent");
   } else if (step->span > 0.0 && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
     t->remaining = fmax(t->remaining, step->span);
@@ -238,7 +239,7 @@ static void log_conclusion(slave *s, const slave_late_step *step, double differe
   snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
            disagree(difference) ? "the time of the second motion is spent; " : "", (double)step->parts,
            100.0 * difference, grows);
-  log_unchecked(s, step->end, why, false);
+  log_unchecked(s, step->end, why);
 }
 
 /* Compares both motions at the end of a late step. */
@@ -284,7 +285,7 @@ static int64_t advance_second(slave *s) {
       compare(s, step);
     } else {
       t->remaining = 0.0;
-      log_unchecked(s, step->end, "a step of it failed", false);
+      log_unchecked(s, step->end, "a step of it failed");
     }
   }
   t->n_made = 0;
