@@ -110,7 +110,7 @@ static ali3_status end_lane(ali3_lane_group *g, int32_t l, const ali3_whole_step
     ali3_history_shift(in, step->asked.h);
   }
   ali3_lane_elements_accept(g, l);
-  if (ali3_contact_event(in, &step->asked, &in->now, &in->next) || ali3_divides(in, &step->asked))
+  if (ali3_contact_event(in, &step->asked, &in->now, &in->next) || ali3_divides(in, &step->asked, false))
     return ALI3_UNRESOLVED;
   const double *weight = in->system->n_flexible + in->system->n_tabled > 0 ? NULL : &g->weight[l];
   const double *square = g->squares + l;

@@ -92,15 +92,24 @@ static double change_over_limit(const ali3_instance *in, double *changed) {
   return fmax(fmax(load, force), stop);
 }
 
-bool ali3_divides(ali3_instance *in, const ali3_request *request) {
-  if (in->system->nr == 0) return false;
-  in->report.change_rate = change_over_limit(in, &in->parting.changed) / request->h;
+/* Whether a step that may be halved `depth` times may end early. */
+static bool may_end_early(const ali3_instance *in, int32_t depth) {
+  return in->settings.step_iterations == 0 && may_divide(in, depth);
+}
+
+bool ali3_divides(ali3_instance *in, const ali3_request *request, bool early) {
+  double changed;
+  if (in->system->nr == 0 || (early && !may_end_early(in, request->depth))) return false;
+  const double over = change_over_limit(in, &changed);
+  if (early && !(over > 1.0)) return false;
+  in->parting.changed = changed;
+  in->report.change_rate = over / request->h;
   return divides(in, request, in->report.last_iterations);
 }
 
 bool ali3_is_abrupt(const ali3_instance *in, int32_t depth) {
   double changed;
-  return in->settings.step_iterations == 0 && may_divide(in, depth) && change_over_limit(in, &changed) > 1.0;
+  return may_end_early(in, depth) && change_over_limit(in, &changed) > 1.0;
 }
 
 /* Whether a spring is beyond a stop at the start or the end of the step. */

@@ -11,10 +11,11 @@ bool ali3_divides_ahead(ali3_instance *in, const ali3_request *request);
 /* Whether the limit of iterations leaves `iterations` for each half of a step; then it is counted as a division.
  * Otherwise the step ends at its limit. */
 bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_t iterations);
-/* Whether to repeat the step from in->now to in->next, whose outputs are evaluated, in halves. */
-bool ali3_divides(ali3_instance *in, const ali3_request *request);
-/* Whether forces change so abruptly up to an iterate in in->next that a step that may be halved `depth` times is not
- * worth further iterations. With a limit of iterations they go on, as the last iterate may be the step. */
+/* Whether to repeat the step from in->now to in->next, whose outputs are evaluated, in halves. `early`: in->next is an
+ * iterate; then only if forces change so abruptly that the step is not worth further iterations. With a limit of
+ * iterations they go on, as the last iterate may be the step. */
+bool ali3_divides(ali3_instance *in, const ali3_request *request, bool early);
+/* Whether `early` holds for a step that may be halved `depth` times; not counted. */
 bool ali3_is_abrupt(const ali3_instance *in, int32_t depth);
 /* Whether the limit of iterations leaves room to end a part of a step that resolves a force by table or a guide; counts
  * it if so, as an abrupt force if it ends `at_row` of a table. */

@@ -37,16 +37,17 @@ static ali3_status make_part(ali3_instance *in, const ali3_request *request) {
   return status;
 }
 
-/* Whether to divide a part at an event that its ends show, with methods that locate none before they accept it. Then
- * in->now is its start again, and the accuracy measures are those of `before`. */
-static bool passes_event(ali3_instance *in, const ali3_request *part, const ali3_report *before) {
-  if (ali3_method_of(in)->locates_events || !ali3_contact_event(in, part, &in->next, &in->now)) return false;
-  const int64_t divisions = in->report.divisions, abrupt_steps = in->report.abrupt_steps;
+/* make_part by a method that locates no events before it accepts a part: at one that its ends show the part is divided,
+ * in->now is its start again, and of the measures the counts of the event stay. */
+static ali3_status make_part_to_event(ali3_instance *in, const ali3_request *request) {
+  ali3_report before = in->report;
+  const ali3_status status = make_part(in, request);
+  if (status != ALI3_OK || !ali3_contact_event(in, request, &in->next, &in->now)) return status;
+  before.divisions = in->report.divisions;
+  before.abrupt_steps = in->report.abrupt_steps;
   ali3_vectors_swap(&in->now, &in->next);
-  ali3_balance_restore(&in->report, before);
-  in->report.divisions = divisions;
-  in->report.abrupt_steps = abrupt_steps;
-  return true;
+  ali3_balance_restore(&in->report, &before);
+  return ALI3_UNRESOLVED;
 }
 
 enum { MAX_ITERATIONS = 1000 }; /* of a step including its parts */
@@ -56,18 +57,19 @@ enum { MAX_ITERATIONS = 1000 }; /* of a step including its parts */
 static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   const ali3_method *method = ali3_method_of(in);
   const bool limited = in->settings.step_iterations > 0;
-  const ali3_report before = in->report;
-  if (before.iterations - in->bound.iterations_before > MAX_ITERATIONS) return ALI3_TOO_DEAR;
+  const int64_t iterations = in->report.iterations, divisions = in->report.divisions;
+  if (iterations - in->bound.iterations_before > MAX_ITERATIONS) return ALI3_TOO_DEAR;
   if (in->bound.work_left != NULL && *in->bound.work_left <= 0) return ALI3_TOO_DEAR;
   in->parting.changed = -1.0;
   in->parting.event = 1.0;
-  ali3_status status = ali3_divides_ahead(in, part) ? ALI3_UNRESOLVED : make_part(in, part);
-  if (status == ALI3_OK && passes_event(in, part, &before)) status = ALI3_UNRESOLVED;
-  if (in->bound.work_left != NULL) *in->bound.work_left -= 1 + in->report.iterations - before.iterations;
+  const ali3_status status = ali3_divides_ahead(in, part) ? ALI3_UNRESOLVED
+                             : method->locates_events     ? make_part(in, part)
+                                                          : make_part_to_event(in, part);
+  if (in->bound.work_left != NULL) *in->bound.work_left -= 1 + in->report.iterations - iterations;
   if (status == ALI3_OK) in->clock.now = part->t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, part->h);
   if (status != ALI3_OK && ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
-  const bool divided = in->report.divisions != before.divisions;
+  const bool divided = in->report.divisions != divisions;
   if (status == ALI3_OK || status == ALI3_BAD_ARGUMENT || status == ALI3_BAD_NORMAL || part->depth <= 0 ||
       (limited && !divided))
     return status;

@@ -146,8 +146,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
         return ALI3_OK;
     }
     /* forces are known well enough after one correction, see decision 175 */
-    if (in->report.last_iterations == 1 && ali3_is_abrupt(in, request->depth) && ali3_divides(in, request))
-      return ALI3_UNRESOLVED;
+    if (in->report.last_iterations == 1 && ali3_divides(in, request, true)) return ALI3_UNRESOLVED;
     last_violation = in->report.violation;
     reused = settings->update == ALI3_UPDATE_LINEARISED &&
              in->report.violation <= REUSE_VIOLATION * fmin(h * h, 1e-4 * fine) &&
@@ -238,7 +237,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
                                 .out = to->out,
                                 .potential = to->potential};
   ali3_forces_accept(in, &call);
-  if (ali3_contact_event(in, request, from, to) || ali3_divides(in, request)) return ALI3_UNRESOLVED;
+  if (ali3_contact_event(in, request, from, to) || ali3_divides(in, request, false)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: the next step needs the multipliers of the balance (20) */
   ali3_constraint_rate(in, to->q, to, in->step.Phit);
