@@ -39,63 +39,19 @@ ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels
   }
 }
 
-/* target -= f[0] c + f[1] c1 + ... of fewer columns than a panel, of length n, in this order, beginning with entry
- * `from`. */
-ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_t n, const real *f, int32_t count,
-                           int64_t from) {
-  const real *restrict c1 = c + n, *restrict c2 = c1 + n;
-  const real x = f[0], y = count > 1 ? f[1] : x, z = count > 2 ? f[2] : x;
-  if (count == 3)
-    ALI3_EACH(from, n, ALI3_AT(target) = ((ALI3_AT(target) - x * ALI3_AT(c)) - y * ALI3_AT(c1)) - z * ALI3_AT(c2))
-  else if (count == 2)
-    ALI3_EACH(from, n, ALI3_AT(target) = (ALI3_AT(target) - x * ALI3_AT(c)) - y * ALI3_AT(c1))
-  else if (count == 1)
-    ALI3_EACH(from, n, ALI3_AT(target) -= x * ALI3_AT(c))
-}
-
-/* factor[k] = L_jk of the pivots of a panel from their unscaled columns. */
-ALI3_INLINED void compute_factors(const real *panel, const real *inverse, int32_t count, int64_t n, int32_t j,
-                                  real *factor) {
-  for (int32_t k = 0; k < count; k++) factor[k] = panel[k * n + j] * inverse[k];
-}
-
-/* Factorises the columns of the pivots `start` to start + count - 1 among themselves. */
-ALI3_INLINED ali3_status factorise_panel(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
-                                         int32_t n, real *inverse) {
-  real *panel = block + (int64_t)start * n, factor[PANEL];
-  for (int32_t p = 0; p < count; p++) {
-    real *column = panel + (int64_t)p * n;
-    compute_factors(panel, inverse, p, n, start + p, factor);
-    subtract(column, panel, n, factor, p, ali3_by_fours(start + p, n));
-    const ali3_status status = ali3_check_pivot(in, first + start + p, column[start + p]);
-    if (status != ALI3_OK) return status;
-    inverse[p] = 1.0 / column[start + p];
-  }
-  return ALI3_OK;
-}
-
-/* Scales the columns of pivots to columns of L, with 1/D on the diagonal. */
-ALI3_INLINED void scale_panel(real *block, int32_t start, int32_t count, int32_t n, const real *inverse) {
-  for (int32_t p = 0; p < count; p++) {
-    real *column = block + (int64_t)(start + p) * n;
-    const real factor = inverse[p];
-    ALI3_EACH(ali3_by_fours(start + p + 1, n), n, ALI3_AT(column) *= factor)
-    column[start + p] = factor;
-  }
-}
-
-/* Eliminates pivots `start` to start + count - 1, fewer than a panel: first among themselves, then from each later
- * column j, so that inner loops run down columns. */
-ALI3_INLINED ali3_status eliminate_few(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
-                                       int32_t n) {
-  real *panel = block + (int64_t)start * n, inverse[PANEL], factor[PANEL];
-  const ali3_status status = factorise_panel(in, block, first, start, count, n, inverse);
+/* Eliminates pivot p alone: subtracts multiples of its column from the later ones, then scales it to a column of L. */
+ALI3_INLINED ali3_status eliminate_one(ali3_instance *in, real *block, int32_t first, int32_t p, int32_t n) {
+  real *restrict pivot = block + (int64_t)p * n;
+  const ali3_status status = ali3_check_pivot(in, first + p, pivot[p]);
   if (status != ALI3_OK) return status;
-  for (int32_t j = start + count; j < n; j++) {
-    compute_factors(panel, inverse, count, n, j, factor);
-    subtract(block + (int64_t)j * n, panel, n, factor, count, ali3_by_fours(j, n));
+  const real inverse = 1.0 / pivot[p];
+  for (int32_t j = p + 1; j < n; j++) {
+    real *restrict column = block + (int64_t)j * n;
+    const real factor = pivot[j] * inverse;
+    ALI3_EACH(ali3_by_fours(j, n), n, ALI3_AT(column) -= factor * ALI3_AT(pivot))
   }
-  scale_panel(block, start, count, n, inverse);
+  ALI3_EACH(ali3_by_fours(p + 1, n), n, ALI3_AT(pivot) *= inverse)
+  pivot[p] = inverse;
   return ALI3_OK;
 }
 
@@ -158,23 +114,9 @@ ALI3_INLINED ali3_status eliminate(ali3_instance *in, real *block, int32_t first
   int32_t p = 0;
   for (; p + PANELS * PANEL <= n_pivot && status == ALI3_OK; p += PANELS * PANEL)
     status = eliminate_panels(in, block, first, p, PANELS, n);
-  if (p + 2 * PANEL <= n_pivot && status == ALI3_OK) {
-    status = eliminate_panels(in, block, first, p, 2, n);
-    p += 2 * PANEL;
-  }
-  if (p + PANEL <= n_pivot && status == ALI3_OK) {
-    status = eliminate_panels(in, block, first, p, 1, n);
-    p += PANEL;
-  }
-  if (status != ALI3_OK || p == n_pivot) return status;
-  switch (n_pivot - p) {
-  case 1:
-    return eliminate_few(in, block, first, p, 1, n);
-  case 2:
-    return eliminate_few(in, block, first, p, 2, n);
-  default:
-    return eliminate_few(in, block, first, p, 3, n);
-  }
+  for (; p + PANEL <= n_pivot && status == ALI3_OK; p += PANEL) status = eliminate_panels(in, block, first, p, 1, n);
+  for (; p < n_pivot && status == ALI3_OK; p++) status = eliminate_one(in, block, first, p, n);
+  return status;
 }
 
 /* Adds the Schur complement of a front to its parent, two columns at a time. */

@@ -3,11 +3,12 @@
 
 #include "../algebra/small_vectors.h"
 
-int ali3_selector_position(double value) { return value > 0.5 ? 1 : value < -0.5 ? -1 : 0; }
+/* Position -1, 0 or 1 of an input or a state. */
+static int position(double value) { return value > 0.5 ? 1 : value < -0.5 ? -1 : 0; }
 
 int ali3_selector_step(const double *y_old, double *y_new, double input, double fraction, double *factor) {
-  const int direction = ali3_selector_position(y_old[ALI3_SELECTOR_DIRECTION]);
-  const int unchanged = ali3_selector_position(input) == direction;
+  const int direction = position(y_old[ALI3_SELECTOR_DIRECTION]);
+  const int unchanged = position(input) == direction;
   double engaged = ali3_clamp(y_old[ALI3_SELECTOR_ENGAGED], 0.0, 1.0);
   y_new[ALI3_SELECTOR_DIRECTION] = y_old[ALI3_SELECTOR_DIRECTION];
   y_new[ALI3_SELECTOR_ENGAGED] = y_old[ALI3_SELECTOR_ENGAGED];
@@ -21,7 +22,7 @@ int ali3_selector_step(const double *y_old, double *y_new, double input, double 
 }
 
 int ali3_selector_accept(double *y, double input, double wheel_rate, double engage_speed, int start) {
-  const int requested = ali3_selector_position(input), direction = ali3_selector_position(y[ALI3_SELECTOR_DIRECTION]);
+  const int requested = position(input), direction = position(y[ALI3_SELECTOR_DIRECTION]);
   const int allowed = requested * wheel_rate > -engage_speed || requested == 0;
   if (start) {
     y[ALI3_SELECTOR_DIRECTION] = allowed ? requested : 0.0;

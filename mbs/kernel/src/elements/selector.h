@@ -8,9 +8,6 @@
 
 enum { ALI3_SELECTOR_DIRECTION, ALI3_SELECTOR_ENGAGED, ALI3_SELECTOR_STATES };
 
-/* Position -1, 0 or 1 of an input or a state. */
-int ali3_selector_position(double value);
-
 /* States after a step; fraction: step size / engage time. Returns the direction; *factor: on its torque, 0 to 1. */
 int ali3_selector_step(const double *y_old, double *y_new, double input, double fraction, double *factor);
 

@@ -30,7 +30,7 @@ ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *q
 ALI3_BY_PROCESSOR(in->system, void, active_signals, (ali3_instance * in, const real *q, const real *qd), (in, q, qd))
 
 /* Q += generalised forces of all elements except idle ones; f: their forces on their signals. */
-ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
+void ali3_add_forces(const ali3_instance *in, const real *f, real *Q) {
   const ali3_system *S = in->system;
   if (ALI3_GENERATED(S, forces, (S->sig_val, in->element.idle, f, Q))) return;
   for (int32_t e = 0; e < S->size.ne; e++) {
@@ -47,8 +47,6 @@ ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
     }
   }
 }
-
-ALI3_BY_PROCESSOR(in->system, void, add_forces, (const ali3_instance *in, const real *f, real *Q), (in, f, Q))
 
 /* y += a x except in idle lanes. */
 ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, truth idle, int64_t n) {

@@ -47,7 +47,7 @@ static truth work_by_rows(const ali3_instance *in) {
 /* Energy error before the projections: in->tangent.J and in->step.Phit are those at the end of the step, in->next.lam
  * is that of Newton's iteration. projection_work adds the terms of lam after (25), also to *guide_work, the work of
  * drives. Writes Phi_q v to in->step.mu for (24). */
-ALI3_INLINED real constraint_work(ali3_instance *in, double h, real *guide_work) {
+real ali3_constraint_work(ali3_instance *in, double h, real *guide_work) {
   const ali3_system *S = in->system;
   real work = {0}, rate_work = {0}, drive_work = {0}, newton_term = {0};
   truth use_rows = {0};
@@ -71,9 +71,6 @@ ALI3_INLINED real constraint_work(ali3_instance *in, double h, real *guide_work)
   *guide_work = rate_work + ali3_where(use_rows, drive_work + newton_term, ali3_same(0.0));
   return work + ali3_where(use_rows, -newton_term, drive_work);
 }
-
-ALI3_BY_PROCESSOR(in->system, real, constraint_work, (ali3_instance * in, double h, real *guide_work),
-                  (in, h, guide_work))
 
 /* Energy error of the projections: the kinetic energy that (24) adds to the velocity rate D + hat, which is work of
  * drives where filtered guides move, minus the work of drives by the multipliers after (25). *kinetic: kinetic energy
@@ -113,7 +110,7 @@ ALI3_BY_PROCESSOR(in->system, real, projection_work,
 
 /* Reference for energy errors: the kinetic energy, the energy that the forces in in->step.Q can add in a step, and that
  * of the residual's tolerance. */
-ALI3_INLINED real energy_size(const ali3_instance *in, double h, real kinetic) {
+real ali3_energy_size(const ali3_instance *in, double h, real kinetic) {
   const double unbalanced = 2.0 * in->system->fine * in->settings.tolerance_r / h;
   const double rest = unbalanced * unbalanced, square = h * h;
   const real *Q = in->step.Q, *inverse = in->mass.floor_inverse, *m = in->mass.floor;
@@ -126,5 +123,3 @@ ALI3_INLINED real energy_size(const ali3_instance *in, double h, real kinetic) {
   if (i < in->system->size.nq) even += square * Q[i] * Q[i] * inverse[i] + rest * m[i];
   return kinetic + 0.5 * (even + odd);
 }
-
-ALI3_BY_PROCESSOR(in->system, real, energy_size, (const ali3_instance *in, double h, real kinetic), (in, h, kinetic))

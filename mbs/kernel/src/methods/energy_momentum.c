@@ -46,16 +46,14 @@ static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0};
 /* c alpha, dimensionless as rows are mass-normalised. Tried from 1e-13 to 1e-4: with much larger ones rows that are
  * nearly redundant at singular positions do not converge, with much smaller ones round-off of rows that turn far in a
  * step causes forces. */
-double ali3_energy_momentum_penalty(const ali3_instance *in, double h) {
-  return 0.5 * h * h * ali3_penalty(in, h) / EPS_FACTOR;
-}
+static double penalty(const ali3_instance *in, double h) { return 0.5 * h * h * ali3_penalty(in, h) / EPS_FACTOR; }
 
 /* The penalty of this step. The lever a of a row that vanishes at a singular position has opposite signs at the ends of
  * the step, and the iteration contracts by 1 / (1 + c alpha a_mean a_end): it diverges if that product is between -2
  * and 0. Levers grow with the turn of the rows in a step, so the penalty is raised where rows turn little. */
 static double raised_penalty(const ali3_instance *in, double h) {
   const ali3_system *S = in->system;
-  const double weight = ali3_energy_momentum_penalty(in, h);
+  const double weight = penalty(in, h);
   double turn = 0.0;
   if (in->settings.alpha > 0.0) return weight;
   for (int32_t k = 0; k < S->size.nc; k++) {

@@ -4,8 +4,6 @@
 #define ALI3_ENERGY_MOMENTUM_H
 #include "../instance.h"
 
-/* c alpha of a step h, s; dimensionless. */
-double ali3_energy_momentum_penalty(const ali3_instance *in, double h);
 /* Projects v->own onto the rows, of Systems with flexible bodies, with the factorised tangent of the step; weight: c
  * alpha of that tangent. Needs Phi_q in in->tangent.J. */
 void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight);

@@ -44,13 +44,11 @@ ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t,
 }
 
 /* Signed squares of the sines of all triads in in->branch.sine and of the cosines in in->branch.cosine. */
-ALI3_INLINED void mode_angles(ali3_instance *in, const double *q) {
+void ali3_mode_angles(ali3_instance *in, const double *q) {
   const int32_t *t = in->system->mode_triad, *end = t + in->system->n_mode_triad;
   for (double *sine = in->branch.sine, *cosine = in->branch.cosine; t < end; t += ITEMS)
     angle(in->system, q, t, sine++, cosine++);
 }
-
-ALI3_BY_PROCESSOR(in->system, void, mode_angles, (ali3_instance * in, const double *q), (in, q))
 
 /* Bit k if v is positive; marks in *definite whether the sign counts. */
 static uint32_t bit(double v, int k, uint32_t *definite) {

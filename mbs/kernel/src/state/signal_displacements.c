@@ -1,10 +1,9 @@
 /* Displacements over a step of the signals of elements whose work is sensed. */
 #include "../algebra/number_pairs.h"
-#include "../algebra/processor.h"
 #include "../tabled/tabled.h"
 #include "work.h"
 
-ALI3_INLINED void signal_displacements(const ali3_instance *in, real *displacement) {
+void ali3_signal_displacements(const ali3_instance *in, real *displacement) {
   const ali3_system *S = in->system;
   const real *D = in->step.D;
   if (S->n_tabled > 0) {
@@ -21,6 +20,3 @@ ALI3_INLINED void signal_displacements(const ali3_instance *in, real *displaceme
     }
   }
 }
-
-ALI3_BY_PROCESSOR(in->system, void, signal_displacements, (const ali3_instance *in, real *displacement),
-                  (in, displacement))

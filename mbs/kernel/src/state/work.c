@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "../algebra/number_pairs.h"
-#include "../algebra/processor.h"
 #include "../elements/forces.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
@@ -74,7 +73,7 @@ void ali3_work_step(ali3_instance *in, double weight) {
 }
 
 /* Leaves the powers of the start unchanged: a method that reads them stores its own or calls ali3_work_reopen. */
-ALI3_INLINED void work_along(ali3_instance *in, double weight) {
+void ali3_work_along(ali3_instance *in, double weight) {
   const ali3_system *S = in->system;
   const double *before = in->now.watched + S->n_work, *displacement = in->next.step_displacement;
   double *mean = in->next.step_force, *after = in->next.watched + S->n_work;
@@ -87,8 +86,6 @@ ALI3_INLINED void work_along(ali3_instance *in, double weight) {
     before += n, displacement += n, mean += n, after += n;
   }
 }
-
-ALI3_BY_PROCESSOR(in->system, void, work_along, (ali3_instance * in, double weight), (in, weight))
 
 void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum) {
   for (int32_t k = 0; k < in->system->n_work; k++) sum[k] += weight * power[k];
