@@ -145,8 +145,9 @@ struct ali3_system {
                             at its end if they are few */
   /* A triple are three signals or rows of mass_ptr that are components of a point or a direction: entry by entry of the
    * first the columns of the others are one and two further, and the values are the same. */
-  int32_t *mass_alike; /* nq: number of rows of mass_ptr from this one on with the same columns; 0: this row begins a
-                          triple */
+  int32_t
+      *mass_alike; /* nq: number of rows of mass_ptr from this one on with the same columns, 1 without modes; 0: this
+                          row begins a triple */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
   int32_t *diagonal_pos; /* nq: place of entry (i, i) in front storage */
 

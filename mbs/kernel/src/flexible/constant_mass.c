@@ -1,6 +1,4 @@
 /* Product M x of the constant mass matrix with a vector. */
-#include <stdbool.h>
-
 #include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../instance.h"
@@ -30,10 +28,11 @@ ALI3_INLINED void add_rows(const ali3_instance *in, int32_t i, int32_t n, const 
 }
 
 /* Rows with the same columns, as the modes of a flexible body have, are summed together, column by column: M is
- * symmetric, so the entries of a column are contiguous in its row. `stretches`: whether rows have contiguous columns,
- * which are summed four at a time. */
-ALI3_INLINED void multiply_mass(const ali3_instance *in, const real *x, real *out, bool stretches) {
+ * symmetric, so the entries of a column are contiguous in its row. Stretches of contiguous columns are summed four at a
+ * time. */
+ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, real *out) {
   const ali3_system *S = in->system;
+  if (in->mass.isotropic && ALI3_GENERATED(S, mass_times, (in->mass.val, x, out))) return;
   const real *val = in->mass.val;
   const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
   for (int32_t i = 0; i < S->size.nq; i++) {
@@ -47,13 +46,13 @@ ALI3_INLINED void multiply_mass(const ali3_instance *in, const real *x, real *ou
       i += 2;
       continue;
     }
-    if (stretches && alike >= MANY) {
+    if (alike >= MANY) {
       add_rows(in, i, alike, x, out);
       i += alike - 1;
       continue;
     }
     int32_t k = ptr[i];
-    if (stretches && S->mass_stretch[2 * i] < ptr[i + 1]) {
+    if (S->mass_stretch[2 * i] < ptr[i + 1]) {
       const int32_t first = S->mass_stretch[2 * i], last = S->mass_stretch[2 * i + 1];
       for (; k < first; k++) sum += val[k] * x[col[k]];
       sum += ali3_product_backward(val + first, x + col[first], last - first);
@@ -63,14 +62,6 @@ ALI3_INLINED void multiply_mass(const ali3_instance *in, const real *x, real *ou
     for (; k < ptr[i + 1]; k++) sum += val[k] * x[col[k]];
     out[i] = sum;
   }
-}
-
-ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, real *out) {
-  if (in->mass.isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass.val, x, out))) return;
-  if (in->system->n_flexible > 0)
-    multiply_mass(in, x, out, true);
-  else
-    multiply_mass(in, x, out, false);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *in, const real *x, real *out),

@@ -66,15 +66,17 @@ static void longest_stretch(const int32_t *col, int32_t begin, int32_t end, int3
   }
 }
 
-/* Rows of the mass matrix with equal columns, stretches of consecutive columns, triples, and the transposed entries. */
+/* Rows of the mass matrix with equal columns and stretches of consecutive columns, where there are modes; triples, and
+ * the transposed entries. */
 static void derive_mass_rows(ali3_system *s) {
+  const bool modes = s->n_flexible > 0;
   const int32_t *ptr = s->mass_ptr, *col = s->mass_col;
   for (int32_t i = s->size.nq - 1; i >= 0; i--) {
     const int32_t n = ptr[i + 1] - ptr[i];
-    const bool alike = i + 1 < s->size.nq && ptr[i + 2] - ptr[i + 1] == n &&
+    const bool alike = modes && i + 1 < s->size.nq && ptr[i + 2] - ptr[i + 1] == n &&
                        memcmp(col + ptr[i], col + ptr[i + 1], (size_t)n * sizeof *col) == 0;
     s->mass_alike[i] = alike ? s->mass_alike[i + 1] + 1 : 1;
-    longest_stretch(col, ptr[i], ptr[i + 1], s->mass_stretch + 2 * (int64_t)i);
+    longest_stretch(col, modes ? ptr[i] : ptr[i + 1], ptr[i + 1], s->mass_stretch + 2 * (int64_t)i);
     if (i + 2 < s->size.nq && ali3_is_triple(ptr, col, s->mass_val, i)) s->mass_alike[i] = 0;
     for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
       const int32_t j = col[k];
