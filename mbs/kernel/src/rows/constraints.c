@@ -202,7 +202,7 @@ static inline void stretch_geometric(const ali3_system *S, int32_t k, real facto
 }
 
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */
-void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
+ALI3_INLINED void geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->quad_ptr, *pos = S->quad_pos;
   const double *second = S->quad_second;
@@ -229,3 +229,7 @@ void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real 
     F[S->angle_theta_pos[i]] -= value;
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, geometric,
+                  (ali3_instance * in, const real *q, const real *s, const real *lam, double weight, real *F),
+                  (in, q, s, lam, weight, F))

@@ -107,12 +107,14 @@ ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x,
     const int32_t end = ptr[k + 1];
     real sum = {0};
     int32_t i = ptr[k];
-    ALI3_SHORT
-    for (const int32_t points = S->row_triples[k] ? end : i; i < points; i += 3)
-      sum = ali3_points_sum(sum, J + i, x + col[i]);
-    ALI3_SHORT
-    for (; i < S->row_stretch[k]; i++) sum += J[i] * x[col[i]];
-    if (i < end) sum += ali3_product_backward(J + i, x + col[i], end - i);
+    if (S->row_triples[k]) {
+      ALI3_SHORT
+      for (; i < end; i += 3) sum = ali3_points_sum(sum, J + i, x + col[i]);
+    } else {
+      ALI3_SHORT
+      for (; i < S->row_stretch[k]; i++) sum += J[i] * x[col[i]];
+      if (i < end) sum += ali3_product_backward(J + i, x + col[i], end - i);
+    }
     out[k] = sum;
   }
 }
