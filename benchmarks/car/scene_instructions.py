@@ -94,6 +94,7 @@ SCENES = (
     Scene("slalom, flexible frame", 0.005, 100, _compile_flexible, "slalom"),
     Scene("drop, flexible frame", 0.002, 200, _compile_flexible, "drop"),
     Scene("kerb test, flexible frame", 0.01, 100, lambda: compile(kerb_test.build(3))),
+    Scene("kerb test, load paths", 0.01, 100, lambda: compile(kerb_test.build(2))),
 )
 
 
