@@ -1,4 +1,4 @@
-/* Loops over contiguous numbers in vectors of two or four. Element-wise loops give the bits of a scalar loop; sums have
+/* Loops over contiguous numbers in vectors of four. Element-wise loops give the bits of a scalar loop; sums have
  * the order that each function states, the same for one instance and for lanes. */
 #ifndef ALI3_NUMBER_PAIRS_H
 #define ALI3_NUMBER_PAIRS_H
@@ -57,11 +57,10 @@ static inline int64_t ali3_by_fours_unclipped(int64_t from, int64_t n) {
 
 #ifndef ALI3_WIDTH
 typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
-typedef double ali3_pair __attribute__((vector_size(16), aligned(8), may_alias));
 #endif
 
-/* Executes a statement for each i from `from` to n - 1, in which ALI3_AT(x) is entry i of x, or four, then two entries
- * from i on, without the loop variants that compilers add to vectorised loops. */
+/* Executes a statement for each i from `from` to n - 1, in which ALI3_AT(x) is entry i of x, or four entries from i on,
+ * without the loop variants that compilers add to vectorised loops. */
 #define ALI3_AT(x) (*(entry *)((x) + i))
 #ifdef ALI3_WIDTH
 #define ALI3_EACH(from, n, statement)                                                                                  \
@@ -78,12 +77,8 @@ typedef double ali3_pair __attribute__((vector_size(16), aligned(8), may_alias))
       typedef ali3_four entry;                                                                                         \
       statement;                                                                                                       \
     }                                                                                                                  \
-    if (i + 1 < (n)) {                                                                                                 \
-      typedef ali3_pair entry;                                                                                         \
-      statement;                                                                                                       \
-      i += 2;                                                                                                          \
-    }                                                                                                                  \
-    if (i < (n)) {                                                                                                     \
+    ALI3_SHORT                                                                                                         \
+    for (; i < (n); i++) {                                                                                             \
       typedef double entry;                                                                                            \
       statement;                                                                                                       \
     }                                                                                                                  \
