@@ -48,10 +48,10 @@ def test_the_folders_that_were_used_last_stay(tmp_path):
 
 def test_folders_in_use_stay_however_many_they_are(tmp_path):
     now = time.time()
-    for k, age in enumerate((30.0, 50.0, 70.0, 90.0)):
+    for k, age in enumerate((3e3, 5e3, 7e3, 9e3)):
         (tmp_path / str(k)).mkdir()
         os.utime(tmp_path / str(k), (now - age, now - age))
-    forget_oldest(tmp_path, 1, in_use=60.0)
+    forget_oldest(tmp_path, 1, in_use=6e3)
     assert sorted(place.name for place in tmp_path.iterdir()) == ["0", "1"]
 
 
