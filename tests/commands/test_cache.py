@@ -109,3 +109,20 @@ def test_a_kernel_is_compiled_once_for_all_folders_with_the_same_sources(tmp_pat
     make()
     assert results[-1] == "library 1"
     assert len(compiled) == 4
+
+
+def test_all_installations_of_the_compiler_read_the_same_headers(tmp_path, monkeypatch):
+    """Files of another inode are noted again in the cache, for which a compiler waits until no other one runs."""
+    monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "cache")
+    headers = []
+    for name in ("a", "b"):
+        (tmp_path / name / "lib" / "include").mkdir(parents=True)
+        (tmp_path / name / "lib" / "include" / "float.h").write_text(name)
+        monkeypatch.setattr(build, "compiler", lambda name=name: str(tmp_path / name / "zig"))
+        headers.append(Path(build.compiler_environment()["ZIG_LIB_DIR"], "include", "float.h"))
+    assert headers[0].samefile(headers[1])
+    shutil.rmtree(tmp_path / "a")
+    assert headers[1].read_text() == "a"
+    (tmp_path / "full").write_text("")
+    monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "full")
+    assert build.compiler_environment()["ZIG_LIB_DIR"] == str(tmp_path / "b" / "lib")
