@@ -174,12 +174,11 @@ def test_silent_connections_are_limited_and_block_no_other(served, message):
 def test_connections_that_say_nothing_do_not_hold_the_end(car, monkeypatch):
     """A server that closes would wait for their handshakes as long as one may take."""
     monkeypatch.setattr("hosts.simulator.server._ANSWER_TIMEOUT", NEVER)
-    with ExitStack() as opened:
-        with serving(car) as served:
-            for _ in range(70):
-                line = opened.enter_context(RawClient.silent(served.port))
-                line.sendall(b"GET / HTTP/1.1\r\n")
-            assert request(served.port, f"/{served.key}", {})[0] == 200  # the last ones are connected too
+    with ExitStack() as opened, serving(car) as served:
+        for _ in range(70):
+            line = opened.enter_context(RawClient.silent(served.port))
+            line.sendall(b"GET / HTTP/1.1\r\n")
+        assert request(served.port, f"/{served.key}", {})[0] == 200  # the last ones are connected too
 
 
 def test_a_page_may_say_so_much_a_second():
