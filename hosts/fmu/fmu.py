@@ -106,8 +106,8 @@ class Fmu(Closable, NamedScalars):
             return
         others = ", ".join(sorted({file.parent.name for file in folder.glob("binaries/*/*")}))
         raise HostError(
-            f"{self.path} has no library for {own}; it has {'those for ' if others else ''}{others or 'none'}. To an FMU "
-            f"that ALi3 has built, 'ali3 build --fmu {self.path.name} --platforms this' adds it."
+            f"{self.path} has no library for {own}; it has {'those for ' if others else ''}{others or 'none'}. To an "
+            f"FMU that ALi3 has built, 'ali3 build --fmu {self.path.name} --platforms this' adds it."
         )
 
     @property
