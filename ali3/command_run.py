@@ -1,5 +1,6 @@
 """Runs a command: errors become one sentence, Ctrl-C one line, and the exit code gives the result."""
 
+import errno
 import io
 import os
 import sys
@@ -27,7 +28,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
     printed with the exit code 2; `is_confined`: the option ``--confined``. Returns the exit code.
     """
     _open_closed_streams()
-    if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
+    if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors in ("strict", "surrogateescape"):
         sys.stdout.reconfigure(errors="backslashreplace")  # what its encoding lacks ends no command
     try:
         with stopped_by_signals():
@@ -90,6 +91,8 @@ def _print_end(line: str, status: int) -> int:
 
 
 def _os_error_text(error: OSError) -> str:
+    if error.errno == errno.ENOSPC and error.filename is None:
+        return "There is no room for the output: no space left on device."
     if error.filename is None or error.strerror is None:
         return str(error) if _has_current_folder() else "The current folder has been deleted; change to another one."
     return f"{error.filename}: {reason(error)}."

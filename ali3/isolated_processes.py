@@ -141,14 +141,14 @@ class _Process:
     def end(self, finish: Callable[[Any, Path], Any]) -> _ProcessEnd:
         """Wait for the end of the process, or end it."""
         with suppress(subprocess.TimeoutExpired):
-            self.process.wait(1.0)  # its output is closed shortly before it ends
+            self.process.wait(_END_TIMEOUT)  # its output is closed shortly before it ends
         self.kill()
         try:
             self.process.wait(_END_TIMEOUT)
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
-        self._reader.join(1.0)
+        self._reader.join(_END_TIMEOUT)
         for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
             with suppress(OSError):
                 stream.close()  # type: ignore[union-attr]

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from fmpy import platform, platform_tuple
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
@@ -87,15 +88,27 @@ class Fmu(Closable, NamedScalars):
         self._folder = folder
         try:
             unpack(path, folder)
+            self._check_platform(folder)
             self._loaded = Instance(self.description, folder, path.stem, self._log)
         except BaseException as error:
             self._remove()
-            if isinstance(error, MemoryError) or not isinstance(error, Exception):
+            if isinstance(error, (HostError, MemoryError)) or not isinstance(error, Exception):
                 raise
             if isinstance(error, OSError) and error.errno is not None:
                 raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {error}{cause_text(error)}") from None
         return self._loaded
+
+    def _check_platform(self, folder: Path) -> None:
+        """Raise `HostError` if the unpacked FMU has no library for this platform."""
+        own = platform_tuple if self.description.fmiVersion.startswith("3") else platform
+        if (folder / "binaries" / own).is_dir():
+            return
+        others = ", ".join(sorted({file.parent.name for file in folder.glob("binaries/*/*")}))
+        raise HostError(
+            f"{self.path} has no library for {own}; it has {'those for ' if others else ''}{others or 'none'}. To an "
+            f"FMU that ALi3 has built, 'ali3 build --fmu {self.path.name} --platforms this' adds it."
+        )
 
     @property
     def _instance(self) -> Instance:

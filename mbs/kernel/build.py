@@ -14,6 +14,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 from ali3.cache import cache_folder
+from ali3.errors import FileError
+from ali3.folders import atomic_folder
 from ali3.temporary_folder import temporary_folder
 
 HERE = Path(__file__).resolve().parent
@@ -180,9 +182,34 @@ def compile_c(
 
 
 def compiler_environment() -> dict[str, str]:
-    """Environment of this process with the folder of the compiler's cache."""
+    """Environment of this process with the folders of the compiler's cache and of its headers."""
     cache = str(cache_directory())
-    return os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache}
+    folders = {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache, "ZIG_LIB_DIR": str(_compiler_headers())}
+    return os.environ | folders
+
+
+def _compiler_headers() -> Path:
+    """The compiler's headers and libraries in its cache, the same files for all installations of one version.
+
+    The cache notes inode and time of each. A compiler that finds others notes them again, and for that waits until no
+    other compiler runs that has read the note.
+    """
+    own = Path(compiler()).parent / "lib"
+    shared = cache_directory() / "lib" / version("ziglang")
+    if not shared.is_dir():
+        try:
+            with atomic_folder(shared) as temporary:
+                shutil.copytree(own, temporary, copy_function=_link_or_copy, dirs_exist_ok=True)
+        except FileError:  # as where there is no room
+            return own
+    return shared
+
+
+def _link_or_copy(source: str, target: str) -> None:
+    try:
+        os.link(source, target)
+    except OSError:  # another file system, or one without links
+        shutil.copy2(source, target)
 
 
 def compiler_command(

@@ -48,10 +48,10 @@ def test_the_folders_that_were_used_last_stay(tmp_path):
 
 def test_folders_in_use_stay_however_many_they_are(tmp_path):
     now = time.time()
-    for k, age in enumerate((30.0, 50.0, 70.0, 90.0)):
+    for k, age in enumerate((3e3, 5e3, 7e3, 9e3)):
         (tmp_path / str(k)).mkdir()
         os.utime(tmp_path / str(k), (now - age, now - age))
-    forget_oldest(tmp_path, 1, in_use=60.0)
+    forget_oldest(tmp_path, 1, in_use=6e3)
     assert sorted(place.name for place in tmp_path.iterdir()) == ["0", "1"]
 
 
@@ -109,3 +109,20 @@ def test_a_kernel_is_compiled_once_for_all_folders_with_the_same_sources(tmp_pat
     make()
     assert results[-1] == "library 1"
     assert len(compiled) == 4
+
+
+def test_all_installations_of_the_compiler_read_the_same_headers(tmp_path, monkeypatch):
+    """Files of another inode are noted again in the cache, for which a compiler waits until no other one runs."""
+    monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "cache")
+    headers = []
+    for name in ("a", "b"):
+        (tmp_path / name / "lib" / "include").mkdir(parents=True)
+        (tmp_path / name / "lib" / "include" / "float.h").write_text(name)
+        monkeypatch.setattr(build, "compiler", lambda name=name: str(tmp_path / name / "zig"))
+        headers.append(Path(build.compiler_environment()["ZIG_LIB_DIR"], "include", "float.h"))
+    assert headers[0].samefile(headers[1])
+    shutil.rmtree(tmp_path / "a")
+    assert headers[1].read_text() == "a"
+    (tmp_path / "full").write_text("")
+    monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "full")
+    assert build.compiler_environment()["ZIG_LIB_DIR"] == str(tmp_path / "b" / "lib")

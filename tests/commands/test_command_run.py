@@ -75,6 +75,16 @@ def test_streams_that_the_shell_has_closed_are_nothing(closed):
     assert done.returncode == 0
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
+def test_an_output_that_is_full_is_one_sentence():
+    code = "from ali3.command_run import run_command; raise SystemExit(run_command(lambda: print('x') or 0))"
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-c", code], cwd=Path(__file__).parents[2], stdout=full, stderr=subprocess.PIPE, text=True
+        )
+    assert (done.returncode, done.stderr) == (2, "error: There is no room for the output: no space left on device.\n")
+
+
 def test_a_current_folder_that_was_deleted_is_the_cause(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "gone").mkdir()
@@ -87,7 +97,7 @@ def test_a_current_folder_that_was_deleted_is_the_cause(tmp_path, capsys, monkey
     assert capsys.readouterr().err == "error: The current folder has been deleted; change to another one.\n"
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8", "ascii:surrogateescape"])  # the last for LANG=C
 def test_what_the_encoding_of_the_output_lacks_ends_no_command(encoding):
     code = "from ali3.command_run import run_command; run_command(lambda: print('a \\u2212\\udcff') or 0)"
     done = subprocess.run(
@@ -96,7 +106,7 @@ def test_what_the_encoding_of_the_output_lacks_ends_no_command(encoding):
         env={**os.environ, "PYTHONIOENCODING": encoding},
         capture_output=True,
     )
-    minus = "\u2212".encode(encoding, "backslashreplace")
+    minus = "\u2212".encode(encoding.partition(":")[0], "backslashreplace")
     assert (done.returncode, done.stderr, done.stdout.strip()) == (0, b"", b"a " + minus + b"\\udcff")
 
 

@@ -31,6 +31,7 @@ class Counter:
         if task == "kill":
             os.kill(os.getpid(), signal.SIGKILL)
         if task == "hang":
+            tell(0)
             time.sleep(1000.0)
         if task == "leave":
             os._exit(3)
@@ -153,14 +154,16 @@ def test_errors_of_the_user_come_back(worker):
 def test_processes_end_with_the_program_in_the_middle_of_a_task():
     text = "from ali3.isolated_processes import Isolated; from tests.commands.test_isolated_processes import Counter; "
     program = subprocess.Popen(
-        [sys.executable, "-c", f"{text}Isolated(Counter(), int).do('hang')"], cwd=Path(__file__).parents[2]
+        [sys.executable, "-c", f"{text}Isolated(Counter(), int).do('hang', lambda word: print(word, flush=True))"],
+        cwd=Path(__file__).parents[2],
+        stdout=subprocess.PIPE,
     )
-    end = time.monotonic() + 60.0
-    while not (children := psutil.Process(program.pid).children(recursive=True)) and time.monotonic() < end:
-        time.sleep(0.05)
-    time.sleep(0.5)
+    assert program.stdout is not None
+    assert program.stdout.readline() == b"0.0\n"  # the task has begun
+    children = psutil.Process(program.pid).children(recursive=True)
+    assert children
     program.kill()
-    program.wait()
+    program.communicate()
     assert psutil.wait_procs(children, timeout=30.0)[1] == []
 
 
@@ -183,7 +186,7 @@ def test_the_limit_is_a_time_without_a_message():
     worker: Isolated[float, int] = Isolated(talkative, int)
     try:
         heard: list[float] = []
-        assert worker.do(0.2, heard.append, limit=1.0) == 8
+        assert worker.do(0.4, heard.append, limit=3.0) == 8  # 3.2 s in all
         assert heard == list(range(8))
         assert worker.do(1000.0, heard.append, limit=0.2) == Lost("took more than 0.2 s", late=True)
         assert worker.do(0.5, heard.append, limit=2.0, in_all=True) == Lost("took more than 2 s", late=True)

@@ -4,16 +4,20 @@ import os
 import re
 import subprocess
 import sys
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from fmpy import platform
 from fmpy.util import read_csv
 from matplotlib import image
 
+from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu
 from hosts.run.command import main
+from tests.hosts.changed_fmu import changed_fmu
 from tests.in_process import run
 
 HERE = Path(__file__).parent
@@ -36,6 +40,20 @@ def turn(tmp_path: Path) -> Path:
 def colours(picture: Path) -> int:
     pixels = (255 * image.imread(picture)[..., :3]).astype(int)
     return len(np.unique(pixels.reshape(-1, 3), axis=0))
+
+
+def test_an_fmu_for_other_platforms_is_refused_with_their_names(fmus, tmp_path):
+    binary = f"binaries/{platform}/"
+    with zipfile.ZipFile(fmus["sledge"]) as archive:
+        libraries = {name: archive.read(name) for name in archive.namelist() if name.startswith(binary)}
+    other = {name.replace(platform, "amiga"): content for name, content in libraries.items()}
+    for added, present in ((other, "it has those for amiga"), ({}, "it has none")):
+        file = changed_fmu(fmus["sledge"], tmp_path / "Other.fmu", dict.fromkeys(libraries) | added)
+        with (
+            Fmu(file) as fmu,
+            pytest.raises(HostError, match=f"no library for {platform}; {present}. .*--fmu Other.fmu"),
+        ):
+            fmu.load()
 
 
 @pytest.mark.slow

@@ -67,7 +67,8 @@ def test_processes_of_an_fmu_end_with_it_and_are_reported(faults, tmp_path, temp
     done = run(main, faults, "--set", f"u={FORK}", "--out", tmp_path / "out")
     assert done.returncode == 0
     assert done.stderr == "note: 3 processes that an FMU had started were ended with it.\n"
-    assert not [p for p in psutil.process_iter(["cmdline"]) if (p.info["cmdline"] or [""])[0] == "odd_child"]
+    places = [(p.info["environ"] or {}).get("TMPDIR", "") for p in psutil.process_iter(["environ"])]
+    assert not [place for place in places if place.startswith(str(temporary))]
     assert not list(temporary.iterdir())
 
 

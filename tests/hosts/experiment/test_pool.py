@@ -65,13 +65,13 @@ def driven(task: Path, tell: Tell) -> int:
 def test_a_long_run_that_makes_progress_is_not_ended(scene_fmu: Callable[..., Path]) -> None:
     """A test of a slow FMU was ended, because it told its progress after each of its runs alone."""
     fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:tuned")
-    pool: Pool[Path, int] = Pool(driven, int, reads=[fmu], limit=1.5)
+    pool: Pool[Path, int] = Pool(driven, int, reads=[fmu], limit=3.0)
     with pool:
         assert pool.run(fmu) == 31
-    with Pool(driven, int, reads=[fmu], limit=1.5, in_all=True) as short:
+    with Pool(driven, int, reads=[fmu], limit=3.0, in_all=True) as short:
         lost = short.run(fmu)
     assert isinstance(lost, Lost)
-    assert lost.how.startswith("took more than 1.5 s")
+    assert lost.how.startswith("took more than 3 s")
 
 
 def threads(task: int, tell: Tell) -> int:

@@ -5,7 +5,7 @@ import struct
 import time
 
 HEADER = "<4I10d"
-PATIENCE = 60.0  # s, of a machine that does much else
+PATIENCE = 120.0  # s, of a machine that does much else
 
 
 def frames(page, count):

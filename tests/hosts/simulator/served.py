@@ -17,6 +17,7 @@ from hosts.simulator.input_arbiter import InputArbiter
 from hosts.simulator.server import Server
 from hosts.simulator.server_needs import Content
 from hosts.simulator.web import listening_socket
+from tests.hosts.simulator.pages import PATIENCE
 
 INPUTS = ("steering", "throttle", "brake", "hand_brake", "selector")
 WORLD = {"name": "yard", "roads": [], "scenery": []}
@@ -102,12 +103,12 @@ def serving(car: Any, access: AccessControl | None = None, address: str = "127.0
     running = threading.Thread(target=thread)
     running.start()
     try:
-        assert ready.wait(10)
+        assert ready.wait(PATIENCE)
         key = f"?token={access.token}"
         url = f"ws://127.0.0.1:{port}/drive{key}"
         yield SimpleNamespace(server=server, port=port, arbiter=arbiter, told=notices, key=key, url=url, error=error)
     finally:
         if not error:
             ends["loop"].call_soon_threadsafe(ends["stop"].set)
-        running.join(10)
+        running.join(PATIENCE)
     assert not running.is_alive()

@@ -12,6 +12,7 @@ import pytest
 import hosts.simulator.priority as room
 from hosts.simulator.clock import Clock, LinuxClock, SleepingClock, make_clock
 from hosts.simulator.priority import request_priority
+from tests.hosts.simulator.pages import PATIENCE
 
 _LINUX = pytest.mark.skipif(sys.platform != "linux", reason="clock_nanosleep")
 _CLOCKS = [pytest.param(LinuxClock, marks=_LINUX), SleepingClock, make_clock]
@@ -49,25 +50,23 @@ def test_time_that_others_ran_is_distinguished_from_sleep() -> None:
     os.sched_setaffinity(0, {min(mine)})
     beside = subprocess.Popen([sys.executable, "-c", "while True: pass"])
     try:
-        time.sleep(0.3)
         clock = LinuxClock()
-        begin, before = clock.now(), clock.spent()
-        while clock.now() < begin + 0.2:
-            pass
-        between, middle = clock.spent(), clock.now()  # what is spent lies between the times
-        clock.sleep_until(middle + 0.1)
-        end, after = clock.now(), clock.spent()
+        if (before := clock.spent()) is None:
+            pytest.skip("a kernel without CONFIG_SCHED_INFO")
+        begin, between = clock.now(), before
+        while min(between[0] - before[0], between[1] - before[1]) < 0.2 and clock.now() < begin + PATIENCE:
+            between = clock.spent() or before
+        middle = clock.now()
+        clock.sleep_until(middle + 0.5)
+        after = clock.spent() or before
     finally:
         os.sched_setaffinity(0, mine)
         beside.kill()
         beside.wait()
-    if before is None or between is None or after is None:
-        pytest.skip("a kernel without CONFIG_SCHED_INFO")
     ran, waited = between[0] - before[0], between[1] - before[1]
-    assert 0.01 < ran <= middle - begin
-    assert ran + waited <= 1.02 * (middle - begin)
-    assert waited > 0.02
-    assert after[0] - between[0] < 0.5 * (end - middle)
+    assert min(ran, waited) >= 0.2
+    assert abs(ran + waited - (middle - begin)) < 0.1  # the system counts at its ticks, of at most 10 ms
+    assert after[0] - between[0] < 0.1  # while it slept
 
 
 def test_the_obtained_priority_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -35,7 +35,7 @@ from hosts.simulator.command import main
 from hosts.simulator.headless_driving import headless_driver, run_headless
 from hosts.simulator.preparation import DriveRequest, prepare
 from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
-from tests.hosts.simulator.pages import until
+from tests.hosts.simulator.pages import PATIENCE, until
 
 TESTS = Path(__file__).parents[2]
 TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'
@@ -85,7 +85,7 @@ def test_a_run_without_a_page_that_is_ended_ends_with_its_report(fmus, tmp_path)
         assert any(line.startswith("Ready") for line in program.stdout)
         time.sleep(0.5)
         os.killpg(program.pid, signal.SIGTERM)  # as a terminal and `timeout` do
-        output, error = program.communicate(timeout=30)
+        output, error = program.communicate(timeout=PATIENCE)
     assert (program.returncode, error) == (0, "")
     assert "Ended by Ctrl-C or a signal." in output
     steps = int(re.search(r"(\d+) steps of 5 ms: ", output)[1])
@@ -108,7 +108,7 @@ def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
         output += os.read(ours, 1000)
     time.sleep(0.5)
     os.close(ours)
-    assert program.wait(timeout=60) == 0
+    assert program.wait(timeout=PATIENCE) == 0
     steps = json.loads((tmp_path / "report.json").read_text())["steps"]["steps"]
     assert sum(len(rows) for rows in read_recording(tmp_path / "drive").blocks()) > steps > 0
 
@@ -147,10 +147,11 @@ def test_a_driver_at_random_and_a_manoeuvre_move_the_inputs_by_the_clock_of_the_
         assert {name: value(car, name) for name in expected} == expected
         car.command("reset")
         until(lambda: car.latest().epoch == 1)
-        assert run_headless(car, headless_driver(car, manoeuvre, None), 0.8, lambda *_: None)
+        car.command("speed", 0.1)  # a busy machine holds the command up for a little of the car's time then
+        assert run_headless(car, headless_driver(car, manoeuvre, None), 0.3, lambda *_: None)
         moment = car.latest()
-        assert (moment.count, moment.running) == (20 + 160, False)
-        assert value(car, "throttle") == pytest.approx(0.8, abs=0.1)  # it is read some milliseconds before its step
+        assert (moment.count, moment.running) == (20 + 60, False)
+        assert value(car, "throttle") == pytest.approx(0.3, abs=0.15)  # it is read some milliseconds before its step
         assert value(car, "speed") > 0.0
         assert value(car, "steering") == 0.0
 

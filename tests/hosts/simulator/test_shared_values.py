@@ -1,7 +1,6 @@
 """Two processes share values without waiting for each other, and no reader sees half a record."""
 
 import multiprocessing
-import time
 
 import numpy as np
 import pytest
@@ -64,9 +63,7 @@ def test_an_overtaken_reader_keeps_its_record_after_a_few_tries() -> None:
     writer.finish()
     assert reader.read().tolist() == [1.0] * 4
     counters[0] = 5  # the writer is always two records ahead
-    begin = time.perf_counter()
     assert reader.read().tolist() == [1.0] * 4
-    assert time.perf_counter() - begin < 1.0
 
 
 def test_a_ring_without_room_refuses_and_loses_nothing_that_it_has() -> None:

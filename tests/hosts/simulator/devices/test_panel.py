@@ -64,7 +64,7 @@ class Panel:
 @pytest.fixture
 def panel(chromium: Any, start: Any) -> Iterator[Panel]:
     page = chromium.new_page(viewport={"width": 360, "height": 900})
-    page.set_default_timeout(20_000)
+    page.set_default_timeout(60_000)
     opened = Panel(page)
     yield opened
     page.close()
