@@ -41,7 +41,7 @@ export function plainRoad(road, run, up) {
   const ways = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => run.extentAlong(axis)); // prettier-ignore
   const reach = 0.5 * Math.hypot(...ways.map(([low, high]) => high - low)) + 2 * run.scene.extent;
   const asphalt = materialOf(slickName(gripOf(road)));
-  const roads = makeRoads({ roads: [road] }, { up, asphalt, road: asphalt, grass: materialOf("grass"), reach });
+  const roads = makeRoads({ roads: [road] }, { up, asphalt, road: asphalt, grass: materialOf("grass"), extent: run.scene.extent, reach });
   roads.follow([0, 0, 0], ways.map(([low, high]) => 0.5 * (low + high)));
   return /** @type {THREE.Mesh} */ (roads.group.children[0]);
 }
