@@ -186,7 +186,8 @@ export class Cockpit extends Shell {
     this.has = view.has;
     this.watch(this._picture);
     const rank = (name) => (name.startsWith("wheel") ? FIRST_CAMERAS.length + 1 : FIRST_CAMERAS.includes(name) ? FIRST_CAMERAS.indexOf(name) : FIRST_CAMERAS.length);
-    this.cameras = [...[...view.cameraNames].sort((a, b) => rank(a) - rank(b)), "map"];
+    const cameras = Object.keys(scene.frames ?? {}).length > 0 ? view.cameraNames : []; // else the picture would stand still
+    this.cameras = [...[...cameras].sort((a, b) => rank(a) - rank(b)), "map"];
     const { hello } = this;
     this.effects = new Effects(view, { columns: hello.columns, constants: hello.constants ?? {} }, (sentence) => this.tell(sentence));
   }
