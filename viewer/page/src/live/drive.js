@@ -16,27 +16,19 @@ const PLOTTED_NAMES = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
 const PANEL_MS = 100;
 const RESTART_MS = 250;
 
-/**
- * Fills an element with the page of an FMU.
- * @param {HTMLElement} container
- * @param {Data} given - `{scene, description, wasm, resources, title}` of one FMU, or `fmus`: several of them side by
- *   side; `beside`: recordings to be shown beside (viewer/page_data.py), `ends`: a sentence for the end of each;
- *   `script`: inputs over time, compressed JSON `{t, columns}`; `options`.
- * @returns {Drive}
- */
-export function drive(container, given) {
-  return new Drive(container, given);
-}
-
 /** The page of an FMU. */
-class Drive extends Shell {
-  /** @param {HTMLElement} container @param {Data} given - See `drive`. */
-  constructor(container, { options = {}, fmus, beside, ends = [], script, ...one }) {
+export class Drive extends Shell {
+  /**
+   * @param {HTMLElement} container
+   * @param {Data} given - `fmus`: `{scene, description, wasm, resources, title}` of each, side by side; `beside`:
+   *   recordings to be shown beside (viewer/page_data.py), `ends`: a sentence for the end of each; `script`: inputs
+   *   over time, compressed JSON `{t, columns}`; `options`.
+   */
+  constructor(container, { options = {}, fmus, beside, ends = [], script }) {
     super(container, options);
     /** @type {Data} */
     this.options = options;
     this.quality = options.view?.quality ?? "auto";
-    const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
     const missing = missingParts();
     if (missing) {
       instead(this.viewBox, "problem", missing);
@@ -45,7 +37,7 @@ class Drive extends Shell {
       this.ready.catch(() => {});
       return;
     }
-    this.ready = this._open(parts, { beside, ends, script });
+    this.ready = this._open(fmus, { beside, ends, script });
     this.ready.catch((error) => this._wrong(error.message));
   }
 

@@ -12,6 +12,8 @@ export class RealTimeClock {
     this.speed = 1;
     this.running = false;
     this.slow = 0;
+    /** Real-time factor over the last second; null at the start. @type {number | null} */
+    this.factor = null;
     this._factors = new Factor();
   }
 
@@ -33,7 +35,7 @@ export class RealTimeClock {
   /** Stops the clock. */
   stop() {
     this.running = false;
-    this._factor = null;
+    this.factor = null;
     this.slow = 0;
   }
 
@@ -61,13 +63,8 @@ export class RealTimeClock {
     this._mark(now, k);
   }
 
-  /** Real-time factor over the last second; null at the start. */
-  factor() {
-    return this._factor ?? null;
-  }
-
   _mark(now, k) {
-    this._factor = this._factors.add({ running: true, speed: this.speed, time: k * this.step, wall: now });
+    this.factor = this._factors.add({ running: true, speed: this.speed, time: k * this.step, wall: now });
   }
 
   _anchor(now, k) {

@@ -155,7 +155,7 @@ export class Runner {
     this._rows = [];
     this._posted = clock();
     const { k, oldest } = this.engine;
-    const pace = { at: this._posted, factor: this.pacer.factor(), slow: this.pacer.slow, cost: this._cost };
+    const pace = { at: this._posted, factor: this.pacer.factor, slow: this.pacer.slow, cost: this._cost };
     this._post({ is, k, oldest, count, rows, pace }, [rows.buffer]);
   }
 }

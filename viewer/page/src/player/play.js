@@ -15,23 +15,15 @@ import { Traces } from "./traces.js";
 const MAX_INTERVAL = 0.5; // s of the run at real time: longest interval within a trail
 const SCANNED_TIMES = 200; // number of times at which ranges are determined
 
-/**
- * Makes the page from its data.
- * @param {HTMLElement} container an element with a size
- * @param {Data} page JSON as viewer/page_file.py writes it; the first run is drawn solid, others as ghosts
- * @returns {Player}
- */
-export const playPage = (container, page) => new Player(container, page);
-
-/** A page of recordings; what programs use is in docs/animation.md. */
-class Player extends Shell {
+/** A page of recordings, the first drawn solid, others as ghosts; what programs use is in docs/animation.md. */
+export class Player extends Shell {
   /** @type {SceneView[]} */
   _drawn = [];
   _wrong = "";
   /** @type {{traces: Traces, sampler: import("../sources/sampler.js").Sampler}[]} */
   drawnRuns = [];
 
-  /** @param {HTMLElement} container @param {Data} page */
+  /** @param {HTMLElement} container an element with a size @param {Data} page JSON as viewer/page_data.py writes it */
   constructor(container, page) {
     super(container, page.options);
     /** Resolved when the first picture or an error is shown. */

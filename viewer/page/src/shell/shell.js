@@ -97,7 +97,7 @@ export class Shell {
     this.acts = {
       ...source.acts,
       camera,
-      ...cameraActs({ names: () => this.cameras, all: this.cameras, now: () => this.cameraName, choose: camera }),
+      ...cameraActs(this.cameras, () => this.cameraName, camera),
       ...Object.fromEntries(switches.map((effect) => [effect, () => this.setLook({ [effect]: !this.look[effect] })])),
       panels: () => this.side(!this.sideOpen),
       settings: () => this.settings.toggle(),

@@ -8,20 +8,10 @@ import style from "./style.css";
 /** The clock of the page, s. */
 const pageTime = () => performance.now() / 1000;
 
-/**
- * Fill an element with the simulator.
- * @param {HTMLElement} container
- * @param {{url?: string, token?: string}} [options] - `url`: of the WebSocket, by default `/drive` of this page's host.
- * @returns {Simulator}
- */
-export function simulate(container, options = {}) {
-  return new Simulator(container, options);
-}
-
 /** A page of the simulator; `cockpit` is null until the program has described its car. */
-class Simulator {
-  /** @param {HTMLElement} container @param {{url?: string, token?: string}} options */
-  constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" }) {
+export class Simulator {
+  /** @param {HTMLElement} container @param {{url?: string, token?: string}} [options] - `url`: of the WebSocket, by default `/drive` of this page's host. */
+  constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" } = {}) {
     this.container = container;
     styled(style);
     instead(container, "waiting", "Waiting for the program that drives the car …");
