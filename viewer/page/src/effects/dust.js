@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { discard } from "../looks/discard.js";
 import { subtract } from "../scene/math.js";
-import { Cloud, KINDS } from "./cloud.js";
+import { AGE, Cloud, KINDS, ROW } from "./cloud.js";
 import { Wheels } from "./wheels.js";
 
 /** Largest number of particles in the air. */
@@ -88,11 +88,11 @@ export class Dust {
     const { position, tint, size } = this.geometry.attributes;
     let used = 0;
     for (let k = 0; k < this.most; k++) {
-      const age = this.cloud.rows[7 * k + 6];
+      const age = this.cloud.rows[ROW * k + AGE];
       const { life, sizes, colour, seen } = KINDS[this.cloud.kinds[k]];
       if (!(age < life)) continue;
       const share = age / life;
-      const at = subtract(this.cloud.rows.subarray(7 * k, 7 * k + 3), view.origin);
+      const at = subtract(this.cloud.rows.subarray(ROW * k, ROW * k + 3), view.origin);
       position.array.set(at, 3 * used);
       tint.array.set([...colour, seen * (1 - share) * Math.min(1, 12 * share + 0.3)], 4 * used);
       size.array[used] = sizes[0] + share * (sizes[1] - sizes[0]);
