@@ -2,7 +2,7 @@
 import { el, select, short } from "../common/dom.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "./ranges.js";
 
-const POSITIONS = 1000;
+const POSITIONS = 1000; // of a slider
 
 /**
  * Makes the control of a variable.

@@ -7,7 +7,10 @@ import { RealTimeClock } from "./real_time_clock.js";
 const MAX_SLICE = 0.012;
 /** Least interval of sending rows to the page, s of the clock. */
 const POST_INTERVAL = 0.008;
+/** Longest wait for the next step, ms. */
 const WAKE_MS = 4;
+/** Number of steps over which the cost of a step is averaged, and between two looks at messages of the FMUs. */
+const [AVERAGED_STEPS, STEPS_PER_LOOK] = [200, 50];
 
 /** Time of a common clock of page and worker, s. */
 export function clock() {
@@ -118,7 +121,7 @@ export class Runner {
       if (isRunning) done += 1;
       now = clock();
     }
-    if (done) this._cost += ((now - begin) / done - this._cost) * Math.min(1, done / 200);
+    if (done) this._cost += ((now - begin) / done - this._cost) * Math.min(1, done / AVERAGED_STEPS);
     if (!isRunning) return;
     this.pacer.reached(now, this.engine.k);
     if (now - this._posted >= POST_INTERVAL) this._send("rows");
@@ -135,7 +138,7 @@ export class Runner {
       this._send("rows");
       this._post({ is: "refused", which, text, k: engine.alive ? engine.k - 1 : engine.k, alive: engine.alive });
     }
-    if (engine.k % 50 === 0 || refused.length) this._postMessages(refused.length > 0);
+    if (engine.k % STEPS_PER_LOOK === 0 || refused.length) this._postMessages(refused.length > 0);
     return engine.alive;
   }
 

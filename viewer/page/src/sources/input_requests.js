@@ -2,6 +2,7 @@
 
 /** Inputs that keep their value when released: after a restart they are not requested again. */
 const LASTING_INPUTS = ["selector"];
+/** A value to a thousandth, so that noise of a device is no new request. @param {number} value */
 const rounded = (value) => Math.round(1e3 * value) / 1e3 || 0;
 
 /** The requests of the sources of a page. */
