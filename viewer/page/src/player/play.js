@@ -9,6 +9,7 @@ import { Shell } from "../shell/shell.js";
 import { decodePage } from "../sources/decode.js";
 import { extremesOf } from "../sources/extremes.js";
 import { Recordings } from "../sources/recordings.js";
+import { spread } from "../sources/sampler.js";
 import { fromHash, toHash } from "./link.js";
 import { Traces } from "./traces.js";
 
@@ -192,9 +193,8 @@ export class Player extends Shell {
   /** Samples the run for constant floor height and scales of arrows and colours. */
   _scan() {
     const { t, columns } = this.runs[this.solid];
-    const times = Math.min(t.length, SCANNED_TIMES);
-    const sample = (i) => (times > 1 ? Math.round((i * (t.length - 1)) / (times - 1)) : 0);
-    this.view.scan((i) => (name) => columns[name]?.data[sample(i)], times);
+    const samples = spread(t.length, SCANNED_TIMES);
+    this.view.scan((i) => (name) => columns[name]?.data[samples[i]], samples.length);
     this._lower(this.runs[this.solid], this.view);
     for (const { run, drawn } of this.ghosts) this._lower(run, drawn);
   }

@@ -26,6 +26,12 @@ export function linear(data, k, share) {
   return share === 0 ? data[k] : data[k] + share * (data[k + 1] - data[k]);
 }
 
+/** Indices of at most `most` of `count` samples, evenly distributed, with the first and the last. @param {number} count @param {number} most */
+export function spread(count, most) {
+  const size = Math.min(count, most);
+  return Array.from({ length: size }, (_, k) => (size > 1 ? Math.round((k * (count - 1)) / (size - 1)) : 0));
+}
+
 /** A run at an instant; `lookup` gives its numbers by name. */
 export class Sampler {
   /** @type {(name: string) => number | undefined} */
