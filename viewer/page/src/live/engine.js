@@ -56,10 +56,7 @@ export function scriptAt({ t, columns }, time, whole = new Set()) {
 
 /** The run of one or more FMUs. */
 export class Engine {
-  /**
-   * @param {Data[]} fmus - Of `loadFmu`.
-   * @param {number} step - Communication step, s.
-   */
+  /** @param {Data[]} fmus - Of `loadFmu`. @param {number} step - Communication step, s. */
   constructor(fmus, step) {
     this.fmus = fmus;
     this.step = step;
@@ -151,10 +148,7 @@ export class Engine {
     this.hand.want(index, value, rate);
   }
 
-  /**
-   * Goes back to an earlier step, with bitwise identical states.
-   * @param {number} k - Not before `oldest`.
-   */
+  /** Goes back to an earlier step, with bitwise identical states. @param {number} k - Not before `oldest`. */
   back(k) {
     const target = Math.max(this.oldest, Math.min(k, this.k));
     while (this._states.length > 1 && this._states[this._states.length - 1][0] > target) {

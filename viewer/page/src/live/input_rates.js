@@ -24,11 +24,7 @@ export class LimitedInputs {
     this.values.set(values);
   }
 
-  /**
-   * Advances by a step.
-   * @param {number} step - s.
-   * @returns {Float64Array} The values for this step.
-   */
+  /** Advances by a step. @param {number} step - s. @returns {Float64Array} The values for this step. */
   move(step) {
     for (let i = 0; i < this.values.length; i++) {
       const most = this._rates[i] * step;

@@ -82,20 +82,12 @@ export class Link {
     if (this._send(text)) this._sent.set(source, { text, at: now });
   }
 
-  /**
-   * Send a command to the car.
-   * @param {string} name
-   * @param {number} [value]
-   */
+  /** Send a command to the car. @param {string} name @param {number} [value] */
   command(name, value = 0) {
     this.send({ type: "command", name, value });
   }
 
-  /**
-   * Send a message.
-   * @param {Data} message
-   * @returns {boolean} False while the socket is not open.
-   */
+  /** Send a message. @param {Data} message @returns {boolean} False while the socket is not open. */
   send(message) {
     return this._send(JSON.stringify(message));
   }
