@@ -396,7 +396,7 @@ def test_balls_mirror_lamps_in_a_coarse_picture_as_in_a_fine_one(drawn):
     ]
     pictures = []
     for quality in ("medium", "high"):
-        drawn.show(scene(shapes=balls, planar=True, extent=3.0), quality=quality, antialias=False)
+        drawn.show(scene(shapes=balls, planar=True, extent=3.0), quality=quality)
         pictures.append(drawn.picture())
     off = np.abs(np.subtract(*pictures))
     assert off.mean() < 0.1

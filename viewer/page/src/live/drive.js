@@ -28,7 +28,7 @@ export class Drive extends Shell {
     super(container, options);
     /** @type {Data} */
     this.options = options;
-    this.quality = options.view?.quality ?? "auto";
+    this.quality = "auto";
     const missing = missingParts();
     if (missing) {
       instead(this.viewBox, "problem", missing);
@@ -147,7 +147,7 @@ export class Drive extends Shell {
       message: (which, text) => this.tell(text),
       error: (text) => this._wrong(text),
     });
-    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, { look: this.look, notices: this.notices, box: this.viewBox });
+    this.stage = new Stage([...pictures, ...recordings], { look: this.look, notices: this.notices, box: this.viewBox });
     this._layOut(fmus[0]);
     this.stage.open();
     this.problem = this.stage.problem;
@@ -159,7 +159,7 @@ export class Drive extends Shell {
     const padPanel = this.driven(this.hands, this.inputs.map((v) => v.name));
     if (this.inputs.length) this.parameters.element.after(padPanel);
     this._frame();
-    if (this.options.run !== false) await this.run(this.options.speed ?? 1);
+    if (this.options.run !== false) await this.run();
   }
 
   _layOut(first) {
@@ -204,8 +204,7 @@ export class Drive extends Shell {
     };
     const driven = this.isCar ? (event) => this.hands.key(event, this.driverSpeed) : undefined;
     this.controls(session, more, { places: Object.keys(this.options.places ?? {}), steps, step: session.step }, driven);
-    const camera = this.options.camera ?? (this.isCar ? "chase" : "");
-    if (this.cameras.includes(camera)) this.camera(camera);
+    if (this.isCar && this.cameras.includes("chase")) this.camera("chase");
     const requested = this.options.plots ?? PLOTTED_NAMES.filter((name) => session.columns.has(name));
     const names = [...session.columns.keys()];
     const first = requested.length ? requested : names.slice(this.inputs.length, this.inputs.length + 3);

@@ -125,11 +125,10 @@ export class Cockpit extends Shell {
     this._stalled = stalled;
     const [lookup] = this.source.sample();
     const car = this.instruments.car(lookup);
-    const unchanged = before === this._before && after === this._after && share === this._share;
-    this._before = before;
-    this._after = after;
-    this._share = share;
-    if (!unchanged || this.dirty) this._drawPicture(lookup, { time, car, epoch: after.epoch });
+    const drawn = [before, after, share];
+    const changed = drawn.some((part, k) => part !== this._drawn?.[k]);
+    this._drawn = drawn;
+    if (changed || this.dirty) this._drawPicture(lookup, { time, car, epoch: after.epoch });
     this.dirty = false;
     this._display(lookup, { frame: this.source.frames.newest, time, stalled, car, now });
   }
