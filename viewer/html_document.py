@@ -36,8 +36,8 @@ def html_document(title: str, data: object, page_class: str, connect: str = "") 
     """
     # The page shows the error if it cannot run.
     start = (
-        "(function(){var view=document.getElementById('view');"
-        "try{window.player=new ALi3Viewer." + page_class + "(view,JSON.parse(document.getElementById('data').textContent));}"
+        "(function(){var view=document.getElementById('view'),data=document.getElementById('data').textContent;"
+        "try{window.player=new ALi3Viewer." + page_class + "(view,JSON.parse(data));}"
         "catch(error){view.textContent='This page cannot be shown: '+(error&&error.message||error);}})();"
     )
     body = (
