@@ -24,10 +24,7 @@ export class TyreMarks {
   _base = null;
   _drawn = "";
 
-  /**
-   * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{columns?: string[]}} [options] see Wheels
-   */
+  /** @param {import("../scene/scene_view.js").SceneView} view @param {{columns?: string[]}} [options] see Wheels */
   constructor(view, options = {}) {
     this.view = view;
     this.wheels = new Wheels(view.scene, options);

@@ -20,7 +20,7 @@ const RESTART_MS = 250;
 export class Drive extends Shell {
   /**
    * @param {HTMLElement} container
-   * @param {Data} given - `fmus`: `{scene, description, wasm, resources, title}` of each, side by side; `beside`:
+   * @param {Data} given `fmus`: `{scene, description, wasm, resources, title}` of each, side by side; `beside`:
    *   recordings to be shown beside (viewer/page_data.py), `ends`: a sentence for the end of each; `script`: inputs
    *   over time, compressed JSON `{t, columns}`; `options`.
    */
@@ -66,7 +66,7 @@ export class Drive extends Shell {
     this.draw();
   }
 
-  /** Starts or continues the run. @param {number} [speed] - Simulated seconds per second of the clock. */
+  /** Starts or continues the run. @param {number} [speed] simulated seconds per second of the clock */
   run(speed) {
     return this.session.run(speed);
   }
@@ -86,7 +86,7 @@ export class Drive extends Shell {
     return this.session.again();
   }
 
-  /** Goes back; a running run continues from there. @param {number} seconds - Of the run. */
+  /** Goes back; a running run continues from there. @param {number} seconds of the run */
   back(seconds = 2) {
     return this.session.rewind(seconds);
   }

@@ -6,7 +6,7 @@ const MAX_LAG = 0.25;
 
 /** Computes the steps that are due by a clock. */
 export class RealTimeClock {
-  /** @param {number} step - Communication step, s. */
+  /** @param {number} step communication step, s */
   constructor(step) {
     this.step = step;
     this.speed = 1;
@@ -19,9 +19,9 @@ export class RealTimeClock {
 
   /**
    * Starts the clock.
-   * @param {number} now - Clock, s.
-   * @param {number} k - Number of completed steps.
-   * @param {number} speed - Simulated seconds per second of the clock.
+   * @param {number} now clock, s
+   * @param {number} k number of completed steps
+   * @param {number} speed simulated seconds per second of the clock
    */
   start(now, k, speed) {
     this.running = true;
@@ -52,7 +52,7 @@ export class RealTimeClock {
   /**
    * Reports completed steps. If they are too late, deadlines start again from here, which `slow` counts.
    * @param {number} now
-   * @param {number} k - Number of completed steps.
+   * @param {number} k number of completed steps
    */
   reached(now, k) {
     if (!this.running) return;

@@ -13,9 +13,9 @@ const LAST_SURVEY = 20;
 
 export class Stage {
   /**
-   * @param {Data[]} items - `{title, scene, sample, variables}` of an FMU, or `{title, scene, sample, recording}`; `sample`
+   * @param {Data[]} items `{title, scene, sample, variables}` of an FMU, or `{title, scene, sample, recording}`; `sample`
    *   returns the values at a time.
-   * @param {{look: Data, notices: import("../common/notices.js").Notices, box: HTMLElement}} page - Current look;
+   * @param {{look: Data, notices: import("../common/notices.js").Notices, box: HTMLElement}} page current look;
    *   notices; parent element of the pictures.
    */
   constructor(items, { look, notices, box }) {

@@ -11,7 +11,7 @@ export class Factor {
   }
 
   /**
-   * Add a pair of times.
+   * Adds a pair of times.
    * @param {{epoch?: number, running: boolean, speed: number, time: number, wall: number}} mark simulated `time` and time
    *   `wall` of the clock, s; the comparison starts anew with another epoch or speed
    * @returns {number | null} null during the first half of the span, and while the run is paused
