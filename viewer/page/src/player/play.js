@@ -209,10 +209,10 @@ export class Player extends Shell {
   _controls() {
     this._addNames();
     for (const note of [...this.notes, ...this._spans(), ...(this.wrong ? [this.wrong] : [])]) this.notices.note(note);
-    const { scene, columns = {} } = this.runs[this.solid] ?? {};
+    const { scene, columns = {}, constants = {} } = this.runs[this.solid] ?? {};
     const names = new Set(Object.keys(columns));
     if (!this.problem && Instruments.of(names)) {
-      this.instruments = new Instruments(names, { scene });
+      this.instruments = new Instruments(names, { scene, fixed: (name) => constants[name] });
       this.viewBox.append(this.instruments.layer());
     }
     const plotsOnly = this.solid < 0;
