@@ -15,8 +15,8 @@ _HEADING = "h1{position:absolute;width:1px;height:1px;margin:-1px;overflow:hidde
 """Style that shows the heading only to screen readers."""
 
 
-def html_document(title: str, data: object, function: str, connect: str = "") -> str:
-    """An HTML page with the script of the viewer, which calls a function with data.
+def html_document(title: str, data: object, page_class: str, connect: str = "") -> str:
+    """An HTML page with the script of the viewer, which makes an object of a class from data.
 
     Parameters
     ----------
@@ -24,9 +24,8 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
         Title of the page; any text.
     data : object
         Content for `json.dumps`, with any texts.
-    function : str
-        Name in the script; it is called with the element to fill and the data, and its result becomes
-        ``window.player``.
+    page_class : str
+        Class in the script, made from the element to fill and the data; the object becomes ``window.player``.
     connect : str
         Addresses of the content security policy to which the page may connect; by default none.
 
@@ -37,8 +36,8 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
     """
     # The page shows the error if it cannot run.
     start = (
-        "(function(){var view=document.getElementById('view');"
-        "try{window.player=" + function + "(view,JSON.parse(document.getElementById('data').textContent));}"
+        "(function(){var view=document.getElementById('view'),data=document.getElementById('data').textContent;"
+        "try{window.player=new ALi3Viewer." + page_class + "(view,JSON.parse(data));}"
         "catch(error){view.textContent='This page cannot be shown: '+(error&&error.message||error);}})();"
     )
     body = (

@@ -55,6 +55,7 @@ def _run(recording: Recording, scene: int | None) -> dict[str, Any]:
         "order": list(recording.columns),
         "notes": recording.notes,
         "missing": recording.missing,
+        "constants": recording.constants,
     }
 
 

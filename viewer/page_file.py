@@ -73,7 +73,7 @@ def page_html(
     page_title = (
         title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in recording_list))
     )
-    return html_document(page_title, data, "ALi3Viewer.playPage")
+    return html_document(page_title, data, "Player")
 
 
 def thinned(recordings: Recording | Sequence[Recording], most: int = MAX_TIMES) -> list[Recording]:

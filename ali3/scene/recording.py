@@ -47,6 +47,8 @@ class Recording:
         ``name`` and ``why`` of what is not drawn.
     notes : list of str
         Sentences on what the reader of the page should know: gaps, thinning.
+    constants : dict
+        Numbers that stayed the same, by name, such as the friction of tyres; who knows them puts them in.
 
     Raises
     ------
@@ -75,6 +77,7 @@ class Recording:
         self.scene: dict[str, Any] | None = None
         self.missing: list[dict[str, str]] = []
         self.notes: list[str] = []
+        self.constants: dict[str, float] = {}
         if scene is None:
             self._note_gaps(self.columns)
         else:
@@ -107,7 +110,7 @@ class Recording:
         indices = chosen_times(self.t, int(most), self.epoch)
         shorter = object.__new__(Recording)
         shorter.name, shorter.scene, shorter.units, shorter.missing = self.name, self.scene, self.units, self.missing
-        shorter.t, shorter.epoch = self.t[indices], self.epoch[indices]
+        shorter.t, shorter.epoch, shorter.constants = self.t[indices], self.epoch[indices], self.constants
         shorter.columns = {name: values[indices] for name, values in self.columns.items()}
         span = float(self.t[-1] - self.t[0])
         note = f"{len(indices)} of {count} times are shown, one every {span / (len(indices) - 1):.2g} s."

@@ -133,9 +133,9 @@ def _serve(name: str, folder: Path) -> Iterator[tuple[str, str]]:
     data = folder / f"{name}.json"  # reused: runs take longer than pictures
     if not data.is_file():
         data.write_text(json.dumps(_data(entry)), encoding="utf-8")
-    function = "ALi3Viewer.drive" if entry.runs == (LIVE,) else "ALi3Viewer.playPage"
+    page_class = "Drive" if entry.runs == (LIVE,) else "Player"
     file = folder / f"{name}.html"
-    yield file.resolve().as_uri(), html_document(name, json.loads(data.read_text(encoding="utf-8")), function)
+    yield file.resolve().as_uri(), html_document(name, json.loads(data.read_text(encoding="utf-8")), page_class)
 
 
 def _data(entry: Page) -> dict[str, Any]:

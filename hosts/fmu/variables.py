@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -153,6 +154,12 @@ class Variables:
     def parameters(self) -> list[Variable]:
         """Parameters in the order of the FMU."""
         return [v for v in self._variables.values() if v.causality == "parameter"]
+
+    def constants(self, settings: Mapping[str, Value]) -> dict[str, float]:
+        """Finite numbers of constants and parameters. `settings`: values that were set, in place of start values."""
+        fixed = [v for v in self._variables.values() if v.variability == "constant" or v.causality == "parameter"]
+        values = {v.name: settings.get(v.name, v.start) for v in fixed}
+        return {name: float(value) for name, value in values.items() if value is not None and is_finite(value)}
 
     def settable(self, name: str, source: str) -> Variable:
         """A variable that may be set before the start. `source`: source of the name, for messages.

@@ -10,6 +10,7 @@ from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
 from hosts.fmu.scene_file import scene_from
+from hosts.fmu.variables import Variables
 from hosts.recordings.recorded_drive import read_recording
 
 _MOST_VALUES = 8_000_000  # 64 MB
@@ -52,14 +53,19 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     if geometry is None and not is_fmu:
         raise HostError(f"{folder} names the FMU {source}, which is not there any more; name it by --geometry FMU.")
     scene = scene_from(source, drive.meta["start"], drive.meta.get("world"))
-    if is_fmu and described(source).guid != drive.meta["guid"]:
-        notes.append(other_build(source, name))
+    constants: dict[str, float] = {}
+    if is_fmu:
+        description = described(source)
+        constants = Variables(description).constants(drive.meta["start"])
+        if description.guid != drive.meta["guid"]:
+            notes.append(other_build(source, name))
     if scene is None:
         notes.append(f"{source} does not say what there is to draw; signals can be plotted.")
     # The time of the driver increases also at resets and rewinds.
     time, whole = drive.step * np.asarray(rows.steps, dtype=np.float64), set(drive.meta.get("whole", ()))
     columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}
     recording = Recording(scene, time, columns, drive.meta["units"], name, rows.epoch)
+    recording.constants = constants
     kinds = [event["kind"] for event in drive.events]
     verbs = {"reset": "reset", "rewind": "rewound", "upright": "set upright"}
     counts = {message: kinds.count(kind) for kind, message in verbs.items() if kind in kinds}

@@ -216,11 +216,11 @@ def _drive_with_pages(options: argparse.Namespace, begin: float) -> int:
     from hosts.simulator.run_report import RunReport
     from hosts.simulator.server_needs import Content
     from hosts.simulator.web import listening_socket
-    from viewer.simulator_page import simulator_html
+    from viewer.html_document import html_document
 
     report = RunReport(begin)
     with listening_socket(options.listen, options.port) as listening, ThreadPoolExecutor(1) as pool:
-        page = pool.submit(simulator_html, _TITLE)  # in a clone the script may have to be built
+        page = pool.submit(html_document, _TITLE, {}, "Simulator", "'self'")  # the script may have to be built
         prepared = prepare(_drive_request(options), report.tell)
         report.prepared(prepared, options.step)
         with _start_car(options, prepared) as started:

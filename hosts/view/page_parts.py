@@ -92,7 +92,7 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
         names = archive.names
         if RESOURCE not in names:
             raise HostError(
-                f"{path} has no drawing of itself ({RESOURCE}): it was built by an older version; build it again with "
+                f"{path} has no drawing of itself ({RESOURCE}), which FMUs that ali3 builds have; build it again with "
                 f"{build_command(path)}"
             )
         binaries = [n for n in names if n.startswith(f"binaries/{PLATFORM}/") and n.endswith(".wasm")]

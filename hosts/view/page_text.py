@@ -41,7 +41,7 @@ def page_text(
     if recordings:
         data["beside"] = page_data([recording.thinned() for recording in recordings], {})
         data["ends"] = list(ends)
-    return html_document(title, data, "ALi3Viewer.drive")
+    return html_document(title, data, "Drive")
 
 
 def script_of(manoeuvre: Manoeuvre) -> dict[str, Any]:

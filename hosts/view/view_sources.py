@@ -1,6 +1,6 @@
 """Recordings for the view: from results of the hosts, tables of `mbs` runs, and FMUs, which are run first."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ from ali3.processes import command_name
 from ali3.reading import is_file, is_file_or_folder, is_folder, missing_file_text
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.common.options import FmuOptions
 from hosts.driving.course import TRACKS, course_of
 from hosts.driving.course_scenery import with_course, with_marks
@@ -23,6 +24,7 @@ from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu, described
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.scene_file import scene_from
+from hosts.fmu.variables import Variables
 from hosts.recordings.format import is_recording
 from hosts.recordings.load_manoeuvre import manoeuvre_of
 from hosts.recordings.recorded_view import other_build, recorded_view
@@ -129,12 +131,13 @@ def _read_result(path: Path, name: str, geometry: Path | None) -> tuple[Recordin
     notes: list[str] = []
     source: Path | None = None
     scene: dict[str, Any] | None = None
+    constants: dict[str, float] = {}
     settings = {entry["name"]: entry["new"] for entry in record["set"]} if record is not None else {}
     if record is not None:
         source = geometry or _fmu_of(record, record_file)
         scene = scene_from(source, settings, record.get("world"))
         if is_archive(source):
-            declared, same = _units(source, str(record.get("token", "")))
+            declared, constants, same = _declared(source, str(record.get("token", "")), settings)
             units = declared | units
             if not same:
                 notes.append(other_build(source, name))
@@ -157,6 +160,7 @@ def _read_result(path: Path, name: str, geometry: Path | None) -> tuple[Recordin
     if source is not None and scene is None:
         notes.append(_without_scene(source))
     recording = Recording(scene, table.t, table.columns, units, name)
+    recording.constants = constants
     if scene is not None and recording.scene is not None and scene["shapes"] and not recording.scene["shapes"]:
         why = recording.missing[-1]["why"].rstrip(".") if recording.missing else "no shape has a pose"
         notes.append(f"{table_file} contains no poses that could be drawn ({why}); its signals can be plotted.")
@@ -234,11 +238,12 @@ def _fmu_of(record: dict[str, Any], file: Path) -> Path:
     return result
 
 
-def _units(fmu: Path, token: str) -> tuple[dict[str, str], bool]:
-    """Units of the variables of an FMU, and whether its token is that of the record."""
+def _declared(fmu: Path, token: str, settings: Mapping[str, Value]) -> tuple[dict[str, str], dict[str, float], bool]:
+    """Units of the variables of an FMU, its constants and parameters, and whether its token is that of the record."""
     description = described(fmu)
     units = {v.name: v.unit or "" for v in description.modelVariables}
-    return units, not token or str(description.guid or description.instantiationToken) == token
+    is_same = not token or str(description.guid or description.instantiationToken) == token
+    return units, Variables(description).constants(settings), is_same
 
 
 def _without_scene(path: Path) -> str:
@@ -274,4 +279,6 @@ def _run_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Record
         notes.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
     columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
     title = name if manoeuvre_name is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
-    return Recording(scene, result.time, columns, result.units, settings.title(title)), notes, result.is_good
+    recording = Recording(scene, result.time, columns, result.units, settings.title(title))
+    recording.constants = fmu.table.constants(settings.start)
+    return recording, notes, result.is_good

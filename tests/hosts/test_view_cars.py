@@ -28,12 +28,14 @@ def driven(fmu: Path, folder: Path, *more: str) -> Path:
 
 @pytest.mark.slow
 def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(prototype_fmu: Path, tmp_path: Path) -> None:
-    result = driven(prototype_fmu, tmp_path, "--stop-time", "5")
+    result = driven(prototype_fmu, tmp_path, "--stop-time", "5", "--set", "front.tyre.grip=0.99")
     page = tmp_path / f"{result.stem}.html"
     assert view([str(result), "--no-open", "--out", str(tmp_path)]) == 0
     (drawn,) = shown(page)
     assert drawn["missing"] == []
     assert drawn["notes"] == []
+    assert drawn["constants"]["front.tyre.grip"] == 0.99, "the page colours tyres by their used friction"
+    assert 0.5 < drawn["constants"]["vehicle.tyre_friction_front"] < 2.0
     table = read_table(result)
     for column in pose_columns(drawn["scene"]):
         np.testing.assert_array_equal(drawn["columns"][column], table.columns[column])

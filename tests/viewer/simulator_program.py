@@ -8,7 +8,7 @@ import numpy as np
 
 from ali3.scene.recording import Recording
 from tests.in_browser import SELDOM, wait_for, wait_until
-from viewer.simulator_page import simulator_html
+from viewer.html_document import html_document
 
 ADDRESS = "http://simulator.test"
 RUNNING, REFUSED, BEHIND = 1, 2, 4
@@ -92,7 +92,7 @@ class Program:
 
     def open(self, query: str = "") -> None:
         """Load the page and wait until it is ready."""
-        html = simulator_html("A simulator")
+        html = html_document("A simulator", {}, "Simulator", "'self'")
         self.page.route(f"{ADDRESS}/{query}", lambda route: route.fulfill(body=html, content_type="text/html"))
         self.page.route(f"{ADDRESS}/world*", lambda route: route.fulfill(body=json.dumps(self._world)))
         self.page.route_web_socket("**/drive*", self._connected)

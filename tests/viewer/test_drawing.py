@@ -348,6 +348,17 @@ def test_asphalt_lies_on_the_earth_and_not_under_the_camera(drawn):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("road", [{"kind": "flat"}, {"kind": "profile", "stations": [-1, 1], "heights": [0, 0]}])
+def test_a_ball_of_a_hundredth_of_a_millimetre_stands_on_asphalt(drawn, road):
+    size = 1e-5
+    tiny = scene(shapes=[ball(radius=size / 2)], extent=size, focus="body", roads=[road])
+    drawn.show(tiny, camera="orbit")
+    place = (0, 0, size / 2)
+    drawn.update(at(*place))
+    assert red(drawn.picture()) == pytest.approx(drawn.project(place), abs=4)
+
+
+@pytest.mark.slow
 def test_lines_are_painted_every_ten_metres(drawn):
     road = {"kind": "flat", "height": -0.3}
     shown = scene(shapes=[ball()], focus="body", extent=12.0, roads=[road])
@@ -385,7 +396,7 @@ def test_balls_mirror_lamps_in_a_coarse_picture_as_in_a_fine_one(drawn):
     ]
     pictures = []
     for quality in ("medium", "high"):
-        drawn.show(scene(shapes=balls, planar=True, extent=3.0), quality=quality, antialias=False)
+        drawn.show(scene(shapes=balls, planar=True, extent=3.0), quality=quality)
         pictures.append(drawn.picture())
     off = np.abs(np.subtract(*pictures))
     assert off.mean() < 0.1

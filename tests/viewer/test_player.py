@@ -423,7 +423,7 @@ def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page
           const [frame] = Object.keys(scene.frames);
           scene.flexible = [{ frame, nodes: [[0, 0, 0]], beams: [], amplitudes: ['angle'], modes: '' }];
           const place = document.body.appendChild(document.createElement('div'));
-          const made = ALi3Viewer.playPage(place, data);
+          const made = new ALi3Viewer.Player(place, data);
           await made.ready;
           place.remove();
           return [made.problem, place.textContent];

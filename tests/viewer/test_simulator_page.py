@@ -196,7 +196,7 @@ def test_instruments_map_and_keys_work_without_a_picture(chromium, lane_change, 
     assert int(program.text("speed")) == round(3.6 * at(lane_change, "speed", 3.0))
     if without == "WebGL":
         assert "no WebGL" in program.ask("player.problem")
-    page.keyboard.press("5")
+    assert program.ask("player.cockpit.cameraName") == "map"
     page.keyboard.press("p")
     shown(program, 3.1, RUNNING)
     assert ("pause", 0) in program.commands()

@@ -114,7 +114,7 @@ def test_a_drive_from_a_page_and_the_report_at_ctrl_c(sledge, tmp_path):
         assert request(running.port, "/drive", {}, upgrade=True)[0] == 403
         status, _, page = request(running.port, f"/{running.key}", {})
         assert status == 200
-        assert b"ALi3Viewer.simulate" in page
+        assert b"ALi3Viewer.Simulator" in page
         world = json.loads(request(running.port, f"/world{running.key}", {})[2])
         assert (world["name"], world["scenery"], world["places"]) == ("", [], [])
         with connect(f"ws://127.0.0.1:{running.port}/drive{running.key}") as connection:

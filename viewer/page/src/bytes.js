@@ -16,7 +16,7 @@ export async function decompress(bytes) {
 
 /**
  * Bytes of a text in base64, decompressed if they are gzip.
- * @param {string | ArrayBuffer | Uint8Array<ArrayBuffer>} data - Bytes are returned unchanged.
+ * @param {string | ArrayBuffer | Uint8Array<ArrayBuffer>} data bytes are returned unchanged
  * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
 export async function unpack(data) {

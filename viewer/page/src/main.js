@@ -1,12 +1,12 @@
 // Entry points of the script of the page.
 // Pictures of scenes, and recordings.
-export { playPage } from "./player/play.js";
+export { Player } from "./player/play.js";
 export { SceneView } from "./scene/scene_view.js";
 // An FMU that runs in the page; `serve` runs in its worker.
-export { drive } from "./live/drive.js";
+export { Drive } from "./live/drive.js";
 export { serve } from "./live/worker.js";
 // The driving simulator.
-export { simulate } from "./simulator/simulate.js";
+export { Simulator } from "./simulator/simulate.js";
 // Calibration of devices of the driving simulator.
 export { CalibrationPanel } from "./simulator/calibration.js";
 // Marks, dust and sound of a driven car.

@@ -112,7 +112,7 @@ test("caps lock changes no key", () => {
 });
 
 test("a page has the keys of its own cameras only", () => {
-  const ofCameras = (cameras) => Object.keys(cameraActs({ names: () => cameras, all: cameras, now: () => cameras[0], choose: () => {} }));
+  const ofCameras = (cameras) => Object.keys(cameraActs(cameras, () => cameras[0], () => {}));
   assert.deepEqual(ofCameras([]), []);
   assert.deepEqual(ofCameras(["orbit"]), ["camera orbit"]);
   assert.deepEqual(ofCameras(["orbit", "chase", "wheel FL", "side", "top"]), ["next camera", "camera chase", "camera wheel", "camera orbit", "camera top"]);

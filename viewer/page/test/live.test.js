@@ -4,7 +4,7 @@ import { Blend } from "../src/sources/blend.js";
 import { Engine, scriptAt } from "../src/live/engine.js";
 import { Gamepad, readSource, withDeadZone } from "../src/live/gamepad.js";
 import { LimitedInputs } from "../src/live/input_rates.js";
-import { realTimeText } from "../src/instruments/real_time_factor.js";
+import { realTimeText } from "../src/sources/factor.js";
 import { Keyboard } from "../src/live/keyboard.js";
 import { RealTimeClock } from "../src/live/real_time_clock.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "../src/live/ranges.js";
@@ -28,10 +28,10 @@ test("a pacer tells a machine that does not keep up, and slow motion is none", (
   const pacer = new RealTimeClock(0.01);
   pacer.start(0, 0, 1);
   for (let n = 1; n <= 300; n++) pacer.reached(0.01 * n, Math.floor(0.4 * n)); // 0.4 of real time
-  assert.ok(Math.abs(pacer.factor() - 0.4) < 0.02, String(pacer.factor()));
+  assert.ok(Math.abs(pacer.factor - 0.4) < 0.02, String(pacer.factor));
   assert.ok(pacer.slow > 0);
   const words = { running: true };
-  assert.match(realTimeText({ ...words, speed: 1, factor: pacer.factor() }).warn, /does not keep up: 0\.40 s of the run a second, 1 asked/);
+  assert.match(realTimeText({ ...words, speed: 1, factor: pacer.factor }).warn, /does not keep up: 0\.40 s of the run a second, 1 asked/);
   assert.equal(realTimeText({ ...words, speed: 0.1, factor: 0.1 }).warn, "");
   assert.match(realTimeText({ ...words, speed: 0.1, factor: 0.1 }).text, /slow motion/);
   pacer.start(10, 120, 0.5);

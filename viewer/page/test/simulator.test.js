@@ -153,7 +153,7 @@ test("hands: keys that are let go and a gamepad that is pulled out leave nothing
 test("keys ask for cameras: wheels in turn, the map from above, the next one", () => {
   const names = ["chase", "orbit", "side", "wheel FL", "wheel FR", "map"];
   const chosen = ["chase"];
-  const acts = cameraActs({ names: () => names, now: () => chosen.at(-1), choose: (name) => chosen.push(name) });
+  const acts = cameraActs(names, () => chosen.at(-1), (name) => chosen.push(name));
   for (const act of ["camera wheel", "camera wheel", "camera wheel", "camera top", "next camera"]) acts[act]();
   assert.deepEqual(chosen.slice(1), ["wheel FL", "wheel FR", "wheel FL", "map", "chase"]);
 });

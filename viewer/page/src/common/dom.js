@@ -3,8 +3,8 @@
 /**
  * Makes an element.
  * @template {string} Tag
- * @param {Tag} tag - Name, with classes after dots.
- * @param {Data} [properties] - Properties, listeners as `onclick`; names with a hyphen and `role` become attributes, and `data`
+ * @param {Tag} tag name, with classes after dots
+ * @param {Data} [properties] properties, listeners as `onclick`; names with a hyphen and `role` become attributes, and `data`
  *   the attribute data-a3, which identifies it to programs.
  * @param {...(Node | string | number)} children
  * @returns {ElementOf<Tag>}
@@ -25,7 +25,7 @@ export function el(tag, properties = {}, ...children) {
 
 /**
  * A button that releases the focus after a click, so that keys still drive the car.
- * @param {string} data - See `el`.
+ * @param {string} data see `el`
  * @param {string} text
  * @param {() => void} action
  * @param {string} [title]
@@ -43,9 +43,9 @@ export function button(data, text, action, title = "") {
  * A drop-down list that releases the focus, unless keys were used.
  * @param {string} data
  * @param {string} title
- * @param {(string | number)[][]} options - Values and their labels.
+ * @param {(string | number)[][]} options values and their labels
  * @param {(value: string) => void} action
- * @param {string | number} [value] - Initial choice.
+ * @param {string | number} [value] initial choice
  */
 export function select(data, title, options, action, value) {
   const element = el("select", { title, data }, ...options.map(([v, words]) => el("option", { value: v }, words)));

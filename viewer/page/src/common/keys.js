@@ -13,8 +13,8 @@ const DIALOG_ACTS = ["help", "close"];
 /**
  * Whether an element needs a key itself.
  * @param {Partial<HTMLInputElement>} target
- * @param {string} key - As in `KeyboardEvent.key`.
- * @param {boolean} byKeyboard - Whether the keyboard has moved the focus to it.
+ * @param {string} key as in `KeyboardEvent.key`
+ * @param {boolean} byKeyboard whether the keyboard has moved the focus to it
  */
 export function needed({ tagName, type, value, isContentEditable }, key, byKeyboard) {
   if (key === "Escape") return type === "search" && Boolean(value); // which it empties
@@ -33,8 +33,8 @@ export function hasKeyboardFocus(part) {
 /**
  * Gives a part of the page keys of its own, which act while the keyboard has moved the focus to it.
  * @param {HTMLElement} part
- * @param {string} label - Its name for screen readers.
- * @param {Object<string, (event: KeyboardEvent) => unknown>} acts - By `KeyboardEvent.key`; false: the key is left to the page.
+ * @param {string} label its name for screen readers
+ * @param {Object<string, (event: KeyboardEvent) => unknown>} acts by `KeyboardEvent.key`; false: the key is left to the page
  */
 export function addKeys(part, label, acts) {
   part.tabIndex = 0;
@@ -59,10 +59,10 @@ export function show(part, open, opener) {
 /**
  * Handles the keys of a page until a signal ends it.
  * @param {object} options
- * @param {Object<string, (event: KeyboardEvent) => void>} options.acts - Actions by their names in the table of keys.
- * @param {(event: KeyboardEvent) => boolean} [options.first] - Handles key events of driving, those of release with
+ * @param {Object<string, (event: KeyboardEvent) => void>} options.acts actions by their names in the table of keys
+ * @param {(event: KeyboardEvent) => boolean} [options.first] handles key events of driving, those of release with
  *   any focus; returns whether it did.
- * @param {HTMLDialogElement} [options.dialog] - The list of keys; while it is open only its own actions are done.
+ * @param {HTMLDialogElement} [options.dialog] the list of keys; while it is open only its own actions are done
  * @param {AbortSignal} options.signal
  */
 export function keys({ acts, first = () => false, dialog, signal }) {

@@ -8,7 +8,7 @@ export class Effects {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
    * @param {{columns: string[], constants: Object<string, number>}} car
-   * @param {(sentence: string) => void} tell - Receives problems.
+   * @param {(sentence: string) => void} tell receives problems
    */
   constructor(view, car, tell) {
     this._tell = tell;
@@ -22,7 +22,7 @@ export class Effects {
     if (this.sound.problem) this._tell(this.sound.problem);
   }
 
-  /** Updates the effects; called after the view is updated and before it is drawn. @param {(name: string) => number} lookup @param {number} time - s. @param {number} epoch */
+  /** Updates the effects; called after the view is updated and before it is drawn. @param {(name: string) => number} lookup @param {number} time s @param {number} epoch */
   update(lookup, time, epoch) {
     for (const effect of this.drawn) effect.update(lookup, time, epoch);
     this.sound.update(lookup, time);

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { discard } from "../looks/discard.js";
 import { subtract } from "../scene/math.js";
-import { Cloud, KINDS } from "./cloud.js";
+import { AGE, Cloud, KINDS, ROW } from "./cloud.js";
 import { Wheels } from "./wheels.js";
 
 /** Largest number of particles in the air. */
@@ -39,20 +39,18 @@ void main() {
 export class Dust {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{most?: number, surface?: (x: number, y: number) => string, columns?: string[]}} [options] most: largest number of
-   *   particles in the air; the others are those of Wheels
+   * @param {{surface?: (x: number, y: number) => string, columns?: string[]}} [options] those of Wheels
    */
   constructor(view, options = {}) {
     this.view = view;
-    this.most = options.most ?? MAX_PARTICLES;
     this.wheels = new Wheels(view.scene, options);
     /** Reason why there is no dust; empty if there is. */
     this.problem = this.wheels.problem;
-    this.cloud = new Cloud(this.wheels.list.length, this.most);
+    this.cloud = new Cloud(this.wheels.list.length, MAX_PARTICLES);
     if (this.problem || view.problem) return;
     this.geometry = new THREE.BufferGeometry();
     for (const [name, size] of Object.entries({ position: 3, tint: 4, size: 1 })) {
-      const buffer = new THREE.BufferAttribute(new Float32Array(this.most * size), size);
+      const buffer = new THREE.BufferAttribute(new Float32Array(MAX_PARTICLES * size), size);
       this.geometry.setAttribute(name, buffer.setUsage(THREE.DynamicDrawUsage));
     }
     this.geometry.setDrawRange(0, 0);
@@ -87,12 +85,12 @@ export class Dust {
     this.points.material.uniforms.pixels.value = 0.5 * view.renderer.domElement.height;
     const { position, tint, size } = this.geometry.attributes;
     let used = 0;
-    for (let k = 0; k < this.most; k++) {
-      const age = this.cloud.rows[7 * k + 6];
+    for (let k = 0; k < MAX_PARTICLES; k++) {
+      const age = this.cloud.rows[ROW * k + AGE];
       const { life, sizes, colour, seen } = KINDS[this.cloud.kinds[k]];
       if (!(age < life)) continue;
       const share = age / life;
-      const at = subtract(this.cloud.rows.subarray(7 * k, 7 * k + 3), view.origin);
+      const at = subtract(this.cloud.rows.subarray(ROW * k, ROW * k + 3), view.origin);
       position.array.set(at, 3 * used);
       tint.array.set([...colour, seen * (1 - share) * Math.min(1, 12 * share + 0.3)], 4 * used);
       size.array[used] = sizes[0] + share * (sizes[1] - sizes[0]);

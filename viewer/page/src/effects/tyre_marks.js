@@ -24,20 +24,16 @@ export class TyreMarks {
   _base = null;
   _drawn = "";
 
-  /**
-   * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{most?: number, columns?: string[]}} [options] most: largest number of sections of a wheel; columns: see Wheels
-   */
+  /** @param {import("../scene/scene_view.js").SceneView} view @param {{columns?: string[]}} [options] see Wheels */
   constructor(view, options = {}) {
     this.view = view;
-    this.most = options.most ?? MAX_SECTIONS;
     this.wheels = new Wheels(view.scene, options);
     /** Reason why there are no marks; empty if there are. */
     this.problem = this.wheels.problem;
     if (this.problem && this.wheels.list.length > 0) view.notes.tell(this.problem);
-    this.tracks = new Tracks(this.wheels.list.length, this.most);
+    this.tracks = new Tracks(this.wheels.list.length, MAX_SECTIONS);
     if (this.problem || view.problem) return;
-    const count = this.wheels.list.length * this.most;
+    const count = this.wheels.list.length * MAX_SECTIONS;
     this.geometry = new THREE.BufferGeometry();
     const buffer = (size) => new THREE.BufferAttribute(new Float32Array(2 * count * size), size).setUsage(THREE.DynamicDrawUsage);
     this.geometry.setAttribute("position", buffer(3));

@@ -4,6 +4,7 @@ import { colourAt } from "../looks/colour_map.js";
 import { Bending } from "../scene/bending.js";
 import { floats } from "../bytes.js";
 import { FrameTubes } from "../shapes/frame_tubes.js";
+import { spread } from "../sources/sampler.js";
 
 /** Number of times at which stress is computed. */
 const SAMPLES = 400;
@@ -44,10 +45,8 @@ export function flexible(part, run, factor, steel) {
 function largestStress(part, run) {
   if (!part.stress || part.beams.length === 0) return null;
   const bending = new Bending(part);
-  const samples = Math.min(run.count, SAMPLES);
   let peak = null;
-  for (let n = 0; n < samples; n++) {
-    const k = samples > 1 ? Math.round((n * (run.count - 1)) / (samples - 1)) : 0;
+  for (const k of spread(run.count, SAMPLES)) {
     if (bending.update(run.lookup(k), 0) !== "") continue; // not computed at that time
     const stress = bending.stress.reduce((a, b) => Math.max(a, b), 0);
     if (peak === null || stress > peak.stress) peak = { k, stress, values: bending.stress.slice() };

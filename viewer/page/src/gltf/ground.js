@@ -1,12 +1,12 @@
 // Meshes of roads, terrain and paths near the path of the run.
 import * as THREE from "three";
 import looks from "../../../looks.json" with { type: "json" };
-import { ribbonEdges, ribbonTriangles, waysOf } from "../effects/path.js";
+import { ribbonEdges, ribbonTriangles } from "../effects/path.js";
 import { HeightField, SurfaceRaster, gripOf, nearest, slickName } from "../looks/heights.js";
 import { LIFT } from "../looks/ground_offset.js";
 import { groundAxes, makeRoads } from "../looks/roads.js";
 import { errorOf, strided } from "../looks/terrain_mesh.js";
-import { feetOf } from "../player/traces.js";
+import { groundPaths } from "../player/traces.js";
 import { floats } from "../bytes.js";
 import { add, length, scale, subtract } from "../scene/math.js";
 
@@ -41,7 +41,7 @@ export function plainRoad(road, run, up) {
   const ways = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => run.extentAlong(axis)); // prettier-ignore
   const reach = 0.5 * Math.hypot(...ways.map(([low, high]) => high - low)) + 2 * run.scene.extent;
   const asphalt = materialOf(slickName(gripOf(road)));
-  const roads = makeRoads({ roads: [road] }, { up, asphalt, road: asphalt, grass: materialOf("grass"), reach });
+  const roads = makeRoads({ roads: [road] }, { up, asphalt, road: asphalt, grass: materialOf("grass"), extent: run.scene.extent, reach });
   roads.follow([0, 0, 0], ways.map(([low, high]) => 0.5 * (low + high)));
   return /** @type {THREE.Mesh} */ (roads.group.children[0]);
 }
@@ -122,16 +122,11 @@ export function heightMeshes(road, run, up) {
  * @param {import("./run.js").Run} run @param {number[]} up @returns {{name: string, mesh: THREE.Mesh}[]}
  */
 export function pathMeshes(run, up) {
-  const { scene, epoch, count } = run;
-  if (!scene.focus || scene.planar) return [];
+  const { scene, epoch } = run;
   const terrain = (scene.roads ?? []).find(({ kind }) => kind === "terrain");
   const field = terrain && new HeightField(terrain);
-  const view = /** @type {any} */ ({ scene, up, floor: run.extentAlong(up)[0], look: field && { height: (x, y) => field.at(x, y) } });
-  const { move, feet } = feetOf(scene, (k) => run.lookup(k), view);
-  const most = Math.min(count, 4000);
-  const ways = waysOf(move, Array.from({ length: most }, (_, n) => Math.round((n * (count - 1)) / Math.max(1, most - 1))), feet);
-  const [{ points: whole }] = ways;
-  if (whole.every((point) => length(subtract(point, whole[0])) < scene.extent)) return [];
+  const view = { scene, up, extent: scene.extent, floor: run.extentAlong(up)[0], look: field && { height: (x, y) => field.at(x, y) } };
+  const ways = groundPaths(scene, run.count, (k) => run.lookup(k), view);
   const frames = [...new Set(scene.shapes.filter(({ kind }) => kind === "wheel").map(({ frame }) => frame))];
   return ways.flatMap(({ points, at }, n) => {
     const kept = [];

@@ -1,6 +1,6 @@
 // Thins the motion of a node, and computes the largest error of the interpolated motion.
 import { Quaternion, Vector3 } from "three";
-import { linear, place } from "../sources/sampler.js";
+import { linear, place, spread } from "../sources/sampler.js";
 
 /**
  * Pose of a node relative to its parent at all times of a run, row by row.
@@ -102,11 +102,9 @@ function largestTurn(quaternion, kept) {
  * @returns {[number, number]} of points of `reach`, m, and of the rotation, rad
  */
 export function largestErrors(motion, track, t) {
-  const count = Math.min(t.length, MOST_SAMPLES);
   const [interpolated, recorded] = [identityPose(), identityPose()];
   let [largestDistance, largestAngle] = [0, 0];
-  for (let n = 0; n < count; n++) {
-    const k = count > 1 ? Math.round((n * (t.length - 1)) / (count - 1)) : 0;
+  for (const k of spread(t.length, MOST_SAMPLES)) {
     const [i, share] = place(track.times, t[k]);
     setPose(interpolated, track, i);
     if (share > 0) {

@@ -11,7 +11,7 @@ const BARS = { brake: FILLS.red, throttle: FILLS.green, hand_brake: FILLS.amber 
 
 /** Instruments of a car, as far as the FMU has outputs for them. */
 export class Cluster {
-  /** @param {Set<string>} names - Columns of the FMU. */
+  /** @param {Set<string>} names columns of the FMU */
   constructor(names) {
     const used = (name) => [`used.${name}`, name].find((column) => names.has(column));
     this._names = names;
@@ -58,7 +58,7 @@ export class Cluster {
 /**
  * Text of the gear: R, N, or its number.
  * @param {(name: string) => number} lookup
- * @param {{selector?: string, gear?: string}} columns - Those that the FMU has.
+ * @param {{selector?: string, gear?: string}} columns those that the FMU has
  */
 export function gearWords(lookup, { selector, gear }) {
   const position = selector ? Math.round(lookup(selector)) : 1;

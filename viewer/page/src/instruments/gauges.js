@@ -8,9 +8,9 @@ export const FILLS = { blue: "#2f76b8", red: "#d0392f", green: "#23803f", amber:
 export class Gauge {
   /**
    * @param {object} options
-   * @param {string} options.data - Name for programs.
+   * @param {string} options.data name for programs
    * @param {string} [options.label]
-   * @param {"across" | "up" | "middle"} [options.way] - middle: -1 at the right, +1 at the left, as for steering.
+   * @param {"across" | "up" | "middle"} [options.way] middle: -1 at the right, +1 at the left, as for steering
    * @param {string} [options.colour]
    */
   constructor({ data, label = "", way = "across", colour = FILLS.blue }) {

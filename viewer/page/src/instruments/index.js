@@ -13,11 +13,11 @@ const MAP_INTERVAL = 0.1;
 /** The instruments over the picture of a car, as far as there are signals for them. */
 export class Instruments {
   /**
-   * @param {Set<string>} names - Of the signals.
+   * @param {Set<string>} names of the signals
    * @param {object} options
-   * @param {Data} options.scene - With roads and scenery.
-   * @param {Data} [options.world] - Name, places and bounds.
-   * @param {(name: string) => unknown} [options.fixed] - Values of constants and parameters; undefined: not known.
+   * @param {Data} options.scene with roads and scenery
+   * @param {Data} [options.world] name, places and bounds
+   * @param {(name: string) => unknown} [options.fixed] values of constants and parameters; undefined: not known
    */
   constructor(names, { scene, world, fixed = () => undefined }) {
     styled(style);

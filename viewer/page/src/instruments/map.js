@@ -37,7 +37,7 @@ export class Trail {
 
   /**
    * Sets the time of the next point; the trail is interrupted if time goes back, jumps, or the epoch changes.
-   * @param {number} time - s. @param {number} epoch @param {number} longest - s.
+   * @param {number} time s @param {number} epoch @param {number} longest s
    */
   at(time, epoch, longest) {
     const { time: before, epoch: last } = this.now ?? { time, epoch };
@@ -53,7 +53,7 @@ export class Trail {
 
 /** The content of all maps of a world. */
 export class WorldPlan {
-  /** @param {Data} scene - With roads and scenery. @param {{name?: string, places?: Data[], bounds?: number[]}} world */
+  /** @param {Data} scene with roads and scenery @param {{name?: string, places?: Data[], bounds?: number[]}} world */
   constructor(scene, world = {}) {
     this.surfaces = new Surfaces(scene.roads);
     this.pictures = this.surfaces.pictures();
@@ -74,7 +74,7 @@ export class WorldPlan {
     return x >= x0 && x <= x1 && y >= y0 && y <= y1;
   }
 
-  /** Draws the constant part. @param {CanvasRenderingContext2D} context - In metres, x to the right, y up. @param {number} pixel - m. */
+  /** Draws the constant part. @param {CanvasRenderingContext2D} context in metres, x to the right, y up @param {number} pixel m */
   drawGround(context, pixel) {
     const [x0, y0, x1, y1] = this.bounds;
     for (const { image, box } of this.pictures) {
@@ -102,7 +102,7 @@ export class WorldPlan {
     context.strokeRect(x0, y0, x1 - x0, y1 - y0);
   }
 
-  /** Draws the path of the car. @param {CanvasRenderingContext2D} context - As for the ground. @param {number} pixel - m. */
+  /** Draws the path of the car. @param {CanvasRenderingContext2D} context as for the ground @param {number} pixel m */
   drawTrail(context, pixel) {
     let stretch = [];
     for (const point of [...this.trail.points, null]) {
@@ -157,10 +157,10 @@ class Ground {
   }
 
   /**
-   * @param {CanvasRenderingContext2D} context - Of the map, in its pixels.
-   * @param {{scale: number, x: number, y: number, pixel: number}} view - Pixels per metre, centre, and
+   * @param {CanvasRenderingContext2D} context of the map, in its pixels
+   * @param {{scale: number, x: number, y: number, pixel: number}} view pixels per metre, centre, and
    *   least width of lines, m.
-   * @param {boolean} moves - Whether the centre follows the car.
+   * @param {boolean} moves whether the centre follows the car
    */
   draw(context, view, moves) {
     const { width, height } = context.canvas;
@@ -190,9 +190,9 @@ export class WorldMap {
   /**
    * @param {WorldPlan} plan
    * @param {object} [options]
-   * @param {boolean} [options.whole] - Of the whole world.
-   * @param {(place: Data) => void} [options.go] - Called with a clicked place.
-   * @param {() => number[]} [options.free] - Left, top, right and bottom of the free area for the world, pixels of the
+   * @param {boolean} [options.whole] of the whole world
+   * @param {(place: Data) => void} [options.go] called with a clicked place
+   * @param {() => number[]} [options.free] left, top, right and bottom of the free area for the world, pixels of the
    *   element; by default all of it.
    */
   constructor(plan, { whole = false, go, free } = {}) {

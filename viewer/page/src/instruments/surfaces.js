@@ -14,7 +14,7 @@ const DEFAULT_FRICTION = 1.0;
 
 /** The surfaces of the roads of a scene. */
 export class Surfaces {
-  /** @param {Data[]} roads - Of a scene. */
+  /** @param {Data[]} roads of a scene */
   constructor(roads = []) {
     this.grids = roads.map(gridOf).filter(Boolean);
   }
@@ -27,7 +27,7 @@ export class Surfaces {
 
   /**
    * Pictures of the ground from above: x to the right, y up.
-   * @returns {{image: HTMLCanvasElement, box: number[]}[]} With the covered rectangle: x0, y0, x1, y1, m.
+   * @returns {{image: HTMLCanvasElement, box: number[]}[]} with the covered rectangle: x0, y0, x1, y1, m
    */
   pictures() {
     return this.grids.map(({ grid, colour }) => ({ image: imageOf(grid, colour), box: boxOf(grid) }));

@@ -1,8 +1,8 @@
 // Shows time and real-time factor of a run and, on a key, computing time of steps and frame rate.
 import { el, fixed, write } from "../common/dom.js";
 import { styled } from "../styles.js";
+import { realTimeText } from "../sources/factor.js";
 import { FILLS, Gauge } from "./gauges.js";
-import { realTimeText } from "./real_time_factor.js";
 import style from "./style.css";
 
 /** Text of a duration. */

@@ -32,8 +32,8 @@ export function wheelsOf(names) {
 /** Diagram of the forces of tyres on the car. */
 export class Tyres {
   /**
-   * @param {string[]} wheels - Their names.
-   * @param {(at: number[], wheel: string) => number} friction - Largest force over the load of a wheel at a point.
+   * @param {string[]} wheels their names
+   * @param {(at: number[], wheel: string) => number} friction largest force over the load of a wheel at a point
    */
   constructor(wheels, friction) {
     this._friction = friction;

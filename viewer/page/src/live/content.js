@@ -4,8 +4,8 @@ import { Sampler } from "../sources/sampler.js";
 import { unpack, unpackJson } from "../bytes.js";
 
 /**
- * @param {Data[]} parts - FMUs with compressed scenes, modules and resources.
- * @param {{beside?: Data, ends: string[], script?: string}} more - See `drive`.
+ * @param {Data[]} parts FMUs with compressed scenes, modules and resources
+ * @param {{beside?: Data, ends: string[], script?: string}} more see `Drive`
  * @returns {Promise<{fmus: Data[], drawings: Data[], recordings: Data[], table: Data | null}>} `drawings`: of the FMUs.
  */
 export async function decodeContent(parts, { beside, ends, script }) {

@@ -2,15 +2,15 @@
 import { el, select, short } from "../common/dom.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "./ranges.js";
 
-const POSITIONS = 1000;
+const POSITIONS = 1000; // of a slider
 
 /**
  * Makes the control of a variable.
- * @param {Data} variable - Of the description of the FMU.
+ * @param {Data} variable of the description of the FMU
  * @param {object} options
- * @param {(value: number|boolean|string) => void} options.change - Called with a value that fits the variable.
- * @param {string} [options.note] - Text after the name.
- * @param {string[][]} [options.texts] - Values of a string and their labels.
+ * @param {(value: number|boolean|string) => void} options.change called with a value that fits the variable
+ * @param {string} [options.note] text after the name
+ * @param {string[][]} [options.texts] values of a string and their labels
  * @returns {{element: HTMLElement, show: (value: number|boolean|string) => void}}
  */
 export function control(variable, { change, note = "", texts = [] }) {

@@ -16,27 +16,19 @@ const PLOTTED_NAMES = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
 const PANEL_MS = 100;
 const RESTART_MS = 250;
 
-/**
- * Fills an element with the page of an FMU.
- * @param {HTMLElement} container
- * @param {Data} given - `{scene, description, wasm, resources, title}` of one FMU, or `fmus`: several of them side by
- *   side; `beside`: recordings to be shown beside (viewer/page_data.py), `ends`: a sentence for the end of each;
- *   `script`: inputs over time, compressed JSON `{t, columns}`; `options`.
- * @returns {Drive}
- */
-export function drive(container, given) {
-  return new Drive(container, given);
-}
-
 /** The page of an FMU. */
-class Drive extends Shell {
-  /** @param {HTMLElement} container @param {Data} given - See `drive`. */
-  constructor(container, { options = {}, fmus, beside, ends = [], script, ...one }) {
+export class Drive extends Shell {
+  /**
+   * @param {HTMLElement} container
+   * @param {Data} given `fmus`: `{scene, description, wasm, resources, title}` of each, side by side; `beside`:
+   *   recordings to be shown beside (viewer/page_data.py), `ends`: a sentence for the end of each; `script`: inputs
+   *   over time, compressed JSON `{t, columns}`; `options`.
+   */
+  constructor(container, { options = {}, fmus, beside, ends = [], script }) {
     super(container, options);
     /** @type {Data} */
     this.options = options;
-    this.quality = options.view?.quality ?? "auto";
-    const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
+    this.quality = "auto";
     const missing = missingParts();
     if (missing) {
       instead(this.viewBox, "problem", missing);
@@ -45,7 +37,7 @@ class Drive extends Shell {
       this.ready.catch(() => {});
       return;
     }
-    this.ready = this._open(parts, { beside, ends, script });
+    this.ready = this._open(fmus, { beside, ends, script });
     this.ready.catch((error) => this._wrong(error.message));
   }
 
@@ -74,7 +66,7 @@ class Drive extends Shell {
     this.draw();
   }
 
-  /** Starts or continues the run. @param {number} [speed] - Simulated seconds per second of the clock. */
+  /** Starts or continues the run. @param {number} [speed] simulated seconds per second of the clock */
   run(speed) {
     return this.session.run(speed);
   }
@@ -94,7 +86,7 @@ class Drive extends Shell {
     return this.session.again();
   }
 
-  /** Goes back; a running run continues from there. @param {number} seconds - Of the run. */
+  /** Goes back; a running run continues from there. @param {number} seconds of the run */
   back(seconds = 2) {
     return this.session.rewind(seconds);
   }
@@ -155,7 +147,7 @@ class Drive extends Shell {
       message: (which, text) => this.tell(text),
       error: (text) => this._wrong(text),
     });
-    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, { look: this.look, notices: this.notices, box: this.viewBox });
+    this.stage = new Stage([...pictures, ...recordings], { look: this.look, notices: this.notices, box: this.viewBox });
     this._layOut(fmus[0]);
     this.stage.open();
     this.problem = this.stage.problem;
@@ -167,7 +159,7 @@ class Drive extends Shell {
     const padPanel = this.driven(this.hands, this.inputs.map((v) => v.name));
     if (this.inputs.length) this.parameters.element.after(padPanel);
     this._frame();
-    if (this.options.run !== false) await this.run(this.options.speed ?? 1);
+    if (this.options.run !== false) await this.run();
   }
 
   _layOut(first) {
@@ -212,8 +204,7 @@ class Drive extends Shell {
     };
     const driven = this.isCar ? (event) => this.hands.key(event, this.driverSpeed) : undefined;
     this.controls(session, more, { places: Object.keys(this.options.places ?? {}), steps, step: session.step }, driven);
-    const camera = this.options.camera ?? (this.isCar ? "chase" : "");
-    if (this.cameras.includes(camera)) this.camera(camera);
+    if (this.isCar && this.cameras.includes("chase")) this.camera("chase");
     const requested = this.options.plots ?? PLOTTED_NAMES.filter((name) => session.columns.has(name));
     const names = [...session.columns.keys()];
     const first = requested.length ? requested : names.slice(this.inputs.length, this.inputs.length + 3);

@@ -38,8 +38,8 @@ function writer(slave, { name, type }) {
  * Inputs of a table at a time: interpolated linearly, integers held; of equal times the last row counts, and the table is
  * constant beyond its ends.
  * @param {{t: number[], columns: Object<string, number[]>}} script
- * @param {number} time - s.
- * @param {Set<string>} [whole] - Names of integers.
+ * @param {number} time s
+ * @param {Set<string>} [whole] names of integers
  * @returns {Object<string, number>}
  */
 export function scriptAt({ t, columns }, time, whole = new Set()) {
@@ -56,10 +56,7 @@ export function scriptAt({ t, columns }, time, whole = new Set()) {
 
 /** The run of one or more FMUs. */
 export class Engine {
-  /**
-   * @param {Data[]} fmus - Of `loadFmu`.
-   * @param {number} step - Communication step, s.
-   */
+  /** @param {Data[]} fmus of `loadFmu` @param {number} step communication step, s */
   constructor(fmus, step) {
     this.fmus = fmus;
     this.step = step;
@@ -78,7 +75,7 @@ export class Engine {
 
   /**
    * Restarts the run.
-   * @param {Object<string, number|boolean|string>} start - Start values that differ from those of the FMUs, by name.
+   * @param {Object<string, number|boolean|string>} start start values that differ from those of the FMUs, by name
    * @throws {Error} Message of the FMU; the old run has ended too.
    */
   restart(start) {
@@ -142,7 +139,7 @@ export class Engine {
    * Requests a value of an input or parameter, which then no longer follows the script.
    * @param {string} name
    * @param {number} value
-   * @param {number} [rate] - As for `LimitedInputs.want`.
+   * @param {number} [rate] as for `LimitedInputs.want`
    */
   want(name, value, rate) {
     const index = this.heldNames.indexOf(name);
@@ -151,10 +148,7 @@ export class Engine {
     this.hand.want(index, value, rate);
   }
 
-  /**
-   * Goes back to an earlier step, with bitwise identical states.
-   * @param {number} k - Not before `oldest`.
-   */
+  /** Goes back to an earlier step, with bitwise identical states. @param {number} k not before `oldest` */
   back(k) {
     const target = Math.max(this.oldest, Math.min(k, this.k));
     while (this._states.length > 1 && this._states[this._states.length - 1][0] > target) {

@@ -10,8 +10,8 @@ const TAKEOVER_CHANGE = 0.02;
 
 /**
  * Value of an axis with a dead zone in its middle, continuous at its ends.
- * @param {number} value - From -1 to 1.
- * @param {number} zone - Half-width.
+ * @param {number} value from -1 to 1
+ * @param {number} zone half-width
  */
 export function withDeadZone(value, zone) {
   const beyond = Math.max(0, Math.abs(value) - zone) / (1 - zone);
@@ -21,8 +21,8 @@ export function withDeadZone(value, zone) {
 /**
  * Value of an assigned axis or button of a device.
  * @param {{axes: number[], buttons: {value: number}[]}} pad
- * @param {string} source - "axis 2", "axis 2 inverted", "button 7" or "none".
- * @param {boolean} pedal - Whether the range is 0 to 1 over the whole axis.
+ * @param {string} source "axis 2", "axis 2 inverted", "button 7" or "none"
+ * @param {boolean} pedal whether the range is 0 to 1 over the whole axis
  * @param {number} zone
  */
 export function readSource(pad, source, pedal, zone) {
@@ -43,7 +43,7 @@ export function sourcesOf(pad) {
 
 /** The current device and its assignments. */
 export class Gamepad {
-  /** @param {() => (Data|null)[]} list - `navigator.getGamepads`. */
+  /** @param {() => (Data|null)[]} list `navigator.getGamepads` */
   constructor(list) {
     this._list = list;
     this.zone = 0.08;
@@ -55,7 +55,7 @@ export class Gamepad {
 
   /**
    * Reads the devices.
-   * @returns {{changed: boolean, touched: boolean}} Whether the device is another one, and whether it was moved.
+   * @returns {{changed: boolean, touched: boolean}} whether the device is another one, and whether it was moved
    */
   poll() {
     const pads = [...(this._list() ?? [])].filter((pad) => pad && pad.connected !== false);

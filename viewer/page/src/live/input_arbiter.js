@@ -9,10 +9,10 @@ export const ARBITER_MS = 16;
 export class InputArbiter {
   /**
    * @param {object} options
-   * @param {string[]} options.inputs - Inputs of the FMU; others are not requested.
-   * @param {Object<string, number> | null} options.constants - Of a car; null: keys have no effect.
-   * @param {() => (Data | null)[]} [options.pads] - `navigator.getGamepads`.
-   * @param {(source: string, wants: [string, number, number?][]) => void} options.want - Input, value, largest change
+   * @param {string[]} options.inputs inputs of the FMU; others are not requested
+   * @param {Object<string, number> | null} options.constants of a car; null: keys have no effect
+   * @param {() => (Data | null)[]} [options.pads] `navigator.getGamepads`
+   * @param {(source: string, wants: [string, number, number?][]) => void} options.want input, value, largest change
    *   per second (none: at once), of "keys" or "gamepad".
    */
   constructor({ inputs, constants, pads = () => navigator.getGamepads?.() ?? [], want }) {
@@ -32,9 +32,9 @@ export class InputArbiter {
 
   /**
    * Handles a key press or release.
-   * @param {{code: string, type: string, shiftKey?: boolean, repeat?: boolean}} event - Of the keyboard.
-   * @param {number} speed - Of the car, m/s.
-   * @returns {boolean} Whether it is a key for driving.
+   * @param {{code: string, type: string, shiftKey?: boolean, repeat?: boolean}} event of the keyboard
+   * @param {number} speed of the car, m/s
+   * @returns {boolean} whether it is a key for driving
    */
   key(event, speed) {
     const { used, selector } = this.keyboard?.key(event.code, event.type === "keydown", event.shiftKey) ?? { used: false };
@@ -67,8 +67,8 @@ export class InputArbiter {
 
   /**
    * Reads the devices.
-   * @param {number} speed - Of the car, m/s.
-   * @returns {{changed: boolean, lost: boolean}} Whether the gamepad is another one, and whether one in control was unplugged.
+   * @param {number} speed of the car, m/s
+   * @returns {{changed: boolean, lost: boolean}} whether the gamepad is another one, and whether one in control was unplugged
    */
   poll(speed) {
     const { assigned } = this.gamepad;

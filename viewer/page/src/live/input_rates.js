@@ -2,7 +2,7 @@
 
 /** Values of inputs in each step. */
 export class LimitedInputs {
-  /** @param {number[]} start - A value for each input. */
+  /** @param {number[]} start a value for each input */
   constructor(start) {
     this.values = Float64Array.from(start);
     this.wanted = Float64Array.from(start);
@@ -10,9 +10,9 @@ export class LimitedInputs {
   }
 
   /**
-   * @param {number} index - Of the input.
-   * @param {number} value - Requested value.
-   * @param {number} [rate] - Largest change per second; infinite: immediate.
+   * @param {number} index of the input
+   * @param {number} value requested value
+   * @param {number} [rate] largest change per second; infinite: immediate
    */
   want(index, value, rate = Infinity) {
     this.wanted[index] = value;
@@ -24,11 +24,7 @@ export class LimitedInputs {
     this.values.set(values);
   }
 
-  /**
-   * Advances by a step.
-   * @param {number} step - s.
-   * @returns {Float64Array} The values for this step.
-   */
+  /** Advances by a step. @param {number} step s @returns {Float64Array} the values for this step */
   move(step) {
     for (let i = 0; i < this.values.length; i++) {
       const most = this._rates[i] * step;

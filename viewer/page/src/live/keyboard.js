@@ -14,7 +14,7 @@ const SELECTOR = { reverse: -1, neutral: 0, drive: 1 };
 
 /** Inputs requested by pressed keys. */
 export class Keyboard {
-  /** @param {Object<string, number>} constants - Of the FMU, by name. */
+  /** @param {Object<string, number>} constants of the FMU, by name */
   constructor(constants = {}) {
     this._down = new Set();
     this._wheelbase = constants["vehicle.wheelbase"] ?? WHEELBASE;
@@ -23,10 +23,10 @@ export class Keyboard {
 
   /**
    * Handles a key press or release.
-   * @param {string} code - As in `KeyboardEvent.code`.
+   * @param {string} code as in `KeyboardEvent.code`
    * @param {boolean} down
    * @param {boolean} [shift]
-   * @returns {{used: boolean, selector?: number}} Whether it is a key for driving.
+   * @returns {{used: boolean, selector?: number}} whether it is a key for driving
    */
   key(code, down, shift = false) {
     const act = (down && shift && DRIVING[`Shift+${code}`]) || DRIVING[code];
@@ -49,8 +49,8 @@ export class Keyboard {
 
   /**
    * Requested values.
-   * @param {number} speed - Of the car, m/s.
-   * @returns {[string, number, number][]} Input, value, rate.
+   * @param {number} speed of the car, m/s
+   * @returns {[string, number, number][]} input, value, rate
    */
   wants(speed) {
     const acts = new Set([...this._down].map((code) => DRIVING[code]));

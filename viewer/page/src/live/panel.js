@@ -35,7 +35,7 @@ function groupOf({ name }) {
  * @param {Data[]} variables
  * @param {object} options
  * @param {(variable: Data, value: number|boolean|string) => void} options.set
- * @param {string[]} options.roads - Files of roads in the FMU.
+ * @param {string[]} options.roads files of roads in the FMU
  * @returns {{element: HTMLElement, show: (name: string, value: any) => void}}
  */
 export function parameterPanel(variables, { set, roads }) {

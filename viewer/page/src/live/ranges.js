@@ -10,7 +10,7 @@ const ZERO_SHARE = 1e-3;
 
 /**
  * The range of a variable.
- * @param {{min?: number, max?: number, start?: number, unit?: string, type: string, largest?: number}} variable - With
+ * @param {{min?: number, max?: number, start?: number, unit?: string, type: string, largest?: number}} variable with
  *   the largest known absolute value, if any.
  * @returns {{low: number, high: number, guessed: boolean, log: boolean, whole: boolean}}
  */

@@ -6,20 +6,22 @@ const MAX_LAG = 0.25;
 
 /** Computes the steps that are due by a clock. */
 export class RealTimeClock {
-  /** @param {number} step - Communication step, s. */
+  /** @param {number} step communication step, s */
   constructor(step) {
     this.step = step;
     this.speed = 1;
     this.running = false;
     this.slow = 0;
+    /** Real-time factor over the last second; null at the start. @type {number | null} */
+    this.factor = null;
     this._factors = new Factor();
   }
 
   /**
    * Starts the clock.
-   * @param {number} now - Clock, s.
-   * @param {number} k - Number of completed steps.
-   * @param {number} speed - Simulated seconds per second of the clock.
+   * @param {number} now clock, s
+   * @param {number} k number of completed steps
+   * @param {number} speed simulated seconds per second of the clock
    */
   start(now, k, speed) {
     this.running = true;
@@ -33,7 +35,7 @@ export class RealTimeClock {
   /** Stops the clock. */
   stop() {
     this.running = false;
-    this._factor = null;
+    this.factor = null;
     this.slow = 0;
   }
 
@@ -50,7 +52,7 @@ export class RealTimeClock {
   /**
    * Reports completed steps. If they are too late, deadlines start again from here, which `slow` counts.
    * @param {number} now
-   * @param {number} k - Number of completed steps.
+   * @param {number} k number of completed steps
    */
   reached(now, k) {
     if (!this.running) return;
@@ -61,13 +63,8 @@ export class RealTimeClock {
     this._mark(now, k);
   }
 
-  /** Real-time factor over the last second; null at the start. */
-  factor() {
-    return this._factor ?? null;
-  }
-
   _mark(now, k) {
-    this._factor = this._factors.add({ running: true, speed: this.speed, time: k * this.step, wall: now });
+    this.factor = this._factors.add({ running: true, speed: this.speed, time: k * this.step, wall: now });
   }
 
   _anchor(now, k) {

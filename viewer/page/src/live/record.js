@@ -5,10 +5,10 @@ const ROWS = 1024; // in a block
 /** Rows of numbers at the times k * step; row k has the inputs of the step that begins there. */
 export class Record {
   /**
-   * @param {string[]} inputs - Names of inputs and tunable parameters.
-   * @param {string[]} outputs - Names of the outputs of all instances.
-   * @param {number} step - s.
-   * @param {number} [most] - Largest size, bytes; beyond it the oldest rows are removed.
+   * @param {string[]} inputs names of inputs and tunable parameters
+   * @param {string[]} outputs names of the outputs of all instances
+   * @param {number} step s
+   * @param {number} [most] largest size, bytes; beyond it the oldest rows are removed
    */
   constructor(inputs, outputs, step, most = 4e8) {
     this.held = inputs;
@@ -28,8 +28,8 @@ export class Record {
 
   /**
    * Appends a row.
-   * @param {ArrayLike<number>} inputs - Values during the step that ends there, which belong to the previous row.
-   * @param {ArrayLike<number>} outputs - At its end.
+   * @param {ArrayLike<number>} inputs values during the step that ends there, which belong to the previous row
+   * @param {ArrayLike<number>} outputs at its end
    */
   add(inputs, outputs) {
     if (this.end > this.first) this._row(this.end - 1).set(inputs, 0);
@@ -62,10 +62,10 @@ export class Record {
 
   /**
    * Every `stride`th value of a column, and the last one.
-   * @param {number} index - Of the column.
-   * @param {number} from - First row.
+   * @param {number} index of the column
+   * @param {number} from first row
    * @param {number} stride
-   * @returns {[number[], number[]]} Times and values.
+   * @returns {[number[], number[]]} times and values
    */
   series(index, from, stride) {
     const t = [];
@@ -82,10 +82,10 @@ export class Record {
 
   /**
    * The run as a table that `ali3 run --manoeuvre` and `ali3 view` read.
-   * @param {string[]} comments - Lines after the numbers, for programs that do not support comments.
-   * @param {string[]} [kept] - Names of columns of inputs and parameters; by default all.
-   * @param {string[]} [outputs] - Names of columns of outputs; by default all.
-   * @returns {string[]} Parts of the text.
+   * @param {string[]} comments lines after the numbers, for programs that do not support comments
+   * @param {string[]} [kept] names of columns of inputs and parameters; by default all
+   * @param {string[]} [outputs] names of columns of outputs; by default all
+   * @returns {string[]} parts of the text
    */
   csv(comments, kept = this.held, outputs = this.outputs) {
     const columns = [...kept, ...outputs].map((name) => this.column(name));
@@ -127,9 +127,9 @@ export class Record {
 /**
  * Interpolated values between two rows.
  * @param {Record} record
- * @param {number} time - s.
+ * @param {number} time s
  * @param {import("../sources/blend.js").Blend} blend
- * @param {Map<string, number>} columns - Index in a row by name.
+ * @param {Map<string, number>} columns index in a row by name
  * @returns {(name: string) => number | undefined}
  */
 export function between(record, time, blend, columns) {

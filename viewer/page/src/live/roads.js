@@ -2,7 +2,7 @@
 
 /**
  * Roads with the friction and kerbs that parameters set; the higher side of a kerb keeps its height.
- * @param {Data[]} roads - Of a scene; `variables` names the parameters.
+ * @param {Data[]} roads of a scene; `variables` names the parameters
  * @param {(name: string) => number | undefined} lookup
  * @returns {{roads: Data[], key: string}} `key` changes with the appearance.
  */

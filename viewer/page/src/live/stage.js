@@ -13,13 +13,12 @@ const LAST_SURVEY = 20;
 
 export class Stage {
   /**
-   * @param {Data[]} items - `{title, scene, sample, variables}` of an FMU, or `{title, scene, sample, recording}`; `sample`
+   * @param {Data[]} items `{title, scene, sample, variables}` of an FMU, or `{title, scene, sample, recording}`; `sample`
    *   returns the values at a time.
-   * @param {Data} options - Of SceneView.
-   * @param {{look: Data, notices: import("../common/notices.js").Notices, box: HTMLElement}} page - Current look;
+   * @param {{look: Data, notices: import("../common/notices.js").Notices, box: HTMLElement}} page current look;
    *   notices; parent element of the pictures.
    */
-  constructor(items, options, { look, notices, box }) {
+  constructor(items, { look, notices, box }) {
     this._notices = notices;
     this._look = look;
     this._epoch = 0;
@@ -27,7 +26,7 @@ export class Stage {
     /** @type {Data[]} items with their elements, views and effects */
     this.parts = items.map(addElements);
     box.append(...this.parts.map(({ element }) => element));
-    this._options = { driven: !options.keep, onMessage: (sentence) => notices.note(sentence), ...options };
+    this._options = { driven: true, onMessage: (sentence) => notices.note(sentence) };
   }
 
   /** Creates the views, once the element is in the page. */

@@ -4,9 +4,9 @@ import { el } from "../common/dom.js";
 /**
  * Makes a lever over the picture.
  * @param {object} options
- * @param {string} options.name - Of the input.
+ * @param {string} options.name of the input
  * @param {string} options.label
- * @param {boolean} options.across - Horizontal, +1 at the left end and -1 at the right; else vertical, from 0 at the bottom to 1.
+ * @param {boolean} options.across horizontal, +1 at the left end and -1 at the right; else vertical, from 0 at the bottom to 1
  * @param {(name: string, value: number) => void} options.want
  */
 function lever({ name, label, across, want }) {

@@ -1,4 +1,4 @@
-// Runs the FMUs in a separate thread, so that drawing does not delay them; `Desk` is its counterpart in the page.
+// Runs the FMUs in a separate thread, so that drawing does not delay them; the page starts it from its own script.
 import { loadFmu } from "../wasm/fmu.js";
 import { Engine } from "./engine.js";
 import { RealTimeClock } from "./real_time_clock.js";
@@ -7,7 +7,13 @@ import { RealTimeClock } from "./real_time_clock.js";
 const MAX_SLICE = 0.012;
 /** Least interval of sending rows to the page, s of the clock. */
 const POST_INTERVAL = 0.008;
+/** Longest wait for the next step, ms. */
 const WAKE_MS = 4;
+/** Number of steps over which the cost of a step is averaged, and between two looks at messages of the FMUs. */
+const [AVERAGED_STEPS, STEPS_PER_LOOK] = [200, 50];
+
+// `currentScript` is defined only while the script of the page runs.
+const pageScript = typeof document === "undefined" ? null : /** @type {HTMLScriptElement | null} */ (document.currentScript);
 
 /** Time of a common clock of page and worker, s. */
 export function clock() {
@@ -16,7 +22,7 @@ export function clock() {
 
 /** Handles the messages of a page. */
 export class Runner {
-  /** @param {(message: Data, transfer?: ArrayBuffer[]) => void} post - Sends to the page. */
+  /** @param {(message: Data, transfer?: ArrayBuffer[]) => void} post sends to the page */
   constructor(post) {
     this._post = post;
     this._timer = null;
@@ -27,7 +33,7 @@ export class Runner {
     this._refused = null;
   }
 
-  /** @param {Data} message - `{do: "open" | "restart" | ..., ...}` */
+  /** @param {Data} message `{do: "open" | "restart" | ..., ...}` */
   async take(message) {
     const begins = message.do === "open" || message.do === "restart";
     if (this._refused && !begins) {
@@ -118,7 +124,7 @@ export class Runner {
       if (isRunning) done += 1;
       now = clock();
     }
-    if (done) this._cost += ((now - begin) / done - this._cost) * Math.min(1, done / 200);
+    if (done) this._cost += ((now - begin) / done - this._cost) * Math.min(1, done / AVERAGED_STEPS);
     if (!isRunning) return;
     this.pacer.reached(now, this.engine.k);
     if (now - this._posted >= POST_INTERVAL) this._send("rows");
@@ -135,7 +141,7 @@ export class Runner {
       this._send("rows");
       this._post({ is: "refused", which, text, k: engine.alive ? engine.k - 1 : engine.k, alive: engine.alive });
     }
-    if (engine.k % 50 === 0 || refused.length) this._postMessages(refused.length > 0);
+    if (engine.k % STEPS_PER_LOOK === 0 || refused.length) this._postMessages(refused.length > 0);
     return engine.alive;
   }
 
@@ -155,7 +161,7 @@ export class Runner {
     this._rows = [];
     this._posted = clock();
     const { k, oldest } = this.engine;
-    const pace = { at: this._posted, factor: this.pacer.factor(), slow: this.pacer.slow, cost: this._cost };
+    const pace = { at: this._posted, factor: this.pacer.factor, slow: this.pacer.slow, cost: this._cost };
     this._post({ is, k, oldest, count, rows, pace }, [rows.buffer]);
   }
 }
@@ -164,4 +170,15 @@ export class Runner {
 export function serve() {
   const runner = new Runner((message, transfer) => self.postMessage(message, { transfer: transfer ?? [] }));
   self.onmessage = (event) => runner.take(event.data);
+}
+
+/** Starts the worker of a page. @param {(message: Data) => void} take receives its messages @returns {Worker} */
+export function startWorker(take) {
+  const text = pageScript.src ? `importScripts(${JSON.stringify(pageScript.src)});` : pageScript.textContent;
+  const url = URL.createObjectURL(new Blob([text, "\nALi3Viewer.serve();"], { type: "text/javascript" }));
+  const worker = new Worker(url);
+  URL.revokeObjectURL(url);
+  worker.onmessage = (event) => take(event.data);
+  worker.onerror = (event) => take({ is: "error", at: "worker", text: event.message || "it ended" });
+  return worker;
 }

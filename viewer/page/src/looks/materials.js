@@ -18,7 +18,7 @@ export class Materials {
   _covers = new Map();
 
   /**
-   * @param {{ghost?: boolean, tint?: string, opacity?: number}} [options] ghost: a further recording, drawn transparent
+   * @param {{ghost?: boolean, tint?: string}} [options] ghost: a further recording, drawn transparent
    *   and in the colour `tint`
    */
   constructor(options = {}) {
@@ -56,7 +56,7 @@ export class Materials {
     const { opacity: defaultOpacity = 1, clearcoat, clearcoatRoughness, ...look } = KINDS[kind];
     if (ghost) Object.assign(look, { color: tint ?? looks.ghosts[0], metalness: 0, roughness: 0.9 });
     else if (color) look.color = color;
-    const closedOpacity = (ghost ? (this.options.opacity ?? GHOST_OPACITY) : 1) * (opacity ?? defaultOpacity);
+    const closedOpacity = (ghost ? GHOST_OPACITY : 1) * (opacity ?? defaultOpacity);
     const coated = clearcoat && !ghost;
     const material = coated ? new THREE.MeshPhysicalMaterial({ ...look, clearcoat, clearcoatRoughness }) : new THREE.MeshStandardMaterial(look);
     material.name = kind;

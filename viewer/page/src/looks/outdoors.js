@@ -54,7 +54,7 @@ export function outdoors(view, fine) {
   const asphalt = groundMaterial({ noise, up, paint: 1, fine });
   const road = groundMaterial({ noise, up, fine });
   const grass = groundMaterial({ noise, up, grass: true });
-  const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material });
+  const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material, extent });
   world.add(roads.group);
   const draft = makeDraft(view, sun);
   const shadows = contactShadows(view);

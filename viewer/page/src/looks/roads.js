@@ -9,8 +9,11 @@ import { gripOf, heldWithin, slickness } from "./heights.js";
 
 /** Half the side of an unbounded road, m. */
 const HALF_SIDE = 1500;
-/** Distances from the eye at which unbounded ground is divided, since processors draw large triangles with depth errors, m. */
-const DIVISIONS = [-320, -80, -20, 20, 80, 320];
+/**
+ * Unbounded ground is divided, since processors draw large triangles with depth errors: largest distance of a division from
+ * the eye, m, ratio to the next nearer one, and least distance, in sizes of the drawing.
+ */
+const [FARTHEST_DIVISION, DIVISION_RATIO, NEAREST_DIVISION] = [320, 4, 20];
 /** Motion of the eye after which a profile is rebuilt, less than half of its middle piece, m. */
 const UPDATE_DISTANCE = 10;
 /** Width of the continuation of a grid beyond its border, m. */
@@ -25,7 +28,8 @@ const MAX_ADDED = 400;
 /**
  * Makes the roads.
  * @param {Data} scene
- * @param {{up: number[], asphalt: THREE.Material, road: THREE.Material, grass: THREE.Material, reach?: number}} looks reach: half the side of an unbounded road, m
+ * @param {{up: number[], asphalt: THREE.Material, road: THREE.Material, grass: THREE.Material, extent: number, reach?: number}} looks extent:
+ *   size of the drawing, m; reach: half the side of an unbounded road, m
  */
 export function makeRoads(scene, looks) {
   const group = new THREE.Group();
@@ -33,7 +37,7 @@ export function makeRoads(scene, looks) {
   const unknown = [];
   for (const road of scene.roads ?? []) {
     if (road.kind === "terrain") continue; // of a world, see world.js
-    const maker = { flat, plane, profile, grid }[road.kind];
+    const maker = { flat: plane, plane, profile, grid }[road.kind];
     if (maker === undefined) unknown.push(`A road of the kind '${road.kind}' is not known to this page and is not drawn.`);
     else pieces.push(...maker(road, looks));
   }
@@ -59,8 +63,8 @@ export function makeRoads(scene, looks) {
 }
 
 /** A square on a plane through a point that follows the eye, with the friction of a road. */
-function unboundedPlane(point, normal, material, road, reach = HALF_SIDE) {
-  const edges = divisions(-reach, reach);
+function unboundedPlane(point, normal, material, road, { extent, reach = HALF_SIDE }) {
+  const edges = divisions(-reach, reach, extent);
   const cells = edges.length - 1;
   const geometry = new THREE.PlaneGeometry(cells, cells, cells, cells).rotateX(-Math.PI / 2);
   const places = geometry.getAttribute("position");
@@ -79,14 +83,14 @@ function cover(geometry, slick) {
   geometry.setAttribute("slick", new THREE.BufferAttribute(Float32Array.from(slick), 2));
 }
 
-const flat = (road, { up, asphalt, reach }) => unboundedPlane(scale(up, road.height ?? 0), up, asphalt, road, reach);
-
-function plane(road, { up, asphalt, reach }) {
-  return unboundedPlane(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt, road, reach);
+/** A flat or inclined road. */
+function plane(road, looks) {
+  const { up, asphalt } = looks;
+  return unboundedPlane(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt, road, looks);
 }
 
 /** A road with a profile along a direction, level before and behind it, built around the eye. */
-function profile(road, { up, asphalt: material, reach = HALF_SIDE }) {
+function profile(road, { up, asphalt: material, extent, reach = HALF_SIDE }) {
   const forward = unit(road.direction ?? [1, 0, 0]);
   const side = cross(up, forward);
   const base = road.origin ?? [0, 0, 0];
@@ -97,7 +101,7 @@ function profile(road, { up, asphalt: material, reach = HALF_SIDE }) {
     const [s, aside] = [dot(to, forward), road.width === undefined ? dot(to, side) : 0];
     if (built === null || Math.abs(s - built.s) > UPDATE_DISTANCE || Math.abs(aside - built.aside) > UPDATE_DISTANCE) {
       built = { s, aside, at: add(base, add(scale(forward, s), scale(side, aside))) };
-      rebuild(mesh.geometry, strip(road, s, reach), { forward, side, up, half: (road.width ?? 2 * reach) / 2, slick: slickness(gripOf(road)) });
+      rebuild(mesh.geometry, strip(road, s, reach), { forward, side, up, half: (road.width ?? 2 * reach) / 2, slick: slickness(gripOf(road)), extent });
     }
     mesh.position.fromArray(subtract(built.at, origin));
   };
@@ -154,17 +158,22 @@ export function surfaces(pairs) {
 /** Angle above which edges stay sharp, rad. */
 const CREASE = Math.PI / 8;
 
-/** Both ends and the `DIVISIONS` between them. @param {number} from @param {number} to */
-const divisions = (from, to) => [from, ...DIVISIONS.filter((edge) => from < edge && edge < to), to];
+/** Both ends and the divisions between them. @param {number} from @param {number} to @param {number} extent size of the drawing, m */
+function divisions(from, to, extent) {
+  const distances = [];
+  for (let at = FARTHEST_DIVISION; at >= NEAREST_DIVISION * Math.min(extent, 1); at /= DIVISION_RATIO) distances.push(at);
+  const edges = [...distances.map((at) => -at), ...distances.reverse()];
+  return [from, ...edges.filter((edge) => from < edge && edge < to), to];
+}
 
-function rebuild(geometry, pairs, { forward, side, up, half, slick: road }) {
+function rebuild(geometry, pairs, { forward, side, up, half, slick: road, extent }) {
   const positions = [];
   const slick = [];
   const point = ([s, level], aside) => add(add(scale(forward, s), scale(up, level)), scale(side, aside));
-  const asides = divisions(-half, half);
+  const asides = divisions(-half, half, extent);
   for (const { from, to, kerb } of surfaces(pairs)) {
     const rise = (to[1] - from[1]) / (to[0] - from[0]);
-    const stations = divisions(from[0], to[0]).map((s) => (s === to[0] ? to : [s, from[1] + rise * (s - from[0])]));
+    const stations = divisions(from[0], to[0], extent).map((s) => (s === to[0] ? to : [s, from[1] + rise * (s - from[0])]));
     for (let i = 0; i + 1 < stations.length; i++) {
       for (let j = 0; j + 1 < asides.length; j++) {
         const [a, b, right, left] = [stations[i], stations[i + 1], asides[j], asides[j + 1]];
@@ -228,7 +237,8 @@ export function between(values, ny, i, j) {
  * A road on a grid, in pieces; low friction is drawn as water or ice. As for wheels, the heights of its border continue,
  * before and behind as road, at both sides as grass; around it is lower grass.
  */
-function grid(road, { up, road: material, grass }) {
+function grid(road, looks) {
+  const { up, road: material, grass } = looks;
   const [nx, ny] = road.shape;
   const [dx, dy] = road.spacing;
   const heights = floats(road.heights);
@@ -267,7 +277,7 @@ function grid(road, { up, road: material, grass }) {
   addSheet(aside, material, (value) => slickness(frictions === null ? gripOf(road) : factor * value(frictions)));
   for (const side of [right, left]) addSheet(side, grass, () => [0, 0]);
   const low = heights.reduce((a, b) => Math.min(a, b), Infinity);
-  pieces.push(...unboundedPlane(scale(up, low - 0.15), up, grass, {}));
+  pieces.push(...unboundedPlane(scale(up, low - 0.15), up, grass, {}, looks));
   return pieces;
 }
 

@@ -9,29 +9,22 @@ import { Shell } from "../shell/shell.js";
 import { decodePage } from "../sources/decode.js";
 import { extremesOf } from "../sources/extremes.js";
 import { Recordings } from "../sources/recordings.js";
+import { spread } from "../sources/sampler.js";
 import { fromHash, toHash } from "./link.js";
 import { Traces } from "./traces.js";
 
 const MAX_INTERVAL = 0.5; // s of the run at real time: longest interval within a trail
 const SCANNED_TIMES = 200; // number of times at which ranges are determined
 
-/**
- * Makes the page from its data.
- * @param {HTMLElement} container an element with a size
- * @param {Data} page JSON as viewer/page_file.py writes it; the first run is drawn solid, others as ghosts
- * @returns {Player}
- */
-export const playPage = (container, page) => new Player(container, page);
-
-/** A page of recordings; what programs use is in docs/animation.md. */
-class Player extends Shell {
+/** A page of recordings, the first drawn solid, others as ghosts; what programs use is in docs/animation.md. */
+export class Player extends Shell {
   /** @type {SceneView[]} */
   _drawn = [];
   _wrong = "";
   /** @type {{traces: Traces, sampler: import("../sources/sampler.js").Sampler}[]} */
   drawnRuns = [];
 
-  /** @param {HTMLElement} container @param {Data} page */
+  /** @param {HTMLElement} container an element with a size @param {Data} page JSON as viewer/page_data.py writes it */
   constructor(container, page) {
     super(container, page.options);
     /** Resolved when the first picture or an error is shown. */
@@ -200,9 +193,8 @@ class Player extends Shell {
   /** Samples the run for constant floor height and scales of arrows and colours. */
   _scan() {
     const { t, columns } = this.runs[this.solid];
-    const times = Math.min(t.length, SCANNED_TIMES);
-    const sample = (i) => (times > 1 ? Math.round((i * (t.length - 1)) / (times - 1)) : 0);
-    this.view.scan((i) => (name) => columns[name]?.data[sample(i)], times);
+    const samples = spread(t.length, SCANNED_TIMES);
+    this.view.scan((i) => (name) => columns[name]?.data[samples[i]], samples.length);
     this._lower(this.runs[this.solid], this.view);
     for (const { run, drawn } of this.ghosts) this._lower(run, drawn);
   }
@@ -217,10 +209,10 @@ class Player extends Shell {
   _controls() {
     this._addNames();
     for (const note of [...this.notes, ...this._spans(), ...(this.wrong ? [this.wrong] : [])]) this.notices.note(note);
-    const { scene, columns = {} } = this.runs[this.solid] ?? {};
+    const { scene, columns = {}, constants = {} } = this.runs[this.solid] ?? {};
     const names = new Set(Object.keys(columns));
     if (!this.problem && Instruments.of(names)) {
-      this.instruments = new Instruments(names, { scene });
+      this.instruments = new Instruments(names, { scene, fixed: (name) => constants[name] });
       this.viewBox.append(this.instruments.layer());
     }
     const plotsOnly = this.solid < 0;

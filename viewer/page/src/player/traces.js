@@ -7,6 +7,7 @@ import { Wheels } from "../effects/wheels.js";
 import { groundHeight } from "../looks/road_height.js";
 import { Frames } from "../scene/frames.js";
 import { add, dot, finite, length, scale, subtract } from "../scene/math.js";
+import { spread } from "../sources/sampler.js";
 
 const MAX_POINTS = 4000; // points of a path
 const MIN_WIDTH = 1.5; // least width of the path of the reference point, pixels
@@ -40,14 +41,8 @@ export class Traces {
   /** @param {Data} scene @param {{tint: string, under: number}} [ghost] */
   _paths(scene, { tint, under } = { tint: "", under: 0 }) {
     const { view, run } = this;
-    const count = Math.min(run.t.length, MAX_POINTS);
-    const instants = Array.from({ length: count }, (_, k) => (count > 1 ? Math.round((k * (run.t.length - 1)) / (count - 1)) : 0));
-    const { move, feet } = feetOf(scene, this.lookups, view);
-    const ways = waysOf(move, instants, feet);
-    if (ways[0].points.length < 2) return;
-    const largestDistance = ways[0].points.reduce((most, point) => Math.max(most, length(subtract(point, ways[0].points[0]))), 0);
-    if (largestDistance < view.extent) return; // no motion
-    this.way = ways[0].points;
+    const ways = groundPaths(scene, run.t.length, this.lookups, view);
+    this.way = ways[0]?.points ?? [];
     ways.forEach(({ points, at }, k) => {
       if (points.length < 2) return;
       const which = k === 0 ? 0 : 1;
@@ -81,11 +76,20 @@ export class Traces {
 }
 
 /**
- * The points whose paths are drawn: the reference point, projected to the ground, and the contacts of wheels.
- * @param {Data} scene @param {(i: number) => (name: string) => number | undefined} lookups @param {import("../scene/scene_view.js").SceneView} view
- * @returns {{move: (i: number) => void, feet: (() => number[] | null)[]}}
+ * Paths of the reference point, projected to the ground, and of the contacts of wheels, see `waysOf`.
+ * @param {Data} scene @param {number} count of the times @param {(i: number) => (name: string) => number | undefined} lookups @param {Data} view the SceneView
+ * @returns {ReturnType<typeof waysOf>} none if the focus does not move
  */
-export function feetOf(scene, lookups, view) {
+export function groundPaths(scene, count, lookups, view) {
+  if (!scene.focus || scene.planar) return [];
+  const { move, feet } = feetOf(scene, lookups, view);
+  const ways = waysOf(move, spread(count, MAX_POINTS), feet);
+  const [{ points }] = ways;
+  return points.some((point) => length(subtract(point, points[0])) >= view.extent) ? ways : [];
+}
+
+/** The points whose paths are drawn at a time that `move` sets. */
+function feetOf(scene, lookups, view) {
   const { up, floor } = view;
   const frames = new Frames(scene);
   const tyreWheels = new Wheels(scene).list;

@@ -4,8 +4,18 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { across, add, cross, dot, perpendicular, rotate, scale, subtract, unit } from "./math.js";
 import { TrailingDirection } from "./trailing_direction.js";
 
-/** Position of the eyes of the driver behind and above the centre of the steering wheel, m. */
-const EYE_POSITION = [0.48, 0.24];
+/** Positions of cameras and points at which they look, in sizes of the followed body: ahead, to the left, up. */
+const VIEWS = { chase: [[-1.6, 0, 0.42], [0.6, 0, 0.06]], side: [[0, -2.1, 0.14], [0, 0, 0]], top: [[0, 0, 4], [0, 0, 0]] };
+/** The same of the camera at a wheel, from its centre, for one at the front left. */
+const WHEEL_VIEW = [[0.34, 0.2, 0.04], [0, -0.03, 0]];
+/** Directions of the free camera at the start, ahead, to the left and up, and of the fixed one from the path, to the right and up. */
+const [FREE_DIRECTION, FIXED_DIRECTION] = [[0.78, -1, 0.34], [0.94, 0.34]];
+/** Position of the eyes of the driver behind and above the centre of the steering wheel, and of the point at which they look from them, m. */
+const [EYE_POSITION, EYE_TARGET] = [[-0.48, 0.24], [10, -0.9]];
+/** Least distance of the drawn from a camera and least and usual largest one, in sizes of the drawing; least largest one, m. */
+const [NEAR, FAR, MIN_FAR] = [4e-3, 400, 3000];
+/** Least and largest angle of view of a trackside camera, degrees, and half the width that it shows, in sizes of the body. */
+const [NARROWEST, WIDEST, TRACKSIDE_WIDTH] = [6, 60, 0.7];
 /** Least height of the chase camera above the ground, as a share of the size of the drawing. */
 const CLEARANCE = 0.14;
 const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40, fixed: 40, trackside: 30 };
@@ -20,13 +30,16 @@ const [CAMERA_SPACING, PATH_DISTANCE] = [10, 3];
 /** Turn, rad, and shift, pixels, of the free camera by a key, and the factor of its distance. */
 const [KEY_TURN, KEY_SHIFT, KEY_ZOOM] = [Math.PI / 36, 40, 0.9];
 
+/** Vector of components along three axes. @param {number[][]} axes @param {number[]} components */
+const along = (axes, components) => axes.map((axis, k) => scale(axis, components[k])).reduce(add);
+
 /** The cameras of a view, with positions relative to the origin of the picture. */
 export class Cameras {
   /** @param {Data} view the SceneView @param {HTMLElement} element receives mouse and touch events */
   constructor(view, element) {
     this.view = view;
     const { extent, up, scene } = view;
-    const [near, far] = [extent * 4e-3, Math.max(extent * 400, 3000)];
+    const [near, far] = [NEAR * extent, Math.max(FAR * extent, MIN_FAR)];
     this.rig = new THREE.PerspectiveCamera(VIEW_ANGLES.orbit, 1, near, far);
     this.free = scene.planar ? new THREE.OrthographicCamera(-1, 1, 1, -1, -far, far) : new THREE.PerspectiveCamera(VIEW_ANGLES.orbit, 1, near, far);
     this.free.up.fromArray(up);
@@ -74,7 +87,7 @@ export class Cameras {
     const right = rightOf(path[0], path[path.length - 1]);
     const centre = scale(add(low, high), 0.5);
     const reach = Math.hypot(...subtract(high, low)) / 2 + extent;
-    this.fixed = { centre, reach, path, extent, from: unit(add(scale(right, 0.94), scale(up, 0.34))) };
+    this.fixed = { centre, reach, path, extent, from: unit(add(scale(right, FIXED_DIRECTION[0]), scale(up, FIXED_DIRECTION[1]))) };
     this.posts = [];
     let last = null;
     for (const point of path) {
@@ -114,8 +127,8 @@ export class Cameras {
   _showFromTrack() {
     const { extent, view: { up, origin } } = this; // prettier-ignore
     const from = this.posts.map((post) => subtract(post, origin)).reduce((a, b) => (Math.hypot(...a) <= Math.hypot(...b) ? a : b));
-    const angle = (2 * Math.atan((0.7 * extent) / Math.hypot(...from)) * 180) / Math.PI;
-    this._angle(Math.min(60, Math.max(6, angle)));
+    const angle = (2 * Math.atan((TRACKSIDE_WIDTH * extent) / Math.hypot(...from)) * 180) / Math.PI;
+    this._angle(Math.min(WIDEST, Math.max(NARROWEST, angle)));
     this._look(from, [0, 0, 0], up);
   }
 
@@ -153,25 +166,24 @@ export class Cameras {
   /** Moves the free camera to its initial position, unless the user has moved it. */
   home() {
     if (this.moved) return;
-    const { extent, up, scene } = this.view;
+    const { extent, scene } = this.view;
     if (scene.planar) {
       this.free.position.set(0, 0, extent);
     } else {
-      const [left, forward] = this._axes();
-      const from = unit(add(add(scale(forward, 0.78), scale(left, -1)), scale(up, 0.34)));
+      const from = unit(along(this._axes(), FREE_DIRECTION));
       const half = (VIEW_ANGLES.orbit / 2) * (Math.PI / 180);
       this.free.position.fromArray(scale(from, (0.98 * this.view.radius) / Math.sin(half * Math.min(1, this.aspect))));
     }
     this.free.lookAt(0, 0, 0);
   }
 
-  /** Horizontal unit vectors to the left and forward of the followed body. */
+  /** Unit vectors of the followed body: horizontal forward and to the left, and up. */
   _axes() {
     const { up, scene, parts } = this.view;
     const { rotation, shown } = parts.frames.pose(scene.focus || "ground");
     const x = shown ? rotate(rotation, [1, 0, 0]) : [1, 0, 0];
     const forward = perpendicular(x, up) ?? across(up);
-    return [cross(up, forward), forward];
+    return [forward, cross(up, forward), up];
   }
 
   /** Chooses a camera. @param {string} name */
@@ -190,31 +202,25 @@ export class Cameras {
   /** Moves the camera with the followed body. */
   follow() {
     if (this.name === "orbit") return;
-    const { up } = this.view;
-    const { extent } = this;
-    const [left, forward] = this._axes();
-    const mix = (ahead, aside, above) => add(add(scale(forward, ahead * extent), scale(left, aside * extent)), scale(up, above * extent));
-    const north = Math.abs(up[1]) > 0.7 ? [0, 0, -1] : [0, 1, 0];
-    if (this.name === "chase") this._chase(forward);
-    else if (this.name === "side") this._look(mix(0, -2.1, 0.14), [0, 0, 0], up);
-    else if (this.name === "top") this._look(scale(up, 4 * extent), [0, 0, 0], north);
+    if (this.name in VIEWS) this._showBody();
     else if (this.name === "driver") this._showFromDriver();
     else if (this.name === "fixed") this._showPath();
     else if (this.name === "trackside") this._showFromTrack();
     else this._showWheel(this.wheels.find((frame) => this._wheelName(frame) === this.name));
   }
 
-  /** Chase camera behind the followed body, above the ground. */
-  _chase(forward) {
-    const { extent, view: { up, origin, look } } = this; // prettier-ignore
-    const direction = this.trailing.along(forward, up);
-    const offset = (ahead, above) => add(scale(direction, ahead * extent), scale(up, above * extent));
-    const from = offset(-1.6, 0.42);
-    if (look?.height && up[2] > 0.9) {
+  /** Camera at a distance from the followed body: behind it and above the ground, beside it, above it. */
+  _showBody() {
+    const { extent, name, view: { up, origin, look } } = this; // prettier-ignore
+    const axes = this._axes();
+    if (name === "chase") axes[0] = this.trailing.along(axes[0], up);
+    const [from, at] = VIEWS[name].map((place) => scale(along(axes, place), extent));
+    if (name === "chase" && look?.height && up[2] > 0.9) {
       const [x, y, z] = add(origin, from);
       from[2] += Math.max(0, look.height(x, y) + CLEARANCE * extent - z);
     }
-    this._look(from, offset(0.6, 0.06), up);
+    const north = Math.abs(up[1]) > 0.7 ? [0, 0, -1] : [0, 1, 0];
+    this._look(from, at, name === "top" ? north : up);
   }
 
   _look(from, at, up) {
@@ -230,8 +236,9 @@ export class Cameras {
     const wheel = parts.frames.point(this.seat.frame, this.seat.at ?? [0, 0, 0]);
     if (wheel === null) return;
     const axes = [0, 1, 2].map((k) => [rotation[k], rotation[3 + k], rotation[6 + k]]);
-    const eye = add(subtract(wheel, origin), add(scale(axes[0], -EYE_POSITION[0]), scale(axes[2], EYE_POSITION[1])));
-    this._look(eye, add(eye, add(scale(axes[0], 10), scale(axes[2], -0.9))), axes[2]);
+    const beside = (from, place) => add(from, along(axes, [place[0], 0, place[1]]));
+    const eye = beside(subtract(wheel, origin), EYE_POSITION);
+    this._look(eye, beside(eye, EYE_TARGET), axes[2]);
   }
 
   /** Whether the eyes of the driver are in a ghost, which would tint the whole picture. @param {import("./parts.js").Parts} ghost */
@@ -245,15 +252,12 @@ export class Cameras {
   /** Camera at a wheel and its suspension, from the front and outside. */
   _showWheel(frame) {
     const { parts, up, origin } = this.view;
-    const { extent } = this;
     const place = parts.frames.point(frame, [0, 0, 0]);
     if (place === null) return;
     const at = subtract(place, origin);
-    const [left, forward] = this._axes();
-    const out = dot(at, left) >= 0 ? 1 : -1;
-    const front = dot(at, forward) >= 0 ? 1 : -1;
-    const from = add(at, add(add(scale(forward, 0.34 * front * extent), scale(left, 0.2 * out * extent)), scale(up, 0.04 * extent)));
-    this._look(from, subtract(at, scale(left, 0.03 * out * extent)), up);
+    const outward = this._axes().map((axis) => (dot(at, axis) >= 0 || axis === up ? axis : scale(axis, -1)));
+    const [from, target] = WHEEL_VIEW.map((offset) => add(at, scale(along(outward, offset), this.extent)));
+    this._look(from, target, up);
   }
 
   resize(width, height) {

@@ -22,7 +22,7 @@ const COINCIDENCE_DISTANCE = 0.01;
 export class Parts {
   /**
    * @param {Data} scene
-   * @param {{ghost?: boolean, tint?: string, opacity?: number, over?: Parts, size?: number, tell: (sentence: string) => void}} options
+   * @param {{ghost?: boolean, tint?: string, over?: Parts, size?: number, tell: (sentence: string) => void}} options
    *   parts of a ghost are hidden where they coincide with those of `over`, in a drawing of this `size`, m
    */
   constructor(scene, options) {

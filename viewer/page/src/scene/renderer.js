@@ -16,10 +16,11 @@ function drawsBySoftware(gl) {
 /**
  * Makes a renderer with its canvas.
  * @param {HTMLElement} container
- * @param {{antialias?: boolean, keep?: boolean}} options keep: whether the picture can be read after it is drawn
+ * @param {{smooth?: boolean, keep?: boolean}} options smooth: edges, which are smooth with a graphics card in any case; keep: whether
+ *   the picture can be read after it is drawn
  * @returns {{renderer?: THREE.WebGLRenderer, software?: boolean, problem?: string}}
  */
-export function makeRenderer(container, { antialias, keep = false }) {
+export function makeRenderer(container, { smooth = false, keep = false }) {
   const style = "display:block;width:100%;height:100%;touch-action:none";
   const canvas = el("canvas", { style });
   // The context is created here, because three.js would write an error to the console if there is none.
@@ -31,7 +32,7 @@ export function makeRenderer(container, { antialias, keep = false }) {
     if (probe === null) return { problem: NO_WEBGL };
     software = drawsBySoftware(probe);
     probe.getExtension("WEBGL_lose_context")?.loseContext();
-    const settings = { antialias: antialias ?? !software, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: keep };
+    const settings = { antialias: smooth || !software, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: keep };
     gl = /** @type {WebGL2RenderingContext | null} */ (canvas.getContext("webgl2", settings));
   } catch {
     gl = null;

@@ -20,7 +20,6 @@ export class SceneView {
    * @param {string} [options.quality] of QUALITIES in looks/picture_quality.js; auto: by the measured drawing time
    * @param {boolean} [options.driven] pictures follow a simulation in real time: auto may choose a draft
    * @param {string} [options.camera] the first camera
-   * @param {boolean} [options.antialias] smooth edges; by default with a graphics card, on boards and in high quality
    * @param {boolean} [options.words] legend of the grid, by default true
    * @param {number} [options.lift] upward shift of the picture as a share of its height
    * @param {number} [options.trail] time constant of the chase camera in turns, s; by default 0
@@ -47,10 +46,7 @@ export class SceneView {
       this._fail(wrong);
       return;
     }
-    const { renderer, software, problem } = makeRenderer(container, {
-      antialias: options.antialias ?? (options.quality === "high" || scene.planar ? true : undefined),
-      keep: options.keep,
-    });
+    const { renderer, software, problem } = makeRenderer(container, { smooth: options.quality === "high" || scene.planar, keep: options.keep });
     if (problem !== undefined) {
       this._fail(problem);
       return;
@@ -193,7 +189,7 @@ export class SceneView {
   /**
    * Adds another run as a transparent ghost, with an `update` as that of the view.
    * @param {Data} scene
-   * @param {{tint?: string, opacity?: number, name?: string}} [options]
+   * @param {{tint?: string, name?: string}} [options]
    * @returns {{update: Function, remove: Function, lower: Function}} `lower` as that of the view
    */
   addGhost(scene, options = {}) {

@@ -6,7 +6,7 @@ const MAX_PAUSE = 1;
 
 /** A horizontal direction with a lag. */
 export class TrailingDirection {
-  /** @param {number} lag - Time constant, s; 0: none. @param {() => number} [clock] - s. */
+  /** @param {number} lag time constant, s; 0: none @param {() => number} [clock] s */
   constructor(lag, clock = () => performance.now() / 1000) {
     this.lag = lag;
     this.clock = clock;
@@ -16,9 +16,9 @@ export class TrailingDirection {
 
   /**
    * Current direction.
-   * @param {number[]} forward - Followed horizontal unit vector.
-   * @param {number[]} up - Unit vector.
-   * @returns {number[]} Horizontal unit vector.
+   * @param {number[]} forward followed horizontal unit vector
+   * @param {number[]} up unit vector
+   * @returns {number[]} horizontal unit vector
    */
   along(forward, up) {
     if (!(this.lag > 0)) return forward;

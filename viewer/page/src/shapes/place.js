@@ -1,4 +1,4 @@
-// Sets poses of objects of three.js.
+// Sets poses of objects of three.js, and numbers at their points.
 import * as THREE from "three";
 import { across, cross, fromColumns, subtract, toQuaternion, unit } from "../scene/math.js";
 
@@ -45,4 +45,15 @@ export function shaded(object) {
     if (part instanceof THREE.Mesh) part.castShadow = part.receiveShadow = true;
   });
   return object;
+}
+
+/** Sets the numbers of an attribute; a buffer of the same size is reused. */
+export function setNumbers(geometry, name, numbers, size = 3) {
+  const attribute = geometry.getAttribute(name);
+  if (attribute?.array.length === numbers.length) {
+    attribute.array.set(numbers);
+    attribute.needsUpdate = true;
+  } else {
+    geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(numbers), size));
+  }
 }

@@ -1,7 +1,7 @@
 // Thin plates.
 import * as THREE from "three";
 import { across, add, cross, dot, fromColumns, length, subtract, unit } from "../scene/math.js";
-import { turn } from "./place.js";
+import { setNumbers, turn } from "./place.js";
 import { roundTubes } from "./tube.js";
 
 /** Normal of a polygon (Newell's method); null if the points are on a line. @param {number[][]} points */
@@ -61,18 +61,7 @@ function write(geometry, corners, triangles, half) {
       }
     }
   }
-  set(geometry, "position", positions);
-  set(geometry, "normal", normals);
+  setNumbers(geometry, "position", positions);
+  setNumbers(geometry, "normal", normals);
   geometry.computeBoundingSphere();
-}
-
-/** Sets the numbers of an attribute; a buffer of the same size is reused. */
-export function set(geometry, name, numbers, size = 3) {
-  const attribute = geometry.getAttribute(name);
-  if (attribute?.array.length === numbers.length) {
-    attribute.array.set(numbers);
-    attribute.needsUpdate = true;
-  } else {
-    geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(numbers), size));
-  }
 }

@@ -3,8 +3,7 @@ import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
 import { across, add, cross, dot, fromColumns, length, perpendicular, rotate, scale, subtract, unit } from "../scene/math.js";
 import { coilSurface, coilTriangles } from "./coil.js";
-import { set } from "./plate.js";
-import { stretch, turn } from "./place.js";
+import { setNumbers, stretch, turn } from "./place.js";
 
 /** Defaults of shapes, and dimensions of the seats as shares. */
 const DEFAULTS = shapes.spring;
@@ -37,8 +36,8 @@ export function spring(shape, { materials, frames, rigid = false }) {
     const height = length(subtract(to, from));
     if (!rigid || drawnHeight === 0) {
       const { positions, normals } = coilSurface({ coils, radius, wire }, height);
-      set(geometry, "position", positions);
-      set(geometry, "normal", normals);
+      setNumbers(geometry, "position", positions);
+      setNumbers(geometry, "normal", normals);
       geometry.computeBoundingSphere();
       drawnHeight = height;
     }

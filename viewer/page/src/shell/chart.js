@@ -37,6 +37,13 @@ function timeSpace(low, high) {
   return 20 + CHARACTER * longest(tickTexts([low, high].map((time) => step * Math.round(time / step) + step)));
 }
 
+/** Range of an axis for values, wider than them; about a single value it is a tenth of it to both sides. @param {number | null} low @param {number | null} high @returns {uPlot.Range.MinMax} */
+function heights(low, high) {
+  if (low === null || low !== high) return low === null ? [null, null] : uPlot.rangeNum(low, high, MARGIN, true);
+  const half = MARGIN * Math.abs(low) || 1;
+  return [low - half, low + half];
+}
+
 const AXIS = {
   ...{ stroke: INK, grid: GRID_STYLE, ticks: GRID_STYLE, font: FONT, labelFont: FONT, labelSize: 16 },
   values: (/** @type {uPlot} */ plot, /** @type {number[]} */ ticks) => tickTexts(ticks),
@@ -45,6 +52,7 @@ const LINE = "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid v
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
 const CURSOR_KEY = "ali3"; // common cursor of all diagrams
 const KEY_ZOOM = 0.7; // factor of the shown span of time by a key
+const MARGIN = 0.1; // of the range of an axis beyond its values
 const NULL_RETAIN = 1; // of uPlot.join: retains gaps of a run
 
 /** Text of a number. @param {number} value @returns {string} */
@@ -130,7 +138,7 @@ export class Chart {
       height: 140,
       padding: [6, 16, 0, 0],
       legend: { show: false },
-      scales: { x: { time: false, range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min, max } },
+      scales: { x: { time: false, range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min, max }, y: { range: (plot, low, high) => heights(low, high) } },
       axes: [
         { ...AXIS, label: "time, s", size: 26, space: (plot, axis, low, high) => timeSpace(low, high) },
         { ...AXIS, label: this.unit || "1", size: (plot, labels) => this.axisWidth(plot, 14 + CHARACTER * longest(["   ", ...(labels ?? [])])) },

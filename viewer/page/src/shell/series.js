@@ -34,10 +34,7 @@ export function byUnit(names, columns) {
   return groups;
 }
 
-/**
- * Names that contain all words of a search, in any order.
- * @param {string[]} names @param {string} search
- */
+/** Names that contain all words of a search, in any order. @param {string[]} names @param {string} search */
 export function found(names, search) {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   return names.filter((name) => words.every((word) => name.toLowerCase().includes(word)));

@@ -19,18 +19,18 @@ const WIDE_RATIO = 1.15; // least ratio of width to height for signals beside th
 /**
  * A source of a page: recordings, FMUs that run in it, or a car that another program simulates.
  * @typedef {object} Source
- * @property {[number, number]} range - Times that can be shown, s.
- * @property {boolean} [grows] - Whether the run has no end yet.
- * @property {number} time - Current time, s.
+ * @property {[number, number]} range times that can be shown, s
+ * @property {boolean} [grows] whether the run has no end yet
+ * @property {number} time current time, s
  * @property {boolean} running
- * @property {number} speed - Simulated seconds per second of the clock.
- * @property {number[]} speeds - Selectable speeds.
- * @property {Map<string, string>} columns - Units of all columns by name.
- * @property {(t?: number) => Lookup[]} sample - Values of each run at a time, by default at the current time.
- * @property {(names: string[], span: number) => Data[]} plotted - Runs with times and columns of these names; for a run
+ * @property {number} speed simulated seconds per second of the clock
+ * @property {number[]} speeds selectable speeds
+ * @property {Map<string, string>} columns units of all columns by name
+ * @property {(t?: number) => Lookup[]} sample values of each run at a time, by default at the current time
+ * @property {(names: string[], span: number) => Data[]} plotted runs with times and columns of these names; for a run
  *   that grows, over the last `span` seconds.
- * @property {(source: string, wants: [string, number, number?][]) => void} [want] - Inputs, values, largest changes per second.
- * @property {Object<string, (value?: any) => unknown>} acts - Its actions by the names of the table of keys.
+ * @property {(source: string, wants: [string, number, number?][]) => void} [want] inputs, values, largest changes per second
+ * @property {Object<string, (value?: any) => unknown>} acts its actions by the names of the table of keys
  */
 
 /** A page; derived classes add the pictures. */
@@ -97,7 +97,7 @@ export class Shell {
     this.acts = {
       ...source.acts,
       camera,
-      ...cameraActs({ names: () => this.cameras, all: this.cameras, now: () => this.cameraName, choose: camera }),
+      ...cameraActs(this.cameras, () => this.cameraName, camera),
       ...Object.fromEntries(switches.map((effect) => [effect, () => this.setLook({ [effect]: !this.look[effect] })])),
       panels: () => this.side(!this.sideOpen),
       settings: () => this.settings.toggle(),

@@ -19,10 +19,7 @@ const NO_DEVICES = "No steering wheel, pedals or gamepad is plugged in at the co
 
 /** The panel. `element` goes into the page; `show` updates it with the host's message “devices”. */
 export class CalibrationPanel {
-  /**
-   * @param {object} options
-   * @param {(message: Data) => void} options.send - Takes messages to the host.
-   */
+  /** @param {object} options @param {(message: Data) => void} options.send takes messages to the host */
   constructor({ send }) {
     styled(style);
     this._send = send;
@@ -32,10 +29,7 @@ export class CalibrationPanel {
     this.element = section("Devices", true, el("div.a3-devices", {}, this._list));
   }
 
-  /**
-   * Show the devices that are plugged in.
-   * @param {Data[]} devices - As in the host's message “devices”.
-   */
+  /** Shows the devices that are plugged in. @param {Data[]} devices as in the host's message “devices” */
   show(devices) {
     const ids = new Set(devices.map(({ id }) => id));
     for (const [id, part] of this._parts) {
@@ -68,7 +62,7 @@ class DevicePart {
     this.element = el("details.a3-section", { open: true }, this._title, this._body);
   }
 
-  /** Show a new state of the device. @param {Data} device */
+  /** Shows a new state of the device. @param {Data} device */
   show(device) {
     this.device = device;
     const shape = shapeOf(device);
@@ -87,7 +81,7 @@ class DevicePart {
     this._update(device);
   }
 
-  /** Send a message about this device. */
+  /** Sends a message about this device. */
   _sendMessage(type, more = {}) {
     this._send({ type, device: this.device.id, ...more });
   }

@@ -30,10 +30,10 @@ const TRAIL_TIME = 0.18;
 /** The page of one car. */
 export class Cockpit extends Shell {
   /**
-   * @param {HTMLElement} container - Its content is replaced.
-   * @param {Data} hello - First message of the program, with the world's roads and scenery in its scene.
+   * @param {HTMLElement} container its content is replaced
+   * @param {Data} hello first message of the program, with the world's roads and scenery in its scene
    * @param {import("./link.js").Link} link
-   * @param {() => number} clock - s.
+   * @param {() => number} clock s
    */
   constructor(container, hello, link, clock) {
     super(container, { kind: ".a3-sim" });
@@ -64,7 +64,7 @@ export class Cockpit extends Shell {
     return { drawn: this._beat.rate, size, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
   }
 
-  /** Take in a received frame. @param {any} frame - Result of `readFrame`. */
+  /** Takes in a received frame. @param {any} frame Result of `readFrame` */
   add(frame) {
     const restarted = this.source.add(frame, this._clock());
     this.notices.flag("lost", "");
@@ -74,7 +74,7 @@ export class Cockpit extends Shell {
     if (restarted) this._restart();
   }
 
-  /** Go on after the connection was lost. @param {string} recording - File of the program; empty: none. */
+  /** Goes on after the connection was lost. @param {string} recording file of the program; empty: none */
   resume(recording) {
     this._refusal = { time: Infinity, text: "" };
     this._factors = new Factor();
@@ -87,7 +87,7 @@ export class Cockpit extends Shell {
     this.side(this.sideOpen); // the program may be another one
   }
 
-  /** Forget what leads to the present state of the car, which was moved or begins anew. */
+  /** Forgets what leads to the present state of the car, which was moved or begins anew. */
   _restart() {
     this.plan.trail.lift();
     this.source.wants.renew();
@@ -98,24 +98,24 @@ export class Cockpit extends Shell {
     write(this._recording, recording ? `Everything is recorded in ${recording}` : "Nothing is recorded.");
   }
 
-  /** Show an event of the program. @param {Data} event - Kind, text and simulated time, s. */
+  /** Shows an event of the program. @param {Data} event kind, text and simulated time, s */
   event({ kind, text, time }) {
     if (kind === "refused") this._refusal = { time, text };
     else this.tell(text);
   }
 
-  /** Show the input devices of the program. @param {Data[]} devices */
+  /** Shows the input devices of the program. @param {Data[]} devices */
   devices(devices) {
     this._hostDevices = devices;
     this._devices.show(devices);
   }
 
-  /** Show that the connection is lost. @param {string} sentence */
+  /** Shows that the connection is lost. @param {string} sentence */
   lost(sentence) {
     this.notices.flag("lost", sentence, FAULT);
   }
 
-  /** Draw one picture; the page calls this for each of its own. */
+  /** Draws one picture; the page calls this for each of its own. */
   draw() {
     const now = this._clock();
     const shown = this.source.at(now);
@@ -125,11 +125,10 @@ export class Cockpit extends Shell {
     this._stalled = stalled;
     const [lookup] = this.source.sample();
     const car = this.instruments.car(lookup);
-    const unchanged = before === this._before && after === this._after && share === this._share;
-    this._before = before;
-    this._after = after;
-    this._share = share;
-    if (!unchanged || this.dirty) this._drawPicture(lookup, { time, car, epoch: after.epoch });
+    const drawn = [before, after, share];
+    const changed = drawn.some((part, k) => part !== this._drawn?.[k]);
+    this._drawn = drawn;
+    if (changed || this.dirty) this._drawPicture(lookup, { time, car, epoch: after.epoch });
     this.dirty = false;
     this._display(lookup, { frame: this.source.frames.newest, time, stalled, car, now });
   }
@@ -141,7 +140,7 @@ export class Cockpit extends Shell {
     else this.view.render();
   }
 
-  /** Remove the listeners and the picture. */
+  /** Removes the listeners and the picture. */
   dispose() {
     this.effects.dispose();
     this.view.dispose();
@@ -186,7 +185,8 @@ export class Cockpit extends Shell {
     this.has = view.has;
     this.watch(this._picture);
     const rank = (name) => (name.startsWith("wheel") ? FIRST_CAMERAS.length + 1 : FIRST_CAMERAS.includes(name) ? FIRST_CAMERAS.indexOf(name) : FIRST_CAMERAS.length);
-    this.cameras = [...[...view.cameraNames].sort((a, b) => rank(a) - rank(b)), "map"];
+    const cameras = Object.keys(scene.frames ?? {}).length > 0 ? view.cameraNames : []; // else the picture would stand still
+    this.cameras = [...[...cameras].sort((a, b) => rank(a) - rank(b)), "map"];
     const { hello } = this;
     this.effects = new Effects(view, { columns: hello.columns, constants: hello.constants ?? {} }, (sentence) => this.tell(sentence));
   }
@@ -220,7 +220,7 @@ export class Cockpit extends Shell {
     this.effects.start();
   }
 
-  /** Release all inputs when the page is hidden. */
+  /** Releases all inputs when the page is hidden. */
   unseen() {
     this.hands.letKeysGo();
     this.hands.letGamepadGo();

@@ -41,7 +41,7 @@ export function sourcesFor(device, input) {
 
 /**
  * The mapping to request after another source was chosen.
- * @param {Data | undefined} old - The mapping so far.
+ * @param {Data | undefined} old the mapping so far
  * @param {string} source
  * @param {string} input
  * @returns {Data | null}
@@ -82,10 +82,10 @@ export function pressedWords(device) {
 
 /**
  * Left end and length of a bar, in percent of the width of its track.
- * @param {number} value - Where the bar ends.
- * @param {number} low - Value at the left end of the track.
- * @param {number} high - Value at its right end.
- * @param {number} from - Where the bar begins.
+ * @param {number} value where the bar ends
+ * @param {number} low value at the left end of the track
+ * @param {number} high value at its right end
+ * @param {number} from where the bar begins
  */
 export function barOf(value, low, high, from) {
   const place = (v) => (100 * (Math.min(high, Math.max(low, v)) - low)) / (high - low);
@@ -95,7 +95,7 @@ export function barOf(value, low, high, from) {
 
 /**
  * Whether the host already reads a gamepad of the browser, whose inputs would count twice.
- * @param {string} padId - `Gamepad.id`, which contains the USB numbers of vendor and product.
+ * @param {string} padId `Gamepad.id`, which contains the USB numbers of vendor and product
  * @param {{usb?: string}[]} devices
  */
 export function readByHost(padId, devices) {

@@ -11,9 +11,9 @@ const MIN_WAIT = 250;
 const MAX_WAIT = 4000;
 
 /**
- * Read a frame.
+ * Reads a frame.
  * @param {ArrayBuffer} buffer
- * @returns {Data} Epoch, three flags, the other numbers of the header by name, and `values`, a Float64Array in the order of the columns.
+ * @returns {Data} epoch, three flags, the other numbers of the header by name, and `values`, a Float64Array in the order of the columns
  */
 export function readFrame(buffer) {
   const view = new DataView(buffer);
@@ -34,7 +34,7 @@ export function readFrame(buffer) {
   return frame;
 }
 
-/** Decode received data: `frame` or `message`, or `wrong`, the text of an error. @param {string | ArrayBuffer} data @returns {Data} */
+/** Decodes received data: `frame` or `message`, or `wrong`, the text of an error. @param {string | ArrayBuffer} data @returns {Data} */
 function decoded(data) {
   try {
     return typeof data === "string" ? { message: JSON.parse(data) ?? {} } : { frame: readFrame(data) };
@@ -46,10 +46,10 @@ function decoded(data) {
 /** A connection that is opened again after it was lost. */
 export class Link {
   /**
-   * @param {string|URL} url - Of the socket, with the token if there is one.
-   * @param {Data} handlers - `hello`, `frame`, `event`, `report`, `devices`, `refused` get the frame or message of that type;
+   * @param {string|URL} url of the socket, with the token if there is one
+   * @param {Data} handlers `hello`, `frame`, `event`, `report`, `devices`, `refused` get the frame or message of that type;
    *   `closed` gets a sentence and the time to the next attempt, ms.
-   * @param {{WebSocket?: typeof WebSocket, now?: () => number, wait?: (work: () => void, ms: number) => void}} [environment] - Replaced in tests.
+   * @param {{WebSocket?: typeof WebSocket, now?: () => number, wait?: (work: () => void, ms: number) => void}} [environment] replaced in tests
    */
   constructor(url, handlers, environment = {}) {
     this._url = url;
@@ -70,9 +70,9 @@ export class Link {
   }
 
   /**
-   * Send the requests of a source. May be called in every picture: unchanged ones are sent again at an interval only.
+   * Sends the requests of a source. May be called in every picture: unchanged ones are sent again at an interval only.
    * @param {"keys"|"gamepad"|"touch"} source
-   * @param {Object<string, [number, number|null]>} values - By input: value and largest change per second, null for a jump.
+   * @param {Object<string, [number, number|null]>} values by input: value and largest change per second, null for a jump
    */
   want(source, values) {
     const text = JSON.stringify({ type: "want", source, values });
@@ -82,25 +82,17 @@ export class Link {
     if (this._send(text)) this._sent.set(source, { text, at: now });
   }
 
-  /**
-   * Send a command to the car.
-   * @param {string} name
-   * @param {number} [value]
-   */
+  /** Sends a command to the car. @param {string} name @param {number} [value] */
   command(name, value = 0) {
     this.send({ type: "command", name, value });
   }
 
-  /**
-   * Send a message.
-   * @param {Data} message
-   * @returns {boolean} False while the socket is not open.
-   */
+  /** Sends a message. @param {Data} message @returns {boolean} false while the socket is not open */
   send(message) {
     return this._send(JSON.stringify(message));
   }
 
-  /** Close for good. */
+  /** Closes for good. */
   close() {
     this._closed = true;
     this._socket.close();

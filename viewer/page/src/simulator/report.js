@@ -6,7 +6,7 @@ const [WIDTH, HEIGHT, LEFT, BOTTOM] = [300, 150, 40, 26];
 /** Bars per decade. */
 const BARS_PER_DECADE = 12;
 
-/** Counts of bars, by the decimal logarithm of the bar's lower end. @param {[number, number][]} bins - Upper edge, s, and count. */
+/** Counts of bars, by the decimal logarithm of the bar's lower end. @param {[number, number][]} bins upper edge, s, and count */
 function barCounts(bins) {
   const bars = new Map();
   const nonempty = bins.filter(([edge, count]) => count > 0 && edge > 0);
@@ -19,8 +19,8 @@ function barCounts(bins) {
 
 /**
  * A histogram with logarithmic axes.
- * @param {[number, number][]} bins - Upper edge, s (null: no edge), and count.
- * @param {number} deadline - Length of a step, s.
+ * @param {[number, number][]} bins upper edge, s (null: no edge), and count
+ * @param {number} deadline length of a step, s
  * @returns {SVGElement}
  */
 function histogram(bins, deadline) {
@@ -72,13 +72,13 @@ function label(x, y, text, anchor = "middle") {
 
 /** The panel of the report. */
 export class Report {
-  /** @param {() => void} ask - Requests a report from the program. */
+  /** @param {() => void} ask requests a report from the program */
   constructor(ask) {
     this._body = el("div", { data: "report" }, el("p.a3-hint", {}, "The times of all steps so far: press the button."));
     this.element = el("div", {}, button("ask report", "Report now", ask, "times of the steps of this run"), this._body);
   }
 
-  /** Show a report of the program. @param {Data} report - Times in s. */
+  /** Shows a report of the program. @param {Data} report times in s */
   show({ step, steps, simulated, wall, missed, missed_by: by, skipped = 0, cost, lateness }) {
     if (!steps) return this._body.replaceChildren(el("p.a3-hint", {}, "No step was computed yet."));
     const quantiles = ({ median, p99, p999, largest }) => `${[median, p99, p999, largest].map(milliseconds).join(" · ")} ms`;

@@ -8,20 +8,10 @@ import style from "./style.css";
 /** The clock of the page, s. */
 const pageTime = () => performance.now() / 1000;
 
-/**
- * Fill an element with the simulator.
- * @param {HTMLElement} container
- * @param {{url?: string, token?: string}} [options] - `url`: of the WebSocket, by default `/drive` of this page's host.
- * @returns {Simulator}
- */
-export function simulate(container, options = {}) {
-  return new Simulator(container, options);
-}
-
 /** A page of the simulator; `cockpit` is null until the program has described its car. */
-class Simulator {
-  /** @param {HTMLElement} container @param {{url?: string, token?: string}} options */
-  constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" }) {
+export class Simulator {
+  /** @param {HTMLElement} container @param {{url?: string, token?: string}} [options] `url`: of the WebSocket, by default `/drive` of this page's host */
+  constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" } = {}) {
     this.container = container;
     styled(style);
     instead(container, "waiting", "Waiting for the program that drives the car …");
@@ -60,7 +50,7 @@ class Simulator {
     return this.frames?.newest?.values[this.cockpit.source.index.get(name)];
   }
 
-  /** Choose a camera. @param {string} name @returns {string} A sentence if there is none of this name, otherwise empty. */
+  /** Chooses a camera. @param {string} name @returns {string} a sentence if there is none of this name, otherwise empty */
   camera(name) {
     return this.cockpit.camera(name);
   }
@@ -70,7 +60,7 @@ class Simulator {
     return this.cockpit?.flow();
   }
 
-  /** Close the connection and empty the container. */
+  /** Closes the connection and empties the container. */
   dispose() {
     this._ended = true;
     this.link.close();
@@ -92,7 +82,7 @@ class Simulator {
     this._resolve(this);
   }
 
-  /** Show a car. One that is shown already stays, with the settings and the focus of its page. @param {Data} hello */
+  /** Shows a car. One that is shown already stays, with the settings and the focus of its page. @param {Data} hello */
   _show(hello) {
     const { recording, ...car } = hello;
     const text = JSON.stringify(car);
@@ -108,7 +98,7 @@ class Simulator {
     if (camera) this.cockpit.camera(camera);
   }
 
-  /** Show an error of the page itself, and throw it so that the browser's console has its stack. */
+  /** Shows an error of the page itself, and throws it so that the browser's console has its stack. */
   _fail(error) {
     this.problem = `This page cannot show the car: ${error.message}`;
     instead(this.container, "problem", this.problem);

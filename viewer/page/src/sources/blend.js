@@ -12,7 +12,7 @@ function angleChange(a, b) {
 }
 
 /**
- * Interpolate between two orientations along the shorter arc; q and -q are the same orientation.
+ * Interpolates between two orientations along the shorter arc; q and -q are the same orientation.
  * @param {number[]} a @param {number[]} b quaternions (w, x, y, z) of any norm but zero
  * @param {number} share of the way from a to b
  * @returns {number[]} unit quaternion
@@ -32,8 +32,8 @@ export class Blend {
   _parts = new Map();
 
   /**
-   * @param {Data | null | undefined} scene - Its frames say which columns are angles and quaternions.
-   * @param {Iterable<{name: string, unit?: string, type?: string}>} [variables] - Those in rad are angles too; those of the type
+   * @param {Data | null | undefined} scene its frames say which columns are angles and quaternions
+   * @param {Iterable<{name: string, unit?: string, type?: string}>} [variables] those in rad are angles too; those of the type
    *   Integer are taken from the nearer row.
    */
   constructor(scene, variables = []) {

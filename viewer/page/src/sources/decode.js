@@ -4,7 +4,7 @@ import { missingParts } from "../common/browser_support.js";
 
 /**
  * @typedef {{scene: Data | null, t: Float64Array, epoch: ArrayLike<number>, columns: Object<string, {unit: string, data: ArrayLike<number>}>,
- *   name: string, notes: string[], missing: {name: string, why: string}[]}} Run
+ *   name: string, notes: string[], missing: {name: string, why: string}[], constants?: Object<string, number>}} Run
  */
 
 /**
@@ -31,12 +31,12 @@ async function columnsOf(block) {
 }
 
 /** A run from its JSON. @param {Data} run @param {Data[]} scenes of the page @returns {Promise<Run>} */
-async function decodeRun({ scene, time, blocks, order, units, name, notes, missing }, scenes) {
+async function decodeRun({ scene, time, blocks, order, units, name, notes, missing, constants }, scenes) {
   const [times, ...parts] = await Promise.all([time, ...blocks].map(columnsOf));
   const arrays = new Map(parts.flatMap((part) => [...part]));
   const columns = Object.create(null);
   for (const column of order) columns[column] = { unit: units[column] ?? "", data: arrays.get(column) };
-  return { scene: scene === null ? null : scenes[scene], t: /** @type {Float64Array} */ (times.get("time")), epoch: times.get("epoch"), columns, name, notes, missing };
+  return { scene: scene === null ? null : scenes[scene], t: /** @type {Float64Array} */ (times.get("time")), epoch: times.get("epoch"), columns, name, notes, missing, constants };
 }
 
 /**

@@ -1,10 +1,9 @@
 // FMUs that run in the tab, as a source of a page (see `Source` in shell/shell.js): connects the worker with the page.
-import { Desk } from "../live/desk.js";
 import { heldVariables, outputNames } from "../live/engine.js";
 import { between, Record } from "../live/record.js";
 import { speedActions, unitsOf } from "./source_actions.js";
 import { Blend } from "./blend.js";
-import { clock } from "../live/worker.js";
+import { clock, startWorker } from "../live/worker.js";
 
 /** Delay of the picture behind the run, so that there is a row before and after it, s. */
 const DELAY = 0.03;
@@ -20,9 +19,9 @@ export class Session {
   speeds = [0.02, 0.1, 0.25, 0.5, 1, 2, 5];
 
   /**
-   * @param {Data[]} fmus - `{description, wasm, resources, title}` with unpacked bytes.
-   * @param {Data} options - `step`, `start`, `script` (inputs over time), `places` (start values by name).
-   * @param {Data} listeners - Functions: started, refused, message, error, back, moved (another instant is to be shown), ran.
+   * @param {Data[]} fmus `{description, wasm, resources, title}` with unpacked bytes
+   * @param {Data} options `step`, `start`, `script` (inputs over time), `places` (start values by name)
+   * @param {Data} listeners functions: started, refused, message, error, back, moved (another instant is to be shown), ran
    */
   constructor(fmus, options, listeners) {
     const descriptions = fmus.map((f) => f.description);
@@ -53,8 +52,7 @@ export class Session {
       ...(options.places ? { place: (name) => this.again({ ...this.start, ...options.places[name] }) } : {}),
     };
     this._newRecord();
-    this._desk = new Desk((message) => this._receive(message));
-    this.threaded = this._desk.threaded;
+    this._worker = startWorker((message) => this[`_on_${message.is}`](message));
     const parts = fmus.map(({ description, wasm, resources }) => ({ description, wasm, resources }));
     const { script } = options;
     this.ready = this._ask("started", { do: "open", fmus: parts, step: this.step, start: this.start, script });
@@ -80,28 +78,28 @@ export class Session {
     return this._last;
   }
 
-  /** Run; from the shown instant if it is an earlier one. @param {number} [speed] - Simulated seconds per second. */
+  /** Run; from the shown instant if it is an earlier one. @param {number} [speed] simulated seconds per second */
   async run(speed = this.speed) {
     await this._leaveScrubbed();
     this.speed = speed;
     this.running = true;
     this._last = Math.min(this.end, this._last);
-    this._desk.send({ do: "run", speed });
+    this._worker.postMessage({ do: "run", speed });
     this._listeners.ran();
   }
 
-  /** Go back to the shown instant, if it is an earlier one. */
+  /** Goes back to the shown instant, if it is an earlier one. */
   async _leaveScrubbed() {
     if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
   }
 
-  /** Pause the run. */
+  /** Pauses the run. */
   pause() {
     this.running = false;
     return this._ask("paused", { do: "pause" });
   }
 
-  /** Compute some communication steps, then pause. @param {number} [count] */
+  /** Computes some communication steps, then pauses. @param {number} [count] */
   async advance(count = 1) {
     await this._leaveScrubbed();
     this.running = false;
@@ -109,7 +107,7 @@ export class Session {
     this._listeners.moved();
   }
 
-  /** Restart, with other start values or another communication step if they are given, and continue if it was running. */
+  /** Restart, with other start values or another communication step if they are given, and continues if it was running. */
   async again(start = this.start, step = this.step) {
     const { running } = this;
     Object.assign(this, { start: { ...start }, step, running: false, scrubbed: null });
@@ -121,7 +119,7 @@ export class Session {
     }
   }
 
-  /** Go back, and continue if it was running. @param {number} seconds - Simulated time. */
+  /** Goes back, and continues if it was running. @param {number} seconds simulated time */
   async rewind(seconds) {
     const { running } = this;
     await this.back(Math.max(0, Math.round((this.time - seconds) / this.step)));
@@ -129,34 +127,34 @@ export class Session {
     this._listeners.moved();
   }
 
-  /** Start values whose inner step is not longer than a new communication step. @param {number} step - s. */
+  /** Start values whose inner step is not longer than a new communication step. @param {number} step s */
   _fitting(step) {
     const inner = this.variables.get("step_size");
     const { step_size: _, ...start } = this.start;
     return inner && step < Number(inner.start) ? { ...start, step_size: Math.max(step, inner.min ?? 0) } : start;
   }
 
-  /** Go back to step `k`; later rows are deleted. @param {number} k */
+  /** Goes back to step `k`; later rows are deleted. @param {number} k */
   async back(k) {
     this.running = false;
     this.scrubbed = null;
     await this._ask("back", { do: "back", k });
   }
 
-  /** Pause, and show an earlier instant. @param {number} time - s. */
+  /** Pause, and show an earlier instant. @param {number} time s */
   scrub(time) {
     if (this.running) this.pause();
     this.scrubbed = Math.max(this.oldest, Math.min(time, this.end));
   }
 
-  /** Pass on requests for inputs. @param {string} source @param {[string, number, number?][]} wants - Input, value, largest change per second. */
+  /** Passes on requests for inputs. @param {string} source @param {[string, number, number?][]} wants input, value, largest change per second */
   want(source, wants) {
-    if (wants.length) this._desk.send({ do: "want", wants });
+    if (wants.length) this._worker.postMessage({ do: "want", wants });
   }
 
   /**
-   * Set an input or a parameter: a tunable one at once, a fixed one by a restart of the run.
-   * @returns {Promise<boolean>} Whether the run was restarted.
+   * Sets an input or a parameter: a tunable one at once, a fixed one by a restart of the run.
+   * @returns {Promise<boolean>} whether the run was restarted
    */
   async set(name, value) {
     const variable = this.variables.get(name);
@@ -184,7 +182,7 @@ export class Session {
     return record.csv(comments, [...inputs, ...tuned], outputs);
   }
 
-  /** Lookups of the numbers of each FMU at a time, NaN before the first row, then start values for fixed parameters. @param {number} [time] - s. */
+  /** Lookups of the numbers of each FMU at a time, NaN before the first row, then start values for fixed parameters. @param {number} [time] s */
   sample(time = this.time) {
     return this._bound.map(({ blend, columns, fixed }) => {
       if (this.record.end === 0) return () => NaN;
@@ -193,7 +191,7 @@ export class Session {
     });
   }
 
-  /** Find the columns of the record for the variables of each FMU. */
+  /** Finds the columns of the record for the variables of each FMU. */
   _bind() {
     this._bound = this.fmus.map(({ description: { variables }, scene }, k) => {
       /** @type {[string, number][]} */
@@ -204,7 +202,7 @@ export class Session {
     });
   }
 
-  /** Some columns of each FMU over the last seconds. @param {string[]} names @param {number} span - s. */
+  /** Some columns of each FMU over the last seconds. @param {string[]} names @param {number} span s */
   plotted(names, span) {
     const { record } = this;
     const rows = Number.isFinite(span) ? Math.round(span / this.step) : record.end;
@@ -219,9 +217,9 @@ export class Session {
     });
   }
 
-  /** End the worker. */
+  /** Ends the worker. */
   close() {
-    this._desk.close();
+    this._worker.terminate();
   }
 
   _newRecord() {
@@ -235,17 +233,13 @@ export class Session {
   _ask(answer, message) {
     return new Promise((resolve, reject) => {
       this._pending.set(answer, [...(this._pending.get(answer) ?? []), { resolve, reject }]);
-      this._desk.send(message);
+      this._worker.postMessage(message);
     });
   }
 
   _answer(answer, value) {
     const first = this._pending.get(answer)?.shift();
     first?.resolve(value);
-  }
-
-  _receive(message) {
-    this[`_on_${message.is}`](message);
   }
 
   _on_started({ step, held, outputs }) {
@@ -301,7 +295,7 @@ export class Session {
     this._listeners.error(sentence);
   }
 
-  /** Note the tunable parameters that differ from the row before. */
+  /** Notes the tunable parameters that differ from the row before. */
   _noteTuned(row) {
     const before = this.record.row(this.record.end - 1);
     this.held.forEach((v, i) => {

@@ -34,10 +34,10 @@ export class Frames {
   }
 
   /**
-   * Add a received frame.
-   * @param {Data} frame - From link.js.
-   * @param {number} now - Clock of the page, s.
-   * @returns {boolean} Whether it begins a new epoch.
+   * Adds a received frame.
+   * @param {Data} frame from link.js
+   * @param {number} now clock of the page, s
+   * @returns {boolean} whether it begins a new epoch
    */
   add(frame, now) {
     const before = this.newest;
@@ -64,7 +64,7 @@ export class Frames {
 
   /**
    * The instant of the picture: the frames before and after it, the share of the way between them, and its time, s.
-   * @param {number} now - Clock of the page, s.
+   * @param {number} now clock of the page, s
    * @returns {{before: Data, after: Data, share: number, time: number, stalled: number} | null} `stalled`: time
    *   without a frame, s; 0 while frames arrive.
    */
@@ -103,7 +103,7 @@ export class Frames {
     return { pace, best, leads, listed };
   }
 
-  /** Adapt the delay to how far the newest frame was behind the line just before the next one arrived. */
+  /** Adapts the delay to how far the newest frame was behind the line just before the next one arrived. */
   _adapt({ pace, best, leads, listed }, now) {
     const delays = [];
     for (let k = 1; k < listed.length; k++) {
@@ -126,7 +126,7 @@ export class Beat {
     this._times = [];
   }
 
-  /** Count one event. @param {number} now - s. */
+  /** Counts one event. @param {number} now s */
   tick(now) {
     this._times.push(now);
     while (this._times.length > 2 && now - this._times[1] > 1) this._times.shift();

@@ -21,9 +21,15 @@ export function place(times, t) {
   return [low, (t - times[low]) / (times[high] - times[low])];
 }
 
-/** Interpolate linearly. @param {ArrayLike<number>} data @param {number} k @param {number} share of the way to sample k + 1 */
+/** Interpolates linearly. @param {ArrayLike<number>} data @param {number} k @param {number} share of the way to sample k + 1 */
 export function linear(data, k, share) {
   return share === 0 ? data[k] : data[k] + share * (data[k + 1] - data[k]);
+}
+
+/** Indices of at most `most` of `count` samples, evenly distributed, with the first and the last. @param {number} count @param {number} most */
+export function spread(count, most) {
+  const size = Math.min(count, most);
+  return Array.from({ length: size }, (_, k) => (size > 1 ? Math.round((k * (count - 1)) / (size - 1)) : 0));
 }
 
 /** A run at an instant; `lookup` gives its numbers by name. */
@@ -39,7 +45,7 @@ export class Sampler {
     this.at(run.t[0]);
   }
 
-  /** Go to a time. @param {number} t s @returns {import("../shell/shell.js").Lookup} `lookup`, which from now on gives the numbers of that time */
+  /** Goes to a time. @param {number} t s @returns {import("../shell/shell.js").Lookup} `lookup`, which from now on gives the numbers of that time */
   at(t) {
     const { t: times, epoch, columns } = this.run;
     /** Sample before the instant, and the share of the way to the next. @type {[number, number]} */

@@ -16,7 +16,7 @@ export class Socket {
   _past = [];
   _shown = null;
 
-  /** @param {Data} hello - First message of the program. @param {import("../simulator/link.js").Link} link */
+  /** @param {Data} hello first message of the program @param {import("../simulator/link.js").Link} link */
   constructor({ scene, columns, description, constants = {}, world = {} }, link) {
     const variables = description?.variables ?? [];
     this.index = new Map(columns.map((name, k) => [name, k]));
@@ -57,7 +57,7 @@ export class Socket {
     return [time - saved, time];
   }
 
-  /** Add a received frame. @param {any} frame - Result of `readFrame`. @param {number} now - Clock of the page, s. @returns {boolean} Whether it begins an epoch. */
+  /** Adds a received frame. @param {any} frame Result of `readFrame` @param {number} now clock of the page, s @returns {boolean} whether it begins an epoch */
   add(frame, now) {
     const restarted = this.frames.add(frame, now);
     while (this._past.length && this._past.at(-1).time >= frame.time) this._past.pop();
@@ -66,7 +66,7 @@ export class Socket {
     return restarted;
   }
 
-  /** The instant of the picture, see `Frames.at`; null before the first frame. @param {number} now - Clock of the page, s. */
+  /** The instant of the picture, see `Frames.at`; null before the first frame. @param {number} now clock of the page, s */
   at(now) {
     this._shown = this.frames.at(now);
     return this._shown;
@@ -86,12 +86,12 @@ export class Socket {
     return this._fixed.get(name);
   }
 
-  /** Pass on requests for inputs. @param {string} source @param {[string, number, number?][]} wants - Input, value, largest change per second. */
+  /** Passes on requests for inputs. @param {string} source @param {[string, number, number?][]} wants input, value, largest change per second */
   want(source, wants) {
     this.wants.want(source, wants);
   }
 
-  /** Some columns over the last seconds. @param {string[]} names @param {number} span - s. */
+  /** Some columns over the last seconds. @param {string[]} names @param {number} span s */
   plotted(names, span) {
     const first = (this._past.at(-1)?.time ?? 0) - span;
     const recent = this._past.filter(({ time }) => time >= first);

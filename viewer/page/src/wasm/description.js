@@ -28,7 +28,7 @@ const TYPES = ["Real", "Integer", "Boolean", "String", "Enumeration"];
  */
 
 /**
- * Read or check the description of an FMU.
+ * Reads or checks the description of an FMU.
  * @param {string|Description} source text of modelDescription.xml, which needs a DOMParser, or the object itself
  * @returns {Description}
  */

@@ -40,10 +40,7 @@ export async function loadFmu({ wasm, description, resources = {} }) {
 
 /** A loaded FMU; its instances share one memory. */
 export class Fmu {
-  /**
-   * @param {Data} exports of the module
-   * @param {import("./description.js").Description} description
-   */
+  /** @param {Data} exports of the module @param {import("./description.js").Description} description */
   constructor(exports, description) {
     this.exports = exports;
     this.description = description;
@@ -108,10 +105,7 @@ export class Fmu {
     }
   }
 
-  /**
-   * Messages since the last call, oldest first.
-   * @returns {{status: number, category: string, text: string}[]}
-   */
+  /** Messages since the last call, oldest first. @returns {{status: number, category: string, text: string}[]} */
   takeMessages() {
     const { memory, _box: box } = this;
     const { words } = memory.view();

@@ -77,10 +77,7 @@ export class FmuInstance {
     );
   }
 
-  /**
-   * @param {string} name of a text variable
-   * @returns {string}
-   */
+  /** @param {string} name of a text variable @returns {string} */
   getString(name) {
     const { memory, exports } = this.fmu;
     memory.view().words[this._scratch >>> 2] = this._variable(name, "String").reference;
@@ -182,11 +179,7 @@ export class FmuInstance {
     this._phase = state.phase ?? (this._started ? "running" : "new");
   }
 
-  /**
-   * A state as bytes, the same on every platform.
-   * @param {FmuState} state
-   * @returns {Uint8Array}
-   */
+  /** A state as bytes, the same on every platform. @param {FmuState} state @returns {Uint8Array} */
   serialise(state) {
     const what = "Serialising a state";
     const { memory } = this.fmu;

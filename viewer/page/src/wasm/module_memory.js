@@ -24,11 +24,7 @@ export class ModuleMemory {
     return this;
   }
 
-  /**
-   * Allocates a block, aligned for all numbers.
-   * @param {number} size bytes
-   * @returns {number} its address
-   */
+  /** Allocates a block, aligned for all numbers. @param {number} size bytes @returns {number} its address */
   block(size) {
     const address = this.exports.malloc(Math.max(size, 1)) >>> 0;
     if (address === 0) throw new Error(`There is not enough memory for ${size} bytes in the FMU's module.`);
@@ -40,11 +36,7 @@ export class ModuleMemory {
     if (address !== 0) this.exports.free(address);
   }
 
-  /**
-   * Allocates a block with a copy of bytes.
-   * @param {Uint8Array} bytes
-   * @returns {number} its address
-   */
+  /** Allocates a block with a copy of bytes. @param {Uint8Array} bytes @returns {number} its address */
   blockOf(bytes) {
     const address = this.block(bytes.length);
     this.view().bytes.set(bytes, address);
@@ -68,11 +60,7 @@ export class ModuleMemory {
     }
   }
 
-  /**
-   * The text at an address.
-   * @param {number} address of a text that ends with a zero
-   * @returns {string}
-   */
+  /** The text at an address. @param {number} address of a text that ends with a zero @returns {string} */
   text(address) {
     const { bytes } = this.view();
     return decoder.decode(bytes.subarray(address, bytes.indexOf(0, address)));

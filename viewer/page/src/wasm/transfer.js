@@ -3,10 +3,7 @@ import { FmuError } from "./errors.js";
 
 /** Values of fixed variables of the types Real and Integer; one call of the FMU for each type. */
 export class Transfer {
-  /**
-   * @param {import("./instance.js").FmuInstance} instance
-   * @param {string[]} names
-   */
+  /** @param {import("./instance.js").FmuInstance} instance @param {string[]} names */
   constructor(instance, names) {
     this.instance = instance;
     this.names = names;

@@ -39,6 +39,12 @@ export function addBarrier(triangles, { points: all, height = 0.8 }, coarse = fa
   }
 }
 
+/** Height of a gable as a share of the width, which counts up to a largest one, m. */
+const [GABLE_SHARE, WIDEST_GABLE] = [0.22, 12];
+/** Depth of a building below its foot, and how far its roof reaches beyond the walls: along, across, downwards, m. */
+const [FOUNDATION, OVERHANG] = [0.5, [0.3, 0.4, 0.1]];
+/** Distance of the top of a gable below the roof, m. */
+const GABLE_GAP = 0.05;
 const WALL_COLOURS = [[0.55, 0.52, 0.46], [0.5, 0.45, 0.36], [0.46, 0.47, 0.48], [0.5, 0.36, 0.27]]; // prettier-ignore
 
 /** Adds a box with windows and a gable roof. @param {import("./triangles.js").Triangles} triangles texture coordinates: m of the wall, negative without windows */
@@ -47,16 +53,15 @@ export function addBuilding(triangles, { at, yaw, size }) {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   const next = randomNumbers(Math.round(17 * at[0] + 31 * at[1]));
   const wall = WALL_COLOURS[Math.floor(WALL_COLOURS.length * next())];
-  const eaves = height / (1 + (0.22 * Math.min(width, 12)) / height);
-  const foot = [at[0], at[1], at[2] - 0.5];
-  triangles.box(foot, [length, width, eaves + 0.5], yaw, wall);
+  const eaves = height / (1 + (GABLE_SHARE * Math.min(width, WIDEST_GABLE)) / height);
+  triangles.box([at[0], at[1], at[2] - FOUNDATION], [length, width, eaves + FOUNDATION], yaw, wall);
   const corner = (x, y, z) => [at[0] + c * x - s * y, at[1] + s * x + c * y, at[2] + z];
   const none = Array(4).fill([-9, -9]);
-  const [l, w] = [0.5 * length + 0.3, 0.5 * width + 0.4];
+  const [l, w, low] = [0.5 * length + OVERHANG[0], 0.5 * width + OVERHANG[1], eaves - OVERHANG[2]];
   for (const side of [1, -1]) {
-    triangles.quad([corner(-side * l, -side * w, eaves - 0.1), corner(side * l, -side * w, eaves - 0.1), corner(side * l, 0, height), corner(-side * l, 0, height)], ROOF, none);
-    const gable = [[side * 0.5 * length, -side * 0.5 * width, eaves], [side * 0.5 * length, side * 0.5 * width, eaves], [side * 0.5 * length, 0, height - 0.05]]; // prettier-ignore
-    const corners = gable.map((point) => corner(...point));
+    triangles.quad([corner(-side * l, -side * w, low), corner(side * l, -side * w, low), corner(side * l, 0, height), corner(-side * l, 0, height)], ROOF, none);
+    const x = side * 0.5 * length;
+    const corners = [corner(x, -side * 0.5 * width, eaves), corner(x, side * 0.5 * width, eaves), corner(x, 0, height - GABLE_GAP)];
     triangles.quad([...corners, corners[2]], wall, none);
   }
 }
