@@ -7,6 +7,7 @@ themselves; this one writes these charts, and tables that no other command makes
 """
 
 import argparse
+import json
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -46,6 +47,8 @@ from mbs.vehicle.kinematics.table import TITLED, rows
 SPEED = "docs/speed.md"
 PAPER = "docs/speed_and_accuracy.md"
 STABILITY = "docs/stability.md"
+PAGES_OF_KEYS = {"": "all pages", "driven": "simulator, live page", "recorded": "recordings", "simulator": "simulator"}
+"""Where a key acts, by the word of `viewer/keys.json`."""
 
 
 def four_bar_table() -> list[RemadeTable]:
@@ -229,10 +232,18 @@ def published_test_table() -> list[RemadeTable]:
     return [RemadeTable("docs/validation.md", text, "others", ("test",))]
 
 
+def key_table(_: bool) -> list[RemadeTable]:
+    """Keys of the pages, from the file that the pages read."""
+    keys = json.loads(read("viewer/keys.json"))
+    rows = [{"key": k["shown"], "what": k["words"], "where": PAGES_OF_KEYS[k.get("where", "")]} for k in keys]
+    return [RemadeTable("docs/driving.md", table(rows, dict.fromkeys(rows[0], "")), "keys", ("key", "where"))]
+
+
 WRITTEN_TABLES: dict[str, Callable[[bool], list[RemadeTable]]] = {
     "charts": charts,
     "elements": finite_element_tables,
     "flexible hatchback": hatchback_kerb_table,
+    "keys": key_table,
 }
 """Charts, and tables that no other command writes: whole with ``--write``, otherwise quick parts of them."""
 COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {

@@ -27,9 +27,9 @@ MAX_POINTS = 10**8
 
 @dataclass(frozen=True)
 class RoadFile(RoadOfFile):
-    """A road of a file that ``ali3 road`` or `write_road` made, of which the kernel keeps in memory what is near.
+    """A road file that ``ali3 road`` or `write_road` made; the kernel holds only the tiles near the wheels in memory.
 
-    A table with coordinates (``.csv``, ``.txt``) is taken too; it is kept as a whole.
+    A table with coordinates (``.csv``, ``.txt``) is accepted too and held as a whole.
     """
 
     path: str | os.PathLike[str]

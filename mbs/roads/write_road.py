@@ -36,7 +36,7 @@ def write_road(
     file : path
         Written completely or not at all; an existing file is replaced.
     shared : bool
-        Whether equal tiles of a grid are stored once, which FMUs of version 0.1.0 do not read.
+        Whether equal tiles of a grid are stored once.
     tolerance : float
         With `shared`: largest deviation of polynomials that are stored instead of the heights of tiles, m.
     name : object, optional

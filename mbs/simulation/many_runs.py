@@ -214,8 +214,8 @@ def simulate_many(
     progress : bool or callable, optional
         As in `simulate`; refined runs are not in it.
     estimate_error : {None, False}, optional
-        None checks each run as `simulate` does: one that is not plainly smooth is repeated alone and with other steps,
-        which costs two runs or more. False checks none.
+        None checks each run as `simulate` does: one that is not plainly smooth is compared with runs of other steps,
+        alone. False checks none.
 
     Returns
     -------

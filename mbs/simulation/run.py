@@ -85,10 +85,10 @@ def simulate(
         Name of the method, see `Settings`; replaces the method of `settings`. "auto" takes the method that suits System
         and tolerance best; so does a tolerance without a method.
     estimate_error : bool or float, optional
-        Whether to repeat the run with half the step, near the limit of cost with less, which gives
-        `Trajectory.accuracy` the error of the sensors. None repeats only suspect runs (energy balance, halved steps,
-        predictors, peaks of tables between steps) at a cost of at most 64 times the run; a number is another multiple.
-        False checks nothing.
+        Whether the run is compared with refined runs, of half the step down to a 16th, which gives
+        `Trajectory.accuracy` the error of the sensors. None refines only runs that are not plainly smooth and that
+        coarser runs do not confirm, at a cost of at most 64 times the run; a number is another multiple. False checks
+        nothing.
     tolerance : float or mapping of str to float, optional
         Largest accepted error over the whole run: of sensors by name, in their units, or of positions relative to the
         model's length (`Model(length=...)`, or the extent of the drawing) and of velocities relative to that length per
