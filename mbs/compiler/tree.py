@@ -44,7 +44,7 @@ def tree_arrays(
     each z in elimination order.
     """
     try:
-        if model.tabled:
+        if model.lookup_tables:
             raise NoTreeError(f"'{model.tabled[0].name}' moves by a table")
         groups, cuts = spanning_tree(model)
         moving = groups[1:]

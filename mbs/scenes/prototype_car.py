@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from mbs.elements.road import Road
 from mbs.model.model import Model
-from mbs.model.records import Guide
+from mbs.model.records import DrivingFunction
 from mbs.vehicle import Car, Fidelity, load
 
 
@@ -16,7 +16,7 @@ def car() -> Car:
 def build(
     road: Road | None = None,
     fidelity: Fidelity | int | str = Fidelity.RIGID,
-    guide: Callable[[Model], Guide] | None = None,
+    guide: Callable[[Model], DrivingFunction] | None = None,
 ) -> Model:
     """The car at rest in static equilibrium, its front axle over the origin; see `mbs.vehicle.Car.model`.
 

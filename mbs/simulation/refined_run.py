@@ -122,8 +122,8 @@ class RefinedRuns:
         coordinates = dict.fromkeys(self._columns, Compared(COORDINATES, place=True))
         start_coordinates = self._coordinates(self.run)
         at_rest = bool(start_coordinates) and not sizes_of(start_coordinates, coordinates, self.length, self.before)
-        has_guides = len(self.system.arrays["gterm_row"]) > 0
-        compared, context = compared_sensors(self.system), (at_rest, has_guides, report.energy_floor)
+        has_driving_functions = len(self.system.arrays["gterm_row"]) > 0
+        compared, context = compared_sensors(self.system), (at_rest, has_driving_functions, report.energy_floor)
         self.compared = select_compared(self.run[0], compared, self.length, self.before, *context)
         self.rests = at_rest and not self.compared
         if shows_motion(self.compared):
@@ -147,7 +147,7 @@ class RefinedRuns:
 
     @property
     def is_smooth(self) -> bool:
-        """Whether all forces, guides and inputs are smooth within a step."""
+        """Whether all forces, driving functions and inputs are smooth within a step."""
         return is_smooth(self.system, (self.run[0].t[0], self.run[0].t[-1]), self.inputs)
 
     @property

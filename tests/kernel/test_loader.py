@@ -66,7 +66,7 @@ SCALED = (
     "ELEMENT_OUTPUT",
     "GUIDE",
     "MASS",
-    "GUIDE_EXCESS",
+    "DRIVING_EXCESS",
     "SCALED_INPUT",
 )
 

@@ -1,4 +1,4 @@
-"""A sliding point (rack), driven distances and driven components follow their guides."""
+"""A sliding point (rack), driven distances and driven components follow their driving functions."""
 
 import numpy as np
 import pytest

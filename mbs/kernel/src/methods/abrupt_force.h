@@ -16,8 +16,8 @@ bool ali3_divides(ali3_instance *in, const ali3_request *request);
 /* Whether forces change so abruptly up to an iterate in in->next that a step that may be halved `depth` times is not
  * worth further iterations. With a limit of iterations they go on, as the last iterate may be the step. */
 bool ali3_is_abrupt(const ali3_instance *in, int32_t depth);
-/* Whether the limit of iterations leaves room to end a part of a step that resolves a force by table or a guide; counts
- * it if so, as an abrupt force if it ends `at_row` of a table. */
+/* Whether the limit of iterations leaves room to end a part of a step that resolves a force by table or a driving
+ * function; counts it if so, as an abrupt force if it ends `at_row` of a table. */
 bool ali3_divides_to_resolve(ali3_instance *in, const ali3_request *request, bool at_row);
 /* Fraction of the way between two lengths, m, of a spring by a table to the first row that the ends do not resolve; 1:
  * none. */

@@ -17,7 +17,7 @@
 #include "../method.h"
 #include "../rows/constraints.h"
 #include "../rows/discrete_rows.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../rows/velocity_rows.h"
 #include "../rows/violation.h"
 #include "../state/inputs.h"
@@ -296,7 +296,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double m
   ali3_vectors *from = &in->now, *to = &in->next;
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
-  ali3_guides_step(in, from, to, t, h);
+  ali3_driving_step(in, from, to, t, h);
   ali3_status status = ali3_inputs_at(in, middle);
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
@@ -314,7 +314,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double m
   ALI3_EACH(0, nq, ALI3_AT(own) = two_rates * ALI3_AT(D) - ALI3_AT(before);
             ALI3_AT(d0) = 2.0 * (ALI3_AT(D) - h * ALI3_AT(before)) / square)
   ali3_work_step(in, 1.0);
-  if (S->n_guide_work > 0) to->work[S->n_work] = from->work[S->n_work] + work_of_drives(in);
+  if (S->n_driving_work > 0) to->work[S->n_work] = from->work[S->n_work] + work_of_drives(in);
   ali3_predict_rates(in, h);
   remove_redundant(in, weight, to->lam);
   ali3_history_append(in, h, in->step.d0);
@@ -357,17 +357,17 @@ void ali3_energy_momentum_motion(ali3_instance *in, double h) {
   ali3_balance_change(in, h, n_past ? from->own : from->qd, n_past ? from->past_a : from->qdd, in->now.own);
 }
 
-/* Tabled bodies have no discrete derivatives. */
+/* Lookup-table bodies have no discrete derivatives. */
 static ali3_status check_system(const ali3_instance *in) {
-  return in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ALI3_OK;
+  return in->system->n_lookup > 0 ? ALI3_WRONG_METHOD : ALI3_OK;
 }
 
 const ali3_method ali3_method_energy_momentum = {.step = step,
                                                  .check_system = check_system,
-                                                 .excludes = "no tabled bodies",
+                                                 .excludes = "no lookup-table bodies",
                                                  .before = before,
                                                  .motion = ali3_energy_momentum_motion,
-                                                 .has_guides_work = ali3_always,
+                                                 .has_driving_work = ali3_always,
                                                  .after_unobserved = ali3_energy_momentum_report,
                                                  .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                  .round_off = ALI3_ROUND_OFF_INDEX_3};
