@@ -28,7 +28,7 @@ def build(
         How much of the chassis is modelled, a member of `Fidelity`, its number or its name: 0 "rigid", 1
         "quasi_static", 2 "load_paths", 3 "dynamic", and for comparison 4 "many_modes" and "paper".
     guide : callable, optional
-        Makes the guide of the x coordinate of the floor's centre, m; the selector is then in neutral.
+        Makes the driving function of the x coordinate of the floor's centre, m; the selector is then in neutral.
     """
     return car().model(road, fidelity, guide)
 

@@ -59,7 +59,7 @@ def test_exchanged_limits_are_refused_and_a_guide_of_one_input_has_no_limits():
         rack(limits=(1.0, -1.0))
     m, _, _ = rack()
     guide = m.guide_input("other", input=m.inputs[0], frequency=1.0)
-    with pytest.raises(ModelError, match="guide 'other' of sensor 'x' has no limits"):
+    with pytest.raises(ModelError, match="driving function 'other' of sensor 'x' has no limits"):
         m.sense_guide("x", guide, "excess")
     with pytest.raises(ModelError, match="force of driving function 'other', which none of its joints follows"):
         m.sense_guide("x", guide, "force")
@@ -68,7 +68,7 @@ def test_exchanged_limits_are_refused_and_a_guide_of_one_input_has_no_limits():
 
 
 def test_the_force_of_a_guide_does_the_work_that_the_rest_receives():
-    """Power of the guide = rate of the energy; and at rest virtual work with the springs."""
+    """Power of the driving function = rate of the energy; and at rest virtual work with the springs."""
     m, guide, rods = rack()
     m.sense_guide("force", guide, "force")
     m.sense_guide("of rods", guide, "force", joints=rods, scale=-1.0)
