@@ -119,7 +119,7 @@ def motion(signals: Signals, distance: float) -> Motion:
     scale = distance / float(cumulative_trapezoid(speed, t)[-1])
     speed *= scale
     change = scale * (rigid[0] - drift.derivative()(t))
-    change, breaks = np.append(change, change[-1]), np.append(t, t[-1] + RATE)  # a driving function is constant after its end
+    change, breaks = np.append(change, change[-1]), np.append(t, t[-1] + RATE)  # constant after its end
     guide = PPoly(np.stack([np.diff(change) / np.diff(breaks), change[:-1]]), breaks).antiderivative(2)
     return Motion(t, cumulative_trapezoid(speed, t, initial=0), speed, guide)
 

@@ -45,7 +45,7 @@ def tree_arrays(
     """
     try:
         if model.lookup_tables:
-            raise NoTreeError(f"'{model.tabled[0].name}' moves by a table")
+            raise NoTreeError(f"'{model.lookup_tables[0].name}' moves by a table")
         groups, cuts = spanning_tree(model)
         moving = groups[1:]
         rows = sum(sum(cut_rows(model, cut)) for cut in cuts)

@@ -44,7 +44,7 @@ def build(
     car : Car, optional
         By default the prototype.
     guide : callable, optional
-        Makes the driving function of the x coordinate of the chassis' reference point from its value at the start, m; by default
+        Makes the driving function of x of the chassis' reference point from its value at the start, m; by default
         `smooth_driving_function`.
     """
     make_driving_function = smooth_driving_function if guide is None else guide
