@@ -62,19 +62,19 @@ def separate_dependents(
     model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], remaining_equations: list[RowTerms]
 ) -> Dependents:
     """Remove the dependents from z and number them after it; arguments as in `reduce_coordinates`."""
-    tabled = {i: d for d, i in enumerate(lookup_coordinates(model))}
-    if not tabled:
+    dependent = {i: d for d, i in enumerate(lookup_coordinates(model))}
+    if not dependent:
         return Dependents(remaining, full, of_z, full, remaining_equations)
-    z = [i for i in remaining if i not in tabled]
+    z = [i for i in remaining if i not in dependent]
     index_in_z = {i: k for k, i in enumerate(z)}
-    new_index = [index_in_z[i] if i in index_in_z else len(z) + tabled[i] for i in remaining]
+    new_index = [index_in_z[i] if i in index_in_z else len(z) + dependent[i] for i in remaining]
 
     def renumber(e: Affine) -> Affine:
         return Affine({new_index[j]: c for j, c in e.terms.items()}, e.constant)
 
     with_dependents = [renumber(e) for e in full]
-    drawn = [Affine({}, c.reference) if i in tabled else with_dependents[i] for i, c in enumerate(model.coordinates)]
-    without_dependents = [Affine() if i in tabled else renumber(e) for i, e in enumerate(of_z)]
+    drawn = [Affine({}, c.reference) if i in dependent else with_dependents[i] for i, c in enumerate(model.coordinates)]
+    without_dependents = [Affine() if i in dependent else renumber(e) for i, e in enumerate(of_z)]
     number_of = {-1: -1} | dict(enumerate(new_index))
     rows = [
         replace(r, main={(number_of[i], number_of[j]): v for (i, j), v in r.main.items()}) for r in remaining_equations

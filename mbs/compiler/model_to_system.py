@@ -130,9 +130,9 @@ def _reduce(model: Model, corrections: Corrections) -> _Reduced:
     """Eliminate linear equations, make rows of all others and remove dependent rows."""
     linear, row_equations = _equations(model)
     natural = natural_coordinates(model)
-    tabled = {*lookup_coordinates(model)}
+    table_coordinates = {*lookup_coordinates(model)}
     for equation in linear:
-        if not tabled.isdisjoint(equation.linear_form().terms):
+        if not table_coordinates.isdisjoint(equation.linear_form().terms):
             raise joint_error(equation.name)
     length, size = model_length(model), drawn_length(model)
     retained = flexible_coordinates(model) | base_coordinates(model)

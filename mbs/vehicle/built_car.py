@@ -131,7 +131,7 @@ class BuiltCar(Summarised, CarContent):
             write_inertia(b, self.chassis)
             for name, payload in self.payload.items():
                 payload.build(b, name)
-            (steered, front), (_, rear) = self.lookup_tables(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
+            (steered, front), (_, rear) = self.by_tables(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
             spins = front | rear
             if self.ports.torque is None:
                 self.drive.build(b, spins, neutral=drive is not None)
@@ -211,7 +211,7 @@ class BuiltCar(Summarised, CarContent):
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         yield steered, self.rear.build(b, "rear", b.chassis.fixed_end, self.brakes.build)
 
-    def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
+    def by_tables(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add the steering, and both axles with tables instead of links."""
         steered = self.steering.build(b, self.rack_direction)
         if steered.travel is None:

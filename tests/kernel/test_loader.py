@@ -64,7 +64,7 @@ SCALED = (
     "SIGNAL_SECOND_RATE",
     "ANGULAR_RATE",
     "ELEMENT_OUTPUT",
-    "GUIDE",
+    "DRIVING",
     "MASS",
     "DRIVING_EXCESS",
     "SCALED_INPUT",
