@@ -82,7 +82,7 @@ static void second_rate(const ali3_instance *in, const ali3_lookup *c, const ali
   for (int k = 0; k < 3; k++) out[k] += 2.0 * rotated[k];
 }
 
-/* Value and rates of a number, to entry `to` of in->tabled.extended; qdd NULL: without the second rate. */
+/* Value and rates of a number, to entry `to` of in->lookup.extended; qdd NULL: without the second rate. */
 static void extend_number(const ali3_instance *in, const ali3_lookup *c, const ali3_lookup_work *w, const real *qd,
                           const real *qdd, int32_t to) {
   real first, second, unused;

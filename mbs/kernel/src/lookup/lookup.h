@@ -112,14 +112,14 @@ ALI3_PER_WIDTH void ali3_lookup_table(const ali3_system *S, const ali3_lookup *c
                                       real value[ALI3_LOOKUP_VALUES][ALI3_LOOKUP_BODY]);
 /* Evaluates all items at q (nq), and the inertia of the bodies; the other functions use the last q prepared. */
 ALI3_PER_WIDTH void ali3_lookup_prepare(const ali3_instance *in, const real *q);
-/* Writes q, qd, qdd (NULL: omitted), each followed by the dependents, to in->tabled.extended[0 .. 2]: all dependents,
+/* Writes q, qd, qdd (NULL: omitted), each followed by the dependents, to in->lookup.extended[0 .. 2]: all dependents,
  * or those with signals; after ali3_lookup_prepare at q. */
 ALI3_PER_WIDTH void ali3_lookup_extend(const ali3_instance *in, const real *q, const real *qd, const real *qdd,
                                        bool all);
 /* Writes D and the change of X by a change D of the coordinates that ends at the prepared position to
- * in->tabled.extended[0]; to second order, for vectors with signals. */
+ * in->lookup.extended[0]; to second order, for vectors with signals. */
 ALI3_PER_WIDTH void ali3_lookup_displacements(const ali3_instance *in, const real *D);
-/* Computes Q from the forces on coordinates and dependents in in->tabled.force, with gravity and inertia forces. */
+/* Computes Q from the forces on coordinates and dependents in in->lookup.force, with gravity and inertia forces. */
 ALI3_PER_WIDTH void ali3_lookup_forces(ali3_instance *in, const real *qd, real *Q);
 
 /* Whether an item is a body with mass. */
