@@ -1,4 +1,9 @@
-/* Dependent coordinates of lookup-table bodies and numbers, their rates by B = dX/dq, and generalised forces by B'. */
+/* Dependent coordinates X of lookup-table bodies and numbers over the coordinates q, their rates, and their forces.
+ *
+ * With r and Y, the position and the axes of a base, and the functions p(a, b) and R_i(a, b) of the table:
+ *   X = (r + Y p, Y R_1, Y R_2, Y R_3) of a body, X = p of a number,
+ *   Xd = B qd, Xdd = B qdd + Bd qd, Q = B' f with B = dX/dq, d for rates and ' for the transpose, f the forces on X.
+ * Vector v of a body is one of the four, 0 its position; the position without r, which affine signals add. */
 #include "lookup.h"
 
 #include <string.h>
@@ -62,7 +67,7 @@ static void parameter_rates(const ali3_lookup *c, const ali3_lookup_work *w, rea
   }
 }
 
-/* Vector v of B x. */
+/* Vector v of B x, x a vector of coordinates and `frame` its entries of r and Y. */
 static void first_rate(const ali3_instance *in, const ali3_lookup *c, const ali3_lookup_work *w, const real *x,
                        const real frame[12], int32_t v, real out[3]) {
   real first[3], second[3], rotated[3];
@@ -72,7 +77,7 @@ static void first_rate(const ali3_instance *in, const ali3_lookup *c, const ali3
   for (int k = 0; k < 3; k++) out[k] += rotated[k];
 }
 
-/* Vector v of Bd qd, the part of the second rates of X by the rates of coordinates. */
+/* Vector v of Bd qd, the part of the second rates of X by the rates of coordinates; `frame`: of qd. */
 static void second_rate(const ali3_instance *in, const ali3_lookup *c, const ali3_lookup_work *w, const real *qd,
                         const real frame[12], int32_t v, real out[3]) {
   real first[3], second[3], rotated[3];
