@@ -45,6 +45,25 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
 
 def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
+    _add_targets(parser)
+    add_option(parser, "--out", "dist; of the kernel: its place in the package")
+    _add_kinds(parser)
+    _add_variables(parser)
+    parser.add_argument(
+        "--plain",
+        action="store_true",
+        help="without generated C code for the algebra of the model: the same bits, slower steps, a faster build, a "
+        "smaller file",
+    )
+    add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
+    parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
+    parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
+    parser.add_argument("--license", default="", help="of the model; default: the solver's")
+    return parser
+
+
+def _add_targets(parser: argparse.ArgumentParser) -> None:
+    """Add what is built."""
     target_group = parser.add_mutually_exclusive_group()
     target_group.add_argument(
         "car",
@@ -68,7 +87,10 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         help="an FMU of the kind native: its own sources are compiled for the --platforms, existing binaries stay",
     )
     target_group.add_argument("--kernel", action="store_true", help="the C kernel in place of an FMU, in a clone")
-    add_option(parser, "--out", "dist; of the kernel: its place in the package")
+
+
+def _add_kinds(parser: argparse.ArgumentParser) -> None:
+    """Add kinds of FMUs and platforms."""
     parser.add_argument(
         "--kind",
         default=_KINDS,
@@ -83,6 +105,10 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         help="out of linux64, win64, darwin64, aarch64-linux and wasm32 (WebAssembly, of the kind native); this: that "
         "of this machine, the default; all: all but wasm32 that the kind can have, that of this machine first",
     )
+
+
+def _add_variables(parser: argparse.ArgumentParser) -> None:
+    """Add what changes the variables of an FMU."""
     parser.add_argument(
         "--poses",
         choices=("wheels", "all"),
@@ -103,17 +129,6 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         help="names and units of variables as in another program: carmaker, carsim, chrono, osi, "
         "vehicle_interfaces, or an alias file",
     )
-    parser.add_argument(
-        "--plain",
-        action="store_true",
-        help="without generated C code for the algebra of the model: the same bits, slower steps, a faster build, a "
-        "smaller file",
-    )
-    add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
-    parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
-    parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
-    parser.add_argument("--license", default="", help="of the model; default: the solver's")
-    return parser
 
 
 def _build_kernel(platforms: str, out: Path | None) -> int:
