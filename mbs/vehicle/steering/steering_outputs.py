@@ -35,8 +35,8 @@ def demand_outputs(m: Model, demand: Input, guide: DrivingFunction, scale: float
 def wheel_outputs(m: Model, held: DrivingFunction, per_radian: float, per_unit: float) -> None:
     """Add torque and speed of the steering wheel.
 
-    `held`: guide of the steering wheel; `per_radian`, `per_unit`: its unit per radian of the steering wheel, and the
-    reciprocal.
+    `held`: driving function of the steering wheel; `per_radian`, `per_unit`: its unit per radian of the steering
+    wheel, and the reciprocal.
     """
     m.sense_guide("steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
     m.sense_guide("steering_wheel_speed", held, order=1, scale=per_unit, unit="rad/s", description=WHEEL_SPEED)
@@ -49,9 +49,9 @@ def tie_ratio(
 
     A table is scaled along the angle. Full lock of rack or arm and the range of the demanded angle do not change.
 
-    `held`: guide of the travel of the rack, of the angle in the table, or of the angle of the arm; `turn`: ratio over
-    that driving function per radian of the steering wheel, or of their reciprocals; `inverse`: whether the angle of the
-    steering wheel increases with the ratio.
+    `held`: driving function of the travel of the rack, of the angle in the table, or of the angle of the arm; `turn`:
+    ratio over that driving function per radian of the steering wheel, or of their reciprocals; `inverse`: whether the
+    angle of the steering wheel increases with the ratio.
     """
     value = getattr(data, name)
     if b.ports.steering is None:

@@ -14,7 +14,7 @@
 
 static const double LONGEST_STEP = 1e6; /* s */
 
-/* Copies n numbers, unless they are not asked for. */
+/* Copies n numbers; nothing if `to` is NULL. */
 static void copy(double *to, const double *from, int64_t n) {
   if (to != NULL && n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }

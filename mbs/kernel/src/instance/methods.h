@@ -16,13 +16,12 @@ typedef struct {
 /* Driving functions in a step, ng each. */
 typedef struct {
   double *mean; /* mean rates over the step */
-  double *
-      abrupt; /* 3 ng: of functions of time: least departure, jumps of rate and acceleration that divide a step */
+  double *least; /* 3 ng: departure and jumps of rate and acceleration of a function of time that divide a step */
   double *follows; /* 1 if a filtered driving function moves in the step, otherwise 0 */
 } ali3_driving_arrays;
 
-/* radau.c; arrays for ALI3_RADAU stages, one after the other, empty with element states or filtered driving functions.
- * */
+/* radau.c; arrays for ALI3_RADAU stages, one after the other, empty with element states or filtered driving
+ * functions. */
 typedef struct {
   double *Phi, *lam; /* nc a stage: rows, multipliers */
   double *J, *J_made; /* row pattern, a stage: Phi_q, and that of the tangent */

@@ -1,8 +1,8 @@
 /* Dense output: the state at any time within a controlled step. Positions, velocities and accelerations at its start,
  * centre and end give a polynomial of degree eight (Hermite interpolation); accelerations, multipliers and outputs of
  * elements follow from the equations of index one. If these accelerations show an error above the tolerance, or with
- * element states, filtered driving functions or sensed work, a step of the method is made to that time and discarded.
- * */
+ * element states, filtered driving functions or sensed work, a step of the method is made to that time and
+ * discarded. */
 #include <math.h>
 #include <string.h>
 

@@ -66,8 +66,8 @@ static double raised_penalty(const ali3_instance *in, double h) {
     }
     if (square > turn) turn = square;
   }
-  const double most_refinements = MAX_RAISE * 0.5 / (in->settings.eps_rel * EPS_FACTOR);
-  return fmax(weight, fmin(most_refinements, SIGN_CHANGE / turn));
+  const double largest = MAX_RAISE * 0.5 / (in->settings.eps_rel * EPS_FACTOR);
+  return fmax(weight, fmin(largest, SIGN_CHANGE / turn));
 }
 
 /* Rows and residual r = M (D - h v) + inertia - h^2/2 (Q - A' lam) of the iterate D, with the forces of the middle. */
@@ -226,7 +226,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
   const bool is_composed = settings->method != ALI3_METHOD_ENERGY_MOMENTUM;
   const double alpha = 2.0 * weight / (h * h), refine = fmin(1.0, REFINE_COMPOSED * fabs(h));
   const double least_r = is_composed ? refine : REFINE_R * fabs(h), least_v = is_composed ? refine : REFINE_PHI;
-  const int32_t most_refinements = is_composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
+  const int32_t largest = is_composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
   double r, v, last = relative_error(in, &r, &v), limit = is_composed ? correction_limit(in, h) : 0.0;
   int32_t refinements = 0, diverging = 0;
   bool new_tangent = true;
@@ -243,7 +243,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
     if (last <= 1.0 && size > last) return undo_correction(in, h);
     if (!patient && new_tangent && size > last && ++diverging == MAX_DIVERGING) return ALI3_NOT_CONVERGED;
     const bool slow = k > 0 && ratio > SLOW_RATIO;
-    if (size <= 1.0 && (refinements++ == most_refinements || slow)) return ALI3_OK;
+    if (size <= 1.0 && (refinements++ == largest || slow)) return ALI3_OK;
     new_tangent = slow || (size > 1.0 && size * ratio * ratio > REFACTORISE_ERROR);
     last = size;
   }

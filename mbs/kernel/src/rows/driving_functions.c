@@ -127,7 +127,7 @@ void ali3_driving_measure(ali3_instance *in) {
         }
       }
     for (int32_t k = 0; k < 3; k++)
-      in->driving.abrupt[3 * g + k] =
+      in->driving.least[3 * g + k] =
           fmax(ALI3_WRONG_ERROR * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
   }
 }
@@ -152,7 +152,7 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
     const int32_t n = (int32_t)real[0];
     if (end <= breaks[0] || t >= breaks[n]) continue;
     for (int32_t i = t < breaks[0] ? 0 : piece_at(real, t) + 1; i <= n && breaks[i] < end; i++)
-      if (breaks[i] > t && (all || jumps(real, i, in->driving.abrupt + 3 * g + 1))) end = breaks[i];
+      if (breaks[i] > t && (all || jumps(real, i, in->driving.least + 3 * g + 1))) end = breaks[i];
   }
   return end;
 }
@@ -192,7 +192,7 @@ double ali3_driving_resolved(const ali3_instance *in, double t, double end, doub
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_DRIVING_OF_TIME) continue;
-    const double *real = in->parameters.guide_real + S->guide_real_ptr[g], least = in->driving.abrupt[3 * g];
+    const double *real = in->parameters.guide_real + S->guide_real_ptr[g], least = in->driving.least[3 * g];
     const double from = t + near, to = end - near;
     double part = next_quarter(real, from), next = part;
     if (part >= to || resolved(real, from, to, least, by_means)) continue;

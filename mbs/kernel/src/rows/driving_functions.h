@@ -22,7 +22,7 @@ double ali3_driving_slope(const ali3_instance *in, int32_t g, const double *s);
 /* NULL, or what is wrong with the numbers of a driving function. */
 const char *ali3_driving_check(int32_t type, const double *real, int32_t nreal);
 /* Measures the ranges of each driving function of time, its rate and acceleration, and writes the smallest departures
- * and jumps that count to in->driving.abrupt. */
+ * and jumps that count to in->driving.least. */
 void ali3_driving_measure(ali3_instance *in);
 /* The first break of a driving function of time after t and before `end`, otherwise `end`; s. */
 double ali3_driving_until(const ali3_instance *in, double t, double end);

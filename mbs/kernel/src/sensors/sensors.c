@@ -256,8 +256,8 @@ static double value_angle_about(const ali3_instance *in, const int32_t *v, const
   return ali3_atan2(dot(cross, c), dot(a, b));
 }
 
-/* Weighted sum of forces at the ports, specific acceleration of the origin and second rates of the axes, in body axes.
- * */
+/* Weighted sum of forces at the ports, specific acceleration of the origin and second rates of the axes, in body
+ * axes. */
 static double value_quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
   const int32_t n = v[0], *row = v + 13;
   const double *gravity = real, *weight = real + 3;

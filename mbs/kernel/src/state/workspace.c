@@ -52,7 +52,7 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->parameters.el_real = ali3_pool_array(p, (size_t)s->n_el_real);
   in->parameters.sen_real = ali3_pool_array(p, (size_t)s->n_sen_real);
   in->parameters.guide_real = ali3_pool_array(p, (size_t)s->n_guide_real);
-  in->driving.abrupt = ali3_pool_array(p, 3 * (size_t)s->size.ng);
+  in->driving.least = ali3_pool_array(p, 3 * (size_t)s->size.ng);
   in->parameters.switch_on = ali3_pool_array(p, (size_t)s->size.n_switch);
   in->parameters.road_real = ali3_pool_array(p, (size_t)s->n_road_real);
   ali3_masses_place(s, in, p);
