@@ -161,7 +161,7 @@ def _add_platforms(options: argparse.Namespace) -> int:
     check_writable(file)
     line = ProgressLine()
     line.expect(len(platforms))
-    added = add_platforms(options.fmu, platforms, file, line.told)
+    added = add_platforms(options.fmu, platforms, file, line.report_stage)
     print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; added: {', '.join(added) or 'nothing'}", flush=True)
     return 0
 
@@ -208,7 +208,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     for file in (*files.values(), parameter_file):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
-    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names, options.plain)
+    builder = FmuBuilder(systems, name, fidelity, rights, line.report_stage, description, origin, names, options.plain)
     _report_names(builder.renamed)
     platforms = [p for p in TARGETS if p in first or p in rest]
     available = {kind: [p for p in platforms if _able(kind, p)] for kind in kinds}
@@ -245,7 +245,7 @@ def _compiled(
         from fmu_src.build.car_registry import build_car, car_text
 
         print(f"car {car_text(options.car)} ...", flush=True)
-        with line.told("compiling the car"):
+        with line.report_stage("compiling the car"):
             car = build_car(options.car, options.poses, options.ports, options.fidelity, tables.append)
         _report_tables(tables)
         _report_grip(car.grip)
@@ -254,7 +254,7 @@ def _compiled(
     from fmu_src.build.scene_registry import car_of_scene, load_fidelities
 
     print(f"scene {options.scene} ...", flush=True)
-    with line.told("compiling the scene"):
+    with line.report_stage("compiling the scene"):
         compiled = load_fidelities(options.scene, options.poses, tables.append)
     _report_tables(tables)
     if (scene_car := car_of_scene(options.scene)) is not None:
