@@ -22,7 +22,7 @@ from benchmarks.car import (
     fidelity,
     frame_tables,
     road_faces,
-    tabled_cars,
+    table_cars,
     variable_tables,
 )
 from benchmarks.car.frame_stiffness import stiffness
@@ -129,8 +129,8 @@ def kinematics_and_frames() -> list[RemadeTable]:
 def table_suspension_errors() -> list[RemadeTable]:
     """Errors of cars whose suspensions are tables, in some manoeuvres."""
     names = "step_steer_given_throttle", "double_lane_change_replay", "kerb_lock_brake"
-    todo = ((car, name) for car in tabled_cars.CARS for name in names)
-    text = tabled_cars.table_of([tabled_cars.compare(car, name, tabled_cars.STEP) for car, name in todo])
+    todo = ((car, name) for car in table_cars.CARS for name in names)
+    text = table_cars.table_of([table_cars.compare(car, name, table_cars.STEP) for car, name in todo])
     return [RemadeTable("docs/cars.md", text, "tables", ("car", "manoeuvre"), ("us a step, tables, links",))]
 
 

@@ -26,7 +26,7 @@ from benchmarks.car import (
     manoeuvres,
     measures,
     road_faces,
-    tabled_cars,
+    table_cars,
     trajectories,
 )
 from benchmarks.shared.command import Part, run, watched
@@ -45,7 +45,7 @@ def _accuracy(options: Namespace) -> list[dict[str, Any]]:
 
 def _tables(options: Namespace) -> list[dict[str, Any]]:
     runs = [(car, name) for car in options.cars for name in trajectories.referenced(car) if name in options.only]
-    return [tabled_cars.compare(*run, tabled_cars.STEP, options.repeats) for run in watched(runs)]
+    return [table_cars.compare(*run, table_cars.STEP, options.repeats) for run in watched(runs)]
 
 
 def _handling(options: Namespace) -> list[dict[str, Any]]:
@@ -70,7 +70,7 @@ def _fidelity_references(options: Namespace) -> None:
 
 
 def _tables_block(rows: Sequence[Row]) -> dict[str, str]:
-    return {"tables": f"{tabled_cars.table_of(rows)}\n\n{tabled_cars.verdict(rows)}"}
+    return {"tables": f"{table_cars.table_of(rows)}\n\n{table_cars.verdict(rows)}"}
 
 
 PARTS = {
@@ -94,7 +94,7 @@ PARTS = {
         "cars whose suspensions are tables against those with links",
         _tables,
         names=manoeuvres.NAMES,
-        options=REPEATS | {"cars": (tabled_cars.CARS, f"of {', '.join(manoeuvres.CARS)}")},
+        options=REPEATS | {"cars": (table_cars.CARS, f"of {', '.join(manoeuvres.CARS)}")},
         pages=("cars.md",),
         blocks=_tables_block,
     ),

@@ -363,7 +363,7 @@ ELEMENTS: dict[str, Callable[[float], FreeModel]] = {
     "drive, by input": double_pendulum("by input"),
     "slide": rod_on_slide,
     "shaft": shaft_with_rack,
-    "tabled body": body_by_table,
+    "lookup-table body": body_by_table,
     "spring": mass_on_spring(),
     "spring, damped": mass_on_spring(0.002),
     "spring, stops": mass_on_spring(0.0, EndStops()),

@@ -32,7 +32,7 @@ class FreeModel:
         return self.model.input(name)
 
     def compiled(self) -> mbs.System:
-        """The System, with sensors of its bodies, its energy, and the work of elements and guides."""
+        """The System, with sensors of its bodies, its energy, and the work of elements and driving functions."""
         for body in self.model.bodies:
             self.model.sense_position(f"x of {body.name}", body, None, "x")
             if not body.is_point:

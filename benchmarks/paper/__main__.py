@@ -93,7 +93,7 @@ PARTS = {
         lambda options: measured_guides.measure(options.seeds),
         options={"seeds": (3, "noises of a row")},
         pages=("flexible_car.md",),
-        blocks=measured_guides.guide_blocks,
+        blocks=measured_guides.driving_blocks,
     ),
 }
 

@@ -22,7 +22,7 @@ from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 from mbs import Settings, Trajectory, compile, simulate
 from mbs.model.model import Model
-from mbs.model.records import Guide
+from mbs.model.records import DrivingFunction
 from mbs.scenes import kerb_test, prototype_car
 
 Array = NDArray[np.float64]
@@ -119,7 +119,7 @@ def motion(signals: Signals, distance: float) -> Motion:
     scale = distance / float(cumulative_trapezoid(speed, t)[-1])
     speed *= scale
     change = scale * (rigid[0] - drift.derivative()(t))
-    change, breaks = np.append(change, change[-1]), np.append(t, t[-1] + RATE)  # a guide is constant after its end
+    change, breaks = np.append(change, change[-1]), np.append(t, t[-1] + RATE)  # constant after its end
     guide = PPoly(np.stack([np.diff(change) / np.diff(breaks), change[:-1]]), breaks).antiderivative(2)
     return Motion(t, cumulative_trapezoid(speed, t, initial=0), speed, guide)
 
@@ -137,11 +137,11 @@ def _drift(t: Array, v: Array) -> PchipInterpolator:
     return PchipInterpolator(knots, [v[0], *(float(v[w].mean()) for w in windows), v[-1]])
 
 
-def simulate_guided(guide_motion: Motion, settings: Settings | None = None) -> Trajectory:
+def simulate_guided(driving_motion: Motion, settings: Settings | None = None) -> Trajectory:
     """Simulate the kerb test with its own step and the chassis guided by a motion."""
 
-    def guide(m: Model, start: float) -> Guide:
-        pieces = PPoly(guide_motion.guide.c.copy(), guide_motion.guide.x)
+    def guide(m: Model, start: float) -> DrivingFunction:
+        pieces = PPoly(driving_motion.guide.c.copy(), driving_motion.guide.x)
         pieces.c[-1] += start
         return m.guide_time("way of the chassis", pieces, unit="m")
 
@@ -218,15 +218,15 @@ def row_of(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int])
     results = []
     for seed in seeds:
         signals = accelerometer_signals(true, seed=seed, **options)
-        guide_motion = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
-        run = simulate_guided(guide_motion)
+        driving_motion = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
+        run = simulate_guided(driving_motion)
         guided_moments = moments(run)
         delay, error = best_shift(reference, guided_moments)
         peaks = np.abs(guided_moments).max(axis=0) / np.abs(reference).max(axis=0) - 1.0
         results.append(
             {
-                "way, m": _rms(guide_motion.way - x),
-                "speed, m/s": _rms(guide_motion.speed - np.gradient(x, guide_motion.time)),
+                "way, m": _rms(driving_motion.way - x),
+                "speed, m/s": _rms(driving_motion.speed - np.gradient(x, driving_motion.time)),
                 **cost(run),
                 "later, s": delay * kerb_test.STEP,
                 "moments, %": 100.0 * error,
@@ -249,6 +249,6 @@ def measure(seeds: int) -> list[dict[str, Any]]:
     return rows + [row_of(name, true, plain, range(seeds)) for name in watched(list(CASES))]
 
 
-def guide_blocks(rows: Sequence[Row]) -> dict[str, str]:
+def driving_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Table of the page."""
     return {"measured guides": table(rows, COLUMNS)}

@@ -21,7 +21,7 @@ from fmu_src.description.probe import probe
 from fmu_src.geometry.geometry import geometry, geometry_file
 from fmu_src.native.early_compilation import compiled_ahead
 from fmu_src.native.fmi_versions import FMI2, FMI3, FMI3_SCALAR
-from fmu_src.native.package import NativeContents, Telling, pack_native
+from fmu_src.native.package import NativeContents, StageReport, pack_native
 from fmu_src.native.platforms import able_platforms
 from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_names
 from fmu_src.variables.renamed_variables import Renamed, renamed
@@ -125,7 +125,7 @@ def build_fmu(
             name,
             fidelity,
             (author, copyright, licence),
-            functools.partial(_told, say),
+            functools.partial(_report_stage, say),
             names=names,
             plain=plain,
         )
@@ -143,8 +143,8 @@ class FmuBuilder:
         The default among several Systems.
     rights : tuple of str
         Author, copyright and licence of the model; empty: the solver's.
-    told : callable
-        ``told(what, note)`` makes a context in which `what` is done.
+    report_stage : callable
+        ``report_stage(what, note)`` makes a context in which `what` is done.
     description : str
         Of the model; empty: that of the System.
     origin : mapping of str to bytes, optional
@@ -161,7 +161,7 @@ class FmuBuilder:
         name: str,
         fidelity: int,
         rights: tuple[str, str, str],
-        told: Telling,
+        report_stage: StageReport,
         description: str = "",
         origin: Mapping[str, bytes] | None = None,
         names: Content | None = None,
@@ -184,12 +184,12 @@ class FmuBuilder:
         description = description or meta.get("description") or ""
         description = description or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
         check_texts(description, rights, table)
-        self._name, self._told = name, told
-        with told("finding what depends on what"):
+        self._name, self._report_stage = name, report_stage
+        with report_stage("finding what depends on what"):
             reach = probe(systems, table)
         table = with_nominal(table, drive_sizes(systems, table), reach.size)
         version = importlib.metadata.version("ali3")
-        with told("writing C for the model"):
+        with report_stage("writing C for the model"):
             code = [] if plain else [named_code_of(s) for s in systems]
         self.renamed = Renamed(table, {}) if names is None else renamed(table, names)
         table = self.renamed.table
@@ -226,14 +226,14 @@ class FmuBuilder:
         if kind == "python":
             from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
 
-            pack_python(contents, platforms, file, self._told, self._libraries)
+            pack_python(contents, platforms, file, self._report_stage, self._libraries)
         else:
             if not self._runs:
-                with self._told("running the default experiment"):
+                with self._report_stage("running the default experiment"):
                     runs = reference_runs(contents.system, contents.follower)
                 variables_by_name = by_name_in_system(contents.table, contents.system.meta)
                 self._runs = tuple(with_other_names(run, variables_by_name) for run in runs)
-            pack_native(contents, _FACES[kind], self._runs, platforms, file, self._told, self._libraries)
+            pack_native(contents, _FACES[kind], self._runs, platforms, file, self._report_stage, self._libraries)
         return file
 
 
@@ -246,7 +246,7 @@ def _label(number: int) -> str:
 
 
 @contextmanager
-def _told(say: Say, what: str, note: str = "") -> Iterator[None]:
+def _report_stage(say: Say, what: str, note: str = "") -> Iterator[None]:
     """A context for work that is reported when it takes long, repeatedly, and at its end."""
     begin = time.perf_counter()
     with watched(lambda lasted: say(f"{what}: {lasted:.0f} s{f' ({note})' if note else ''} ..."), _REPEATED):

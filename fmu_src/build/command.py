@@ -45,6 +45,25 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
 
 def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
+    _add_targets(parser)
+    add_option(parser, "--out", "dist; of the kernel: its place in the package")
+    _add_kinds(parser)
+    _add_variables(parser)
+    parser.add_argument(
+        "--plain",
+        action="store_true",
+        help="without generated C code for the algebra of the model: the same bits, slower steps, a faster build, a "
+        "smaller file",
+    )
+    add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
+    parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
+    parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
+    parser.add_argument("--license", default="", help="of the model; default: the solver's")
+    return parser
+
+
+def _add_targets(parser: argparse.ArgumentParser) -> None:
+    """Add what is built."""
     target_group = parser.add_mutually_exclusive_group()
     target_group.add_argument(
         "car",
@@ -68,7 +87,10 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         help="an FMU of the kind native: its own sources are compiled for the --platforms, existing binaries stay",
     )
     target_group.add_argument("--kernel", action="store_true", help="the C kernel in place of an FMU, in a clone")
-    add_option(parser, "--out", "dist; of the kernel: its place in the package")
+
+
+def _add_kinds(parser: argparse.ArgumentParser) -> None:
+    """Add kinds of FMUs and platforms."""
     parser.add_argument(
         "--kind",
         default=_KINDS,
@@ -83,6 +105,10 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         help="out of linux64, win64, darwin64, aarch64-linux and wasm32 (WebAssembly, of the kind native); this: that "
         "of this machine, the default; all: all but wasm32 that the kind can have, that of this machine first",
     )
+
+
+def _add_variables(parser: argparse.ArgumentParser) -> None:
+    """Add what changes the variables of an FMU."""
     parser.add_argument(
         "--poses",
         choices=("wheels", "all"),
@@ -103,17 +129,6 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         help="names and units of variables as in another program: carmaker, carsim, chrono, osi, "
         "vehicle_interfaces, or an alias file",
     )
-    parser.add_argument(
-        "--plain",
-        action="store_true",
-        help="without generated C code for the algebra of the model: the same bits, slower steps, a faster build, a "
-        "smaller file",
-    )
-    add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
-    parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
-    parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
-    parser.add_argument("--license", default="", help="of the model; default: the solver's")
-    return parser
 
 
 def _build_kernel(platforms: str, out: Path | None) -> int:
@@ -146,7 +161,7 @@ def _add_platforms(options: argparse.Namespace) -> int:
     check_writable(file)
     line = ProgressLine()
     line.expect(len(platforms))
-    added = add_platforms(options.fmu, platforms, file, line.told)
+    added = add_platforms(options.fmu, platforms, file, line.report_stage)
     print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; added: {', '.join(added) or 'nothing'}", flush=True)
     return 0
 
@@ -193,7 +208,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     for file in (*files.values(), parameter_file):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
-    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names, options.plain)
+    builder = FmuBuilder(systems, name, fidelity, rights, line.report_stage, description, origin, names, options.plain)
     _report_names(builder.renamed)
     platforms = [p for p in TARGETS if p in first or p in rest]
     available = {kind: [p for p in platforms if _able(kind, p)] for kind in kinds}
@@ -230,7 +245,7 @@ def _compiled(
         from fmu_src.build.car_registry import build_car, car_text
 
         print(f"car {car_text(options.car)} ...", flush=True)
-        with line.told("compiling the car"):
+        with line.report_stage("compiling the car"):
             car = build_car(options.car, options.poses, options.ports, options.fidelity, tables.append)
         _report_tables(tables)
         _report_grip(car.grip)
@@ -239,7 +254,7 @@ def _compiled(
     from fmu_src.build.scene_registry import car_of_scene, load_fidelities
 
     print(f"scene {options.scene} ...", flush=True)
-    with line.told("compiling the scene"):
+    with line.report_stage("compiling the scene"):
         compiled = load_fidelities(options.scene, options.poses, tables.append)
     _report_tables(tables)
     if (scene_car := car_of_scene(options.scene)) is not None:

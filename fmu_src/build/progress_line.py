@@ -49,7 +49,7 @@ class ProgressLine:
         self._done, self._total = 0, total
 
     @contextmanager
-    def told(self, what: str, note: str = "") -> Iterator[None]:
+    def report_stage(self, what: str, note: str = "") -> Iterator[None]:
         """A context for work that is reported. `what`: the work; `note`: why it may take long."""
         words = f" ({note})" if note else ""
 

@@ -1,8 +1,8 @@
 """Groups of parameters that affect an initial state in one way, so that the trials of many cost no more than of few.
 
-A start in static equilibrium is where forces at rest balance: parameters that change a force at rest or a guide move
-it, all of them in the same way as far as declared dependencies go. Those of roads move it where a start is put on
-the road. The others move nothing: what they reach at a start are forces.
+A start in static equilibrium is where forces at rest balance: parameters that change a force at rest or a driving
+function move it, all of them in the same way as far as declared dependencies go. Those of roads move it where a start
+is put on the road. The others move nothing: what they reach at a start are forces.
 """
 
 import random
@@ -39,7 +39,7 @@ def parameter_groups(
     forces = [_force(kernel, q) for q in configurations]
     for p in range(len(arrays["par_value"])):
         targets = set(arrays["par_target"][arrays["par_ptr"][p] : arrays["par_ptr"][p + 1]].tolist())
-        if ParameterTarget.GUIDE in targets:
+        if ParameterTarget.DRIVING in targets:
             moving.append(p)
         elif ParameterTarget.ROAD in targets:
             roads.append(p)

@@ -1,17 +1,20 @@
-"""Roads of a scene with the parameters of the FMU that move or exchange them."""
+"""Roads of a scene, each with the parameters of the FMU that move it or exchange its file."""
 
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 import mbs
 from fmu_src.variables.text_variables import ROADS
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.kernel.header.enumerations import RoadType
+from mbs.kernel.header.enumerations import ParameterTarget, RoadType
 
 NUMBERS = {road.type: road.real_names for road in (PlaneRoad, KerbRoad, GridRoad)}
+"""Names of the numbers of a road in the System, by its type."""
 MOVED = {"kerb_x": "position", "kerb_height": "step", "friction": "friction", "friction_factor": "friction_factor"}
-TARGET_ROAD = 2
+"""What a host may change, by its key in the drawing: the number of the road in the System."""
 
 
 def with_parameters(
@@ -23,34 +26,40 @@ def with_parameters(
     `numbers_of_fmu`: names of the FMU's variables that are numbers. Result: with `variables`, the parameters by what
     they set: the keys of `MOVED` and `file`; paths are those in the FMU.
     """
-    files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
-    entries = []
-    for index, road in enumerate(roads):
-        changed_road, k = dict(road), road.get("number", index)
-        if changed_road["kind"] == "file" and changed_road.get("path"):
-            changed_road["path"] = f"{ROADS}/{Path(changed_road['path']).name}"
+    files = {entry["road"]: entry["name"] for entry in system.meta.get("road_files", ())}
+    values, changed = system.arrays["road_real"], []
+    for index, drawn in enumerate(roads):
+        road, number = dict(drawn), drawn.get("number", index)
+        is_file = road["kind"] == "file"
+        if is_file and road.get("path"):
+            road["path"] = f"{ROADS}/{Path(road['path']).name}"
         variables = {}
-        if k < len(system.arrays["road_type"]):
-            first_number = int(system.arrays["road_real_ptr"][k])
-            numbers = NUMBERS.get(RoadType(int(system.arrays["road_type"][k])), ())
-            for name, number in MOVED.items():
-                real_index = first_number + numbers.index(number) if number in numbers else -1
-                parameter = _parameter_of(system, real_index)
-                if parameter in numbers_of_fmu:
-                    variables[name] = parameter
-                    if name == number and changed_road["kind"] != "file":
-                        changed_road[name] = float(system.arrays["road_real"][real_index])
-        if k in files and changed_road["kind"] != "file":
-            variables["file"] = files[k]["name"]
-        entries.append(changed_road | ({"variables": variables} if variables else {}))
-    return entries
+        for key, real in _moved_reals(system, number).items():
+            parameter = _parameter_that_writes(system, real)
+            if parameter in numbers_of_fmu:
+                variables[key] = parameter
+                if key == MOVED[key] and not is_file:
+                    road[key] = float(values[real])
+        if number in files and not is_file:
+            variables["file"] = files[number]
+        changed.append(road | ({"variables": variables} if variables else {}))
+    return changed
 
 
-def _parameter_of(system: mbs.System, real: int) -> str:
-    """The parameter that writes a number of the roads as it is; empty: none."""
+def _moved_reals(system: mbs.System, road: int) -> dict[str, int]:
+    """Indices in `road_real` of the numbers of a road that a host may change, by the keys of `MOVED`."""
+    if road >= len(system.arrays["road_type"]):
+        return {}
+    names = NUMBERS.get(RoadType(int(system.arrays["road_type"][road])), ())
+    first = int(system.arrays["road_real_ptr"][road])
+    return {key: first + names.index(name) for key, name in MOVED.items() if name in names}
+
+
+def _parameter_that_writes(system: mbs.System, real: int) -> str | None:
+    """Name of the parameter that is written, without a factor, to an entry of `road_real`; None if there is none."""
     a = system.arrays
-    for k in range(len(a["par_target"])):
-        if int(a["par_target"][k]) == TARGET_ROAD and int(a["par_index"][k]) == real and a["par_scale"][k] == 1.0:
-            owner = next(p for p in range(len(a["par_ptr"]) - 1) if a["par_ptr"][p] <= k < a["par_ptr"][p + 1])
-            return str(system.meta["parameters"][owner]["name"])
-    return ""
+    is_written = (a["par_target"] == ParameterTarget.ROAD) & (a["par_index"] == real) & (a["par_scale"] == 1.0)
+    if not is_written.any():
+        return None
+    owner = np.searchsorted(a["par_ptr"], np.argmax(is_written), side="right") - 1
+    return str(system.meta["parameters"][owner]["name"])

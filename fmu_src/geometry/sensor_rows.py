@@ -32,7 +32,7 @@ class SensorRows:
     def __init__(self, system: mbs.System) -> None:
         self._arrays = system.arrays
         tables = system.arrays.get("tabled_size", np.zeros(0, int))
-        self._dependents = int(np.sum(tables[::3]))  # behind the coordinates, of tabled bodies
+        self._dependents = int(np.sum(tables[::3]))  # behind the coordinates, of lookup-table bodies
         self._nq = system.nq + self._dependents
         assert system.drawing is not None, "asked for before"
         self._places = system.drawing.places

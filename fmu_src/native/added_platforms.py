@@ -10,7 +10,7 @@ from ali3.reading import is_file, missing_file_text
 from ali3.temporary_folder import temporary_folder
 from fmu_src.native.archive import write_zip
 from fmu_src.native.compilation import compile_library, compile_packed
-from fmu_src.native.package import Telling, first_time
+from fmu_src.native.package import StageReport, first_time
 from fmu_src.native.platforms import SUFFIXES, TARGETS
 from fmu_src.native.sources import packed_sources
 from mbs.compiler.generated.source import TABLE
@@ -18,7 +18,7 @@ from mbs.compiler.generated.source import TABLE
 _SOURCES = ("sources/table.c", "sources/fmi2_direct.c", "sources/fmi2_alone.c")
 
 
-def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling) -> list[str]:
+def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, report_stage: StageReport) -> list[str]:
     """Write an FMU again with binaries for more platforms; all else stays, its GUID too.
 
     Parameters
@@ -29,8 +29,8 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
         Out of `fmu_src.native.platforms.TARGETS`; what is there already is kept.
     file : Path
         Where to; may be `fmu` itself.
-    told : callable
-        ``told(what, note)`` makes a context in which `what` is done.
+    report_stage : callable
+        ``report_stage(what, note)`` makes a context in which `what` is done.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
     with temporary_folder() as folder:
         for platform in added:
             library = name + SUFFIXES[platform]
-            with told(f"compiling for {platform}", first_time(platform)):
+            with report_stage(f"compiling for {platform}", first_time(platform)):
                 binary = _compile(files, TARGETS[platform], Path(folder, platform), library)
             files[f"binaries/{platform}/{library}"] = binary
     write_zip(files, file)

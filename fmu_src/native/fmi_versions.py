@@ -3,7 +3,8 @@
 from collections.abc import Callable, Sequence
 
 from fmu_src.description.description import Description, model_description
-from fmu_src.description.fmi3 import build_description, element_names, map_manifest, model_description_fmi3, terminals
+from fmu_src.description.fmi3 import build_description, element_names, model_description_fmi3
+from fmu_src.description.terminals import map_manifest, terminals
 from fmu_src.native.package import Face, NativeContents
 from fmu_src.native.platforms import FMI3_FOLDERS, PLATFORMS, TARGETS
 from fmu_src.native.table import c_arrays

@@ -28,7 +28,7 @@ from mbs.system.text import model_notices
 
 GEOMETRY = "resources/geometry.json"
 """Where the scene lies in an FMU."""
-Telling = Callable[..., AbstractContextManager[None]]
+StageReport = Callable[..., AbstractContextManager[None]]
 
 
 @dataclass(frozen=True)
@@ -187,7 +187,7 @@ def pack_native(
     runs: Sequence[ReferenceRun],
     platforms: Sequence[str],
     file: Path,
-    told: Telling,
+    report_stage: StageReport,
     libraries: dict[tuple[str, str], bytes],
 ) -> None:
     """Compile and write the FMU.
@@ -198,8 +198,8 @@ def pack_native(
         The default experiment, then others.
     platforms : sequence of str
         Out of `fmu_src.native.platforms.TARGETS`.
-    told : callable
-        ``told(what, note)`` makes a context in which `what` is done.
+    report_stage : callable
+        ``report_stage(what, note)`` makes a context in which `what` is done.
     libraries : dict
         As for `compiled_libraries`.
     """
@@ -214,14 +214,14 @@ def pack_native(
         face.picture: _picture(runs[0]),
     } | reference_files(contents.model_name, runs, contents.stop_time, contents.step_size, contents.parameters)
     binaries = {platform: face.binaries[platform] for platform in platforms}
-    files |= compiled_libraries(contents, face.name, table_c, binaries, told, libraries)
+    files |= compiled_libraries(contents, face.name, table_c, binaries, report_stage, libraries)
     head = contents.description_head(
         guid,
         tool=f"ALi3 {contents.version}",
         needs_execution_tool=False,
         sources=[path for path in sources if path.endswith(".c")],
     )
-    with told(f"{face.name}: packing"):
+    with report_stage(f"{face.name}: packing"):
         write_zip(files | face.documents(head, contents), file)
 
 
@@ -230,13 +230,13 @@ def compiled_libraries(
     face: str,
     table_c: str,
     binaries: Mapping[str, Mapping[str, Sequence[str]]],
-    told: Telling,
+    report_stage: StageReport,
     libraries: dict[tuple[str, str], bytes],
 ) -> dict[str, bytes]:
     """Libraries of an FMU by their paths in it.
 
-    `binaries`: as in `Face`; `told`: as in `pack_native`; `libraries`: by model and folder those that were compiled
-    before; those compiled here are added.
+    `binaries`: as in `Face`; `report_stage`: as in `pack_native`; `libraries`: by model and folder those that
+    were compiled before; those compiled here are added.
     """
     files, name = {}, contents.model_name
     with temporary_folder() as temporary:
@@ -246,7 +246,7 @@ def compiled_libraries(
             library = name + SUFFIXES[platform]
             for folder, targets in targets_by_folder.items():
                 if (name, folder) not in libraries:
-                    with told(f"{face}: compiling for {folder}", first_time(platform)):
+                    with report_stage(f"{face}: compiling for {folder}", first_time(platform)):
                         binary = compile_library(targets, face, table, contents.generated, Path(temporary), library)
                     libraries[name, folder] = binary
                 files[f"binaries/{folder}/{library}"] = libraries[name, folder]

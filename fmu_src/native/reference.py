@@ -17,7 +17,7 @@ import mbs
 from ali3.parameter_set import ParameterSet
 from ali3.write_parameter_set import parameter_set_bytes
 from fmu_src.description.description import number, to_bytes
-from fmu_src.description.fmi3 import manifest
+from fmu_src.description.layered_standards import manifest
 from fmu_src.variables.variables import Variable
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance

@@ -9,7 +9,7 @@ import pythonfmu
 
 from fmu_src.description.description import model_description
 from fmu_src.native.archive import identity_of, licence, write_zip
-from fmu_src.native.package import NativeContents, Telling, compiled_libraries
+from fmu_src.native.package import NativeContents, StageReport, compiled_libraries
 from fmu_src.native.platforms import PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.native.sources import shell_files
 
@@ -27,7 +27,7 @@ def pack_python(
     contents: NativeContents,
     platforms: Sequence[str],
     file: Path,
-    told: Telling,
+    report_stage: StageReport,
     libraries: dict[tuple[str, str], bytes],
 ) -> None:
     """Compile and write the FMU.
@@ -40,8 +40,8 @@ def pack_python(
         ``linux64``, ``win64`` or both.
     file : Path
         Where to; an older file is replaced only when the new one is whole.
-    told : callable
-        ``told(what, note)`` makes a context in which `what` is done.
+    report_stage : callable
+        ``report_stage(what, note)`` makes a context in which `what` is done.
     libraries : dict
         As for `fmu_src.native.package.compiled_libraries`.
     """
@@ -74,8 +74,8 @@ def pack_python(
         ),
     }
     binaries = {platform: {platform: TARGETS[platform]} for platform in platforms}
-    files |= compiled_libraries(contents, "python", contents.table_c(identity, guid), binaries, told, libraries)
-    with told("python: packing"):
+    files |= compiled_libraries(contents, "python", contents.table_c(identity, guid), binaries, report_stage, libraries)
+    with report_stage("python: packing"):
         write_zip(files, file)
 
 

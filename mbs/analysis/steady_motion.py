@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 STEP = 1e-3  # rad, m, s; step of the differences, of fourth order, along a candidate
 CENTRAL = np.array([[-2.0, -1.0, 1.0, 2.0], [1.0 / 12.0, -2.0 / 3.0, 2.0 / 3.0, -1.0 / 12.0]])  # offsets, weights
-# forward in time, as a guide may begin at the state
+# forward in time, as a driving function may begin at the state
 FORWARD = np.array([[0.0, 1.0, 2.0, 3.0, 4.0], [-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25]])
 NEAR = 3e-3  # displacement of neighbouring states over length and speed of the motion
 SAME = 1e-6  # largest defect of a symmetry, over length, speed or acceleration of the motion

@@ -48,7 +48,7 @@ def mode_arrays(
     """The `mode_` arrays of the triads, and a function that traces their loops and returns the `mode_cell` arrays.
 
     Only the checks of steps need the latter. `rows`: constraint rows in z; `full`: full coordinates as expressions in
-    z; `q`: assembled values of z; `guides`: values of the guides.
+    z; `q`: assembled values of z; `guides`: values of the driving functions.
     """
     numbers, loops, names = [], [], []
     rows_and_columns = [(row, set(row.columns())) for row in rows]
@@ -58,8 +58,8 @@ def mode_arrays(
         block_triads = triads(block)
         if not 0 < len(block_triads) <= MAX_TRIADS:
             continue
-        rings = sorted({t.ring for t in block_triads})
-        numbers.append([n for t in block_triads for n in _triad_integers(t, signals, rings.index(t.ring))])
+        cycles = sorted({t.cycle for t in block_triads})
+        numbers.append([n for t in block_triads for n in _triad_integers(t, signals, cycles.index(t.cycle))])
         loops.append((block, block_triads, rows_of_block(model, block, rows_and_columns, full)))
         names += [list(t.name.encode()) for t in block_triads]
 
@@ -71,10 +71,10 @@ def mode_arrays(
     return triad_arrays, trace_modes
 
 
-def _triad_integers(triad: Triad, signals: Signals, ring: int) -> list[int]:
-    """Integers of a triad in the System: its signals, its bits (1: turned, 2: planar), the number of its ring."""
+def _triad_integers(triad: Triad, signals: Signals, cycle: int) -> list[int]:
+    """Integers of a triad in the System: its signals, its bits (1: turned, 2: planar), the number of its cycle."""
     planar = not triad.n[0].terms and not triad.n[1].terms and all(v[2] == Affine() for v in (triad.a, triad.b))
-    return [*(signals.number(c) for c in triad.components), int(triad.turned) + 2 * int(planar), ring]
+    return [*(signals.number(c) for c in triad.components), int(triad.turned) + 2 * int(planar), cycle]
 
 
 def _block_modes(

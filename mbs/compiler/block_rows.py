@@ -107,7 +107,7 @@ def _add_tied(initial: set[int], excluded: set[int], tying_rows: Sequence[tuple[
 
 
 def quadratics(block_rows: BlockRows, q: Array, guides: Array) -> Quadratics:
-    """The rows in the moving coordinates, scaled to unit gradients; all other coordinates and the guides are held."""
+    """The rows in the moving coordinates, scaled to unit gradients; other coordinates and driving functions held."""
     index = {c: k for k, c in enumerate(block_rows.coordinates)}
     m, n = len(block_rows.rows), len(block_rows.coordinates)
     constant, linear, hessian = np.zeros(m), np.zeros((m, n)), np.zeros((m, n, n))

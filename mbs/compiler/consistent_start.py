@@ -109,7 +109,7 @@ def start_velocity(
     given_momentum: Array,
     q: Array,
     guides: Array,
-    guide_rates: Array,
+    driving_rates: Array,
     free_momentum: Array | None = None,
 ) -> Array:
     """Velocity that satisfies the rows and comes nearest to the given velocities.
@@ -130,7 +130,7 @@ def start_velocity(
     near : ndarray, shape (nq,), optional
         The whole mass times the velocities of the other coordinates without joints; None: zero.
     """
-    _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
+    _, Phiq, phi_t = arrays.evaluate(q, guides, driving_rates)
     v = np.zeros(arrays.nq)
     if not np.any(given_momentum) and not np.any(phi_t):
         return v

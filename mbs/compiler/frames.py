@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.common.frames import FlexibleShapes, Frames
-from mbs.compiler.tabled_bodies import tabled_coordinates
+from mbs.compiler.lookup_tables import lookup_coordinates
 from mbs.model.model import Model
 
 
@@ -26,8 +26,8 @@ def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64])
         for b in model.bodies
         if b.flexibility is not None
     )
-    tabled = tabled_coordinates(model)
-    if tabled:  # coordinates from tables are not affine in q
+    table_coordinates = lookup_coordinates(model)
+    if table_coordinates:  # coordinates from tables are not affine in q
         constant = constant.copy()
-        constant[tabled] = np.nan
+        constant[table_coordinates] = np.nan
     return Frames(T, constant, model.dimension, tuple(points), tuple(vectors), rigid, tuple(scalars), flexible)

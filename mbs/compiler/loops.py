@@ -1,7 +1,7 @@
-"""Closed loops of a model, as rings in the graph of its bodies and joints.
+"""Closed loops of a model, as cycles in the graph of its bodies and joints.
 
 Vertices of the graph are groups of welded bodies and massless rods; an edge has all joints between two vertices. A
-block is a largest set of edges of which any two lie on a ring: two blocks share at most one vertex.
+block is a largest set of edges of which any two lie on a cycle: two blocks share at most one vertex.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Edge:
 
 @dataclass(eq=False)
 class Block:
-    """Edges of which any two lie on a ring, and their vertices."""
+    """Edges of which any two lie on a cycle, and their vertices."""
 
     vertices: list[Vertex]
     edges: list[Edge]
@@ -69,7 +69,7 @@ class Block:
 
 
 def blocks_of_loops(model: Model) -> list[Block]:
-    """The blocks that have a ring; joints with a switch are left out because they are not always closed."""
+    """The blocks that have a cycle; joints with a switch are left out because they are not always closed."""
     blocks = []
     for edges in blocks_of({v: [(e, w) for w, e in v.edges.items()] for v in _graph(model)}):
         vertices = list(dict.fromkeys(v for e in edges for v in e.ends))
@@ -83,10 +83,10 @@ def blocks_of_loops(model: Model) -> list[Block]:
     return blocks
 
 
-def rings(block: Block) -> list[list[Vertex]]:
-    """The shortest ring through each edge of a block, as its vertices in order, without repetitions.
+def cycles(block: Block) -> list[list[Vertex]]:
+    """The shortest cycle through each edge of a block, as its vertices in order, without repetitions.
 
-    Of equally short rings one without rods is taken, and rings without rods come first.
+    Of equally short cycles one without rods is taken, and cycles without rods come first.
     """
     block_edges = set(map(id, block.edges))
     shortest: dict[frozenset[int], list[Vertex]] = {}
@@ -104,11 +104,11 @@ def rings(block: Block) -> list[list[Vertex]]:
             frontier = next_frontier
         if id(goal) not in before:
             continue
-        ring = [goal]
-        while ring[-1] is not start:
-            ring.append(before[id(ring[-1])])
-        shortest.setdefault(frozenset(map(id, ring)), ring)
-    return sorted(shortest.values(), key=lambda ring: any(v.is_rod for v in ring))
+        cycle = [goal]
+        while cycle[-1] is not start:
+            cycle.append(before[id(cycle[-1])])
+        shortest.setdefault(frozenset(map(id, cycle)), cycle)
+    return sorted(shortest.values(), key=lambda cycle: any(v.is_rod for v in cycle))
 
 
 def _graph(model: Model) -> list[Vertex]:

@@ -23,6 +23,19 @@ from mbs.compiler.front_arrays import front_arrays, locator, mass_positions, row
 from mbs.compiler.fronts import Fronts, build_fronts
 from mbs.compiler.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
 from mbs.compiler.immobile_models import check_motion, locked_gears, locked_parts
+from mbs.compiler.lookup_tables import (
+    Dependents,
+    base_coordinates,
+    carried_mass,
+    dependent_columns,
+    expand_columns,
+    joint_error,
+    locator_with_dependents,
+    lookup_arrays,
+    lookup_cliques,
+    lookup_coordinates,
+    separate_dependents,
+)
 from mbs.compiler.metadata import metadata
 from mbs.compiler.natural_coordinates import NaturalCoordinates, natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
@@ -35,21 +48,8 @@ from mbs.compiler.pose import pose_arrays, pose_partners
 from mbs.compiler.row_arrays import RowArrays
 from mbs.compiler.row_scale import row_scale
 from mbs.compiler.rows import rigid_rows
-from mbs.compiler.start import guide_start, reference_position, velocity
+from mbs.compiler.start import driving_start, reference_position, velocity
 from mbs.compiler.structure import rank_at, structure_report
-from mbs.compiler.tabled_bodies import (
-    Dependents,
-    base_coordinates,
-    carried_mass,
-    dependent_columns,
-    expand_columns,
-    joint_error,
-    locator_with_dependents,
-    separate_dependents,
-    tabled_arrays,
-    tabled_cliques,
-    tabled_coordinates,
-)
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
 from mbs.kernel.header.arrays import ARRAYS
 from mbs.model.equation import Equation
@@ -130,9 +130,9 @@ def _reduce(model: Model, corrections: Corrections) -> _Reduced:
     """Eliminate linear equations, make rows of all others and remove dependent rows."""
     linear, row_equations = _equations(model)
     natural = natural_coordinates(model)
-    tabled = {*tabled_coordinates(model)}
+    table_coordinates = {*lookup_coordinates(model)}
     for equation in linear:
-        if not tabled.isdisjoint(equation.linear_form().terms):
+        if not table_coordinates.isdisjoint(equation.linear_form().terms):
             raise joint_error(equation.name)
     length, size = model_length(model), drawn_length(model)
     retained = flexible_coordinates(model) | base_coordinates(model)
@@ -194,7 +194,7 @@ class _Start:
     q: Array
     qd: Array
     guides: Array
-    """Values of the guides."""
+    """Values of the driving functions."""
     active_rows: list[RowTerms]
     """Rows that are switched on."""
     rank: int | None
@@ -208,7 +208,7 @@ class _Start:
 def _solve_start(model: Model, reduced: _Reduced, ordered: _Ordered) -> _Start:
     dependents, rows, new = reduced.dependents, reduced.rows, ordered.new
     T, z0, mass, order = ordered.T, ordered.z0, ordered.mass, ordered.fronts.order
-    guides, guide_rates = guide_start(model)
+    guides, driving_rates = driving_start(model)
     active_rows = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
     arrays = ordered.arrays if len(active_rows) == len(rows) else RowArrays(active_rows, new)
     position_rows = [row for row in active_rows if not row.rates]
@@ -227,9 +227,9 @@ def _solve_start(model: Model, reduced: _Reduced, ordered: _Ordered) -> _Start:
         tolerance_factor,
     )
     qd, contradiction = velocity(
-        model, dependents.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size
+        model, dependents.full, T, q[new], mass, stiffness, order, arrays, guides, driving_rates, reduced.size
     )
-    _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
+    _, Phiq, phi_t = arrays.evaluate(q, guides, driving_rates)
     check_motion(model, active_rows, Phiq, phi_t, qd, mass.diagonal())
     locked = locked_gears(model) or locked_parts(model, dependents.full, new, active_rows, Phiq, mass.diagonal())
     return _Start(q, qd, guides, active_rows, rank_at(Phiq, mass.diagonal()), contradiction, locked)
@@ -291,7 +291,7 @@ def _make_tables(
         **inertia_arrays(model, signals),
         **axis_arrays(model, signals, with_dependents, new),
         **flexible_arrays(model, full, new, locate),
-        **tabled_arrays(model, with_dependents, new),
+        **lookup_arrays(model, with_dependents, new),
         **_make_pose(model, reduced, ordered, q),
         **NO_TREE,
         **tree,
@@ -360,7 +360,7 @@ def _factorise_symbolically(
     columns_of_dependents, nz = dependent_columns(model, dependents.with_dependents), mass.shape[0]
     modes = flexible_cliques(model, full)
     cliques += modes + payload_cliques(model, full) + inertia_cliques(model, full)
-    cliques += tabled_cliques(model, dependents.with_dependents)
+    cliques += lookup_cliques(model, dependents.with_dependents)
 
     def pattern_with(reserved: Mapping[int, frozenset[int]]) -> sparse.csc_matrix:
         return clique_pattern(

@@ -27,7 +27,7 @@ def axis_coordinates(model: Model, full: Sequence[Affine]) -> dict[int, frozense
 
 def axis_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that a wheel couples in the mass matrix of its carrier."""
-    axes = [a for a in model.written_axes if not a.spin.carrier.is_tabled]
+    axes = [a for a in model.written_axes if not a.spin.carrier.is_lookup_table]
     return [sorted(_frame_coordinates(axis, k, full)) for axis in axes for k in range(3)]
 
 
@@ -40,7 +40,7 @@ def axis_arrays(
     model: Model, signals: Any, with_dependents: Sequence[Affine], new: NDArray[np.int64]
 ) -> Mapping[str, Any]:
     """The `axis_` arrays; `signals`: signals of the System, `new`: index of each z in elimination order."""
-    tables = {id(t): k for k, t in enumerate(model.tabled)}
+    tables = {id(t): k for k, t in enumerate(model.lookup_tables)}
     axes = model.written_axes
 
     def numbers(vectors: Iterable[AffineVector]) -> list[int]:

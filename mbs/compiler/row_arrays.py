@@ -25,7 +25,7 @@ class _TermLists:
     quad: list[tuple[int, int, int, float]] = field(default_factory=list)
     angles: list[tuple[int, int]] = field(default_factory=list)
     angle_terms: list[tuple[int, int, int, float, float]] = field(default_factory=list)
-    guide_terms: list[tuple[int, int, int, int, int, float]] = field(default_factory=list)
+    driving_terms: list[tuple[int, int, int, int, int, float]] = field(default_factory=list)
     velocity_rows: list[int] = field(default_factory=list)
     velocities: list[tuple[int, int, int, float]] = field(default_factory=list)
 
@@ -52,7 +52,7 @@ class _TermLists:
                     coefficients.setdefault((a, b), [0.0, 0.0])[k] = v
             self.angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(coefficients.items())]
         for guide, power, p in row.guides:
-            self.guide_terms += [(r, guide, power, a, b, v) for a, b, v in _terms(p, position)]
+            self.driving_terms += [(r, guide, power, a, b, v) for a, b, v in _terms(p, position)]
         if row.rates:
             for a, b, v in sorted((position[i], position[j], v) for (i, j), v in row.rates.items()):
                 if a >= 0:
@@ -67,7 +67,7 @@ class _TermLists:
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """The row arrays of the System file, by name."""
-        tables = ((self.quad, 4), (self.angle_terms, 5), (self.guide_terms, 6), (self.velocities, 4))
+        tables = ((self.quad, 4), (self.angle_terms, 5), (self.driving_terms, 6), (self.velocities, 4))
         q, t, g, w = (np.array(x, dtype=float).reshape(-1, k) for x, k in tables)
         angles = np.array(self.angles, dtype=np.int64).reshape(-1, 2)
         return {
@@ -134,11 +134,11 @@ class RowArrays:
         return np.split(self.arrays["row_col"].astype(np.int64), self.arrays["row_ptr"][1:-1]) if self.nc else []
 
     def evaluate(
-        self, q: Array, guides: Array, guide_rates: Array | None = None
+        self, q: Array, guides: Array, driving_rates: Array | None = None
     ) -> tuple[Array, sparse.csr_matrix, Array]:
         """Phi, shape (nc,), Phi_q, shape (nc, nq), and Phi_t, shape (nc,), at position `q`, shape (nq,).
 
-        `guide_rates`: zero by default. A condition A qd = 0 on velocities has A instead of Phi_q, and Phi = 0.
+        `driving_rates`: zero by default. A condition A qd = 0 on velocities has A instead of Phi_q, and Phi = 0.
         """
         a = self.arrays
         start, col = a["row_ptr"], a["row_col"]
@@ -184,11 +184,11 @@ class RowArrays:
             g, power = a["gterm_guide"], a["gterm_power"]
             terms = add(a["gterm_row"], a["gterm_a"], a["gterm_b"], a["gterm_h"] * guides[g] ** power)
             np.add.at(phi, a["gterm_row"], terms)
-            if guide_rates is not None:
+            if driving_rates is not None:
                 _, u = entry(a["gterm_row"], a["gterm_a"])
                 _, v = entry(a["gterm_row"], a["gterm_b"])
                 np.add.at(
-                    phi_t, a["gterm_row"], a["gterm_h"] * power * guides[g] ** (power - 1) * guide_rates[g] * u * v
+                    phi_t, a["gterm_row"], a["gterm_h"] * power * guides[g] ** (power - 1) * driving_rates[g] * u * v
                 )
         if len(a["velocity_row"]):
             row = self._row_of_velocity

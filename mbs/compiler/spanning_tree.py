@@ -132,7 +132,7 @@ def _check_model(model: Model) -> None:
         if body.is_flexible or body.is_point:
             raise NoTreeError(f"body '{body.name}' is {'flexible' if body.is_flexible else 'a point mass'}")
     if model.guides or model.switches:
-        raise NoTreeError("guides or switches move or hold something")
+        raise NoTreeError("driving functions or switches move or hold something")
     angles = sum(joint.turn is not None for joint in model.joints)
     if len(model.coordinates) > sum(body.size for body in model.bodies) + angles:
         raise NoTreeError("spins or ports are coordinates of their own")

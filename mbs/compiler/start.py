@@ -12,8 +12,8 @@ from mbs.compiler.natural_coordinates import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
 from mbs.compiler.start_velocities import GivenVelocity, contradiction, given_velocities
-from mbs.kernel.header.enumerations import GuideType
-from mbs.model.guides import table_value
+from mbs.kernel.header.enumerations import DrivingFunctionType
+from mbs.model.driving_functions import table_value
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
@@ -40,19 +40,19 @@ def reference_position(
     return np.atleast_1d(z)
 
 
-def guide_start(model: Model) -> tuple[Array, Array]:
-    """Value and rate of the guides at time zero."""
+def driving_start(model: Model) -> tuple[Array, Array]:
+    """Value and rate of the driving functions at time zero."""
     values = np.array([g.start for g in model.guides], dtype=float)
     rates = np.zeros(len(model.guides))
     for g in model.guides:
-        if g.type == GuideType.OF_TIME:
+        if g.type == DrivingFunctionType.OF_TIME:
             n = int(g.reals[0])
             breaks, c = np.array(g.reals[1 : n + 2]), np.array(g.reals[n + 2 :]).reshape(n, 6)
             if breaks[0] <= 0.0 < breaks[-1]:
                 k = int(np.searchsorted(breaks, 0.0, side="right")) - 1
                 t = -breaks[k]
                 rates[g.index] = sum(p * c[k, p] * t ** (p - 1) for p in range(1, 6))
-        elif g.type == GuideType.BY_TABLE:
+        elif g.type == DrivingFunctionType.BY_TABLE:
             rates[g.index] = table_value(g, values[g.input])[1] * rates[g.input]
     return values, rates
 
@@ -67,7 +67,7 @@ def velocity(
     order: Index,
     arrays: RowArrays,
     guides: Array,
-    guide_rates: Array,
+    driving_rates: Array,
     length: float,
 ) -> tuple[Array, str]:
     """Start velocity in elimination order, shape (nq,), from the given velocities of bodies and rates of coordinates,
@@ -96,7 +96,7 @@ def velocity(
         given_momentum = (T.T @ (M_given @ rates))[order]
         free_momentum = (T.T @ (full_mass(model) @ rates))[order] if is_partial else None
         return start_velocity(
-            arrays, mass, stiffness, weighted_mass, given_momentum, z[order], guides, guide_rates, free_momentum
+            arrays, mass, stiffness, weighted_mass, given_momentum, z[order], guides, driving_rates, free_momentum
         )
 
     def full_rates(v: Array) -> Array:

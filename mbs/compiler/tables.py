@@ -1,4 +1,4 @@
-"""Arrays of the System for signals, elements, sensors, inputs, guides, roads and parameters."""
+"""Arrays of the System for signals, elements, sensors, inputs, driving functions, roads and parameters."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -139,7 +139,7 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
         # all bodies of the model are known here
         is_mass = sensor.type == SensorType.MASS
         reals.append(
-            [float(sum(b.mass for b in (*model.bodies, *model.tabled) if isinstance(b, Body)))]
+            [float(sum(b.mass for b in (*model.bodies, *model.lookup_tables) if isinstance(b, Body)))]
             if is_mass
             else sensor.reals
         )
@@ -166,14 +166,14 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
 
 
 def channel_arrays(model: Model) -> Arrays:
-    """Arrays of inputs, guides, roads and parameters."""
+    """Arrays of inputs, driving functions, roads and parameters."""
     element_start = pointer([len(e.real) for e in model.elements])
-    guide_start = pointer([len(g.reals) for g in model.guides])
+    driving_start = pointer([len(g.reals) for g in model.guides])
     road_start = pointer([len(r.real) for r in model.roads])
     written_numbers = written_armatures(model)
     starts = (
         element_start,
-        guide_start,
+        driving_start,
         road_start,
         pointer([1] * len(model.payloads)),
         pointer([1] * len(model.switches)),

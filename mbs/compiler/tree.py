@@ -44,8 +44,8 @@ def tree_arrays(
     each z in elimination order.
     """
     try:
-        if model.tabled:
-            raise NoTreeError(f"'{model.tabled[0].name}' moves by a table")
+        if model.lookup_tables:
+            raise NoTreeError(f"'{model.lookup_tables[0].name}' moves by a table")
         groups, cuts = spanning_tree(model)
         moving = groups[1:]
         rows = sum(sum(cut_rows(model, cut)) for cut in cuts)

@@ -1,6 +1,6 @@
 """Angles at the joints of closed loops, which distinguish assembly modes.
 
-A joint J of a ring with the joints P and Q before and after it makes the triad P, J, Q. Seen along an axis n the angle
+A joint J of a cycle with the joints P and Q before and after it makes the triad P, J, Q. Seen along an axis n the angle
 from JP to JQ is 0 or pi if the two bodies lie in line: at a dead centre, at which the motion may leave in another
 assembly mode. The axis is the first of: the axis of J, of a hinge at P or Q (a wishbone), the line to a third joint of
 a body (a track rod on an upright).
@@ -9,12 +9,12 @@ a body (a track rod on an upright).
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.compiler.loops import Block, Edge, Vertex, rings
+from mbs.compiler.loops import Block, Edge, Vertex, cycles
 
 
 @dataclass(frozen=True)
 class Triad:
-    """Axis n, arms a and b from the joint, and number of the ring; `turned`: b is the line of a slide, to which its
+    """Axis n, arms a and b from the joint, and number of the cycle; `turned`: b is the line of a slide, to which its
     body is perpendicular.
     """
 
@@ -23,7 +23,7 @@ class Triad:
     a: AffineVector
     b: AffineVector
     turned: bool
-    ring: int
+    cycle: int
 
     @property
     def components(self) -> list[Affine]:
@@ -32,16 +32,16 @@ class Triad:
 
 
 def triads(block: Block) -> list[Triad]:
-    """One triad at each joint between two moving vertices of each ring.
+    """One triad at each joint between two moving vertices of each cycle.
 
-    An edge on a ring without rods has no triads of rings with rods.
+    An edge on a cycle without rods has no triads of cycles with rods.
     """
     by_edges = {}
     rodless_edges: set[int] = set()
-    for number, ring in enumerate(rings(block)):
-        has_rod = any(v.is_rod for v in ring)
-        for k, v in enumerate(ring):
-            w = ring[(k + 1) % len(ring)]
+    for number, cycle in enumerate(cycles(block)):
+        has_rod = any(v.is_rod for v in cycle)
+        for k, v in enumerate(cycle):
+            w = cycle[(k + 1) % len(cycle)]
             edge = v.edges[w]
             if block.reference in (v, w) or edge.slides:
                 continue
@@ -49,8 +49,8 @@ def triads(block: Block) -> list[Triad]:
                 rodless_edges.add(id(edge))
             elif id(edge) in rodless_edges:
                 continue
-            before = v.edges[ring[k - 1]]
-            after = w.edges[ring[(k + 2) % len(ring)]]
+            before = v.edges[cycle[k - 1]]
+            after = w.edges[cycle[(k + 2) % len(cycle)]]
             triad = _triad(edge, (v, before), (w, after), block, number)
             if triad is not None:
                 by_edges[(id(edge), id(before), id(after))] = triad
@@ -58,7 +58,7 @@ def triads(block: Block) -> list[Triad]:
 
 
 def _triad(
-    edge: Edge, first: tuple[Vertex, Edge], second: tuple[Vertex, Edge], block: Block, ring: int
+    edge: Edge, first: tuple[Vertex, Edge], second: tuple[Vertex, Edge], block: Block, cycle: int
 ) -> Triad | None:
     (a, turned_a), (b, turned_b) = _arm(edge, *first), _arm(edge, *second)
     n = _axis(edge, first, second, block)
@@ -66,7 +66,7 @@ def _triad(
         return None
     if turned_a:
         a, b = b, a
-    return Triad(edge.joints[0].name, _in_space(n), _in_space(a), _in_space(b), turned_a or turned_b, ring)
+    return Triad(edge.joints[0].name, _in_space(n), _in_space(a), _in_space(b), turned_a or turned_b, cycle)
 
 
 def _arm(edge: Edge, vertex: Vertex, end: Edge) -> tuple[AffineVector, bool]:

@@ -78,7 +78,7 @@ class AutomaticDrive(Element):
     _signals = (("left", 1), ("right", 1), ("f", 3), ("g", 3))
     _integers = (
         input_index("throttle", "the input"),
-        Integer("gears", least=1, reals=1),
+        Integer("gears", least=1, numbers=("total ratio",)),
         input_index("selector", optional=True),
         input_index("request", missing=True, optional=True),
         input_index("clutch", optional=True),

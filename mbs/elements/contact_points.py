@@ -17,6 +17,8 @@ from mbs.elements.reals import Fraction, NotNegative, Positive
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import check_components, fraction
 
+_STICK_STATES = (*(f"deflection {k} of the stick spring, m" for k in (1, 2)), *(f"rate {k} of it, m/s" for k in (1, 2)))
+
 
 @dataclass(frozen=True)
 class ContactPoints(Element):
@@ -48,7 +50,7 @@ class ContactPoints(Element):
 
     _noun = "contact points"
     _signals = (("origin", 3), ("axes", 9))
-    _integers = (ROAD, Integer("points", least=1, reals=3, states=4))
+    _integers = (ROAD, Integer("points", least=1, numbers=("x, m", "y, m", "z, m"), states=_STICK_STATES))
     _appended = 6
     _outputs = (
         Output("normal_force", "N", "sum of the normal forces of the road on the points"),

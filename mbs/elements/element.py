@@ -92,7 +92,7 @@ class Element:
         reals, optional_names = reals_of(self, label, values), self._real_names()[1]
         named, plain = (appended, ()) if isinstance(appended, dict) else ({}, appended)
         last = {key: real for key, real in reals.items() if key in optional_names} if has_optional else {}
-        counted = sum(declared.states * n for declared, n in zip(self._integers, integers, strict=False))
+        counted = sum(len(declared.states) * n for declared, n in zip(self._integers, integers, strict=False))
         slots = (*self._states, *(self._optional_states if extended else ()), *([0.0] * counted))
         return ElementRecord(
             name,

@@ -8,6 +8,7 @@ They are written from the classes, after each change of one, by
 import importlib
 import textwrap
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 
 import mbs.kernel
@@ -62,7 +63,7 @@ def header(kind: type[Element]) -> str:
     if kind._integers:
         lines += [
             "enum {",
-            *(f"  {kind._c_prefix}{integer.name.upper()}, /* {integer.meaning} */" for integer in kind._integers),
+            *chain.from_iterable(_entry(kind._c_prefix + i.name.upper(), i.meaning) for i in kind._integers),
             f"  {upper}_INTEGERS",
             "};",
         ]
@@ -70,7 +71,7 @@ def header(kind: type[Element]) -> str:
         lines += ["enum {"]
         for output in kind._outputs:
             meaning = capital(output.description) + ("." if output.unit == "1" else f", {output.unit}.")
-            lines += [*(f"  {line}" for line in _comment(meaning)), f"  {upper}_OUT_{output.name.upper()},"]
+            lines += _entry(f"{upper}_OUT_{output.name.upper()}", meaning)
         lines += [f"  {upper}_OUTPUTS", "};"]
     sizes = _sizes(kind, required)
     lines += ["#ifndef ALI3_WIDTH"]
@@ -85,7 +86,7 @@ def header(kind: type[Element]) -> str:
         lines += [f"static const ali3_integer {name}_integers[] = {{"]
         for integer in kind._integers:
             most = "INT32_MAX" if integer.most == INT32_MAX else integer.most
-            limits = f"{integer.least}, {most}, {integer.reals}, {integer.states}"
+            limits = f"{integer.least}, {most}, {len(integer.numbers)}, {len(integer.states)}"
             lines += [f'  {{{integer.kind.value}, {limits}, "{_sentence(integer, noun)}"}},']
         lines += ["};"]
         sizes |= {"integers": f"{name}_integers", "nintegers": f"{upper}_INTEGERS"}
@@ -112,7 +113,8 @@ def _enumeration(kind: type[Element], size: str, required: int, has_optional: bo
             lines += [f"  {size}{follows}", "};", "enum {"]
             follows = f" = {size}" + (f" + {kind._appended}" if kind._appended else "")
         name = kind._c_prefix + (real.name if isinstance(real, Real) and real.name else field).upper()
-        lines += [*(f"  {line}" for line in _comment(meanings[field])), f"  {name}{follows},"]
+        meaning = real.meaning if isinstance(real, Real) and real.meaning else meanings[field]
+        lines += _entry(f"{name}{follows}", meaning)
         count = len([*each_real(real.kind)]) if isinstance(real, Group) else len(real.parts) or 1
         follows = f" = {name} + {count}" if count > 1 else ""
         if index < required < index + count:  # the last reals of a group are optional
@@ -156,6 +158,11 @@ def _sentence(integer: Integer, noun: str) -> str:
     allowed = " or ".join(map(str, range(integer.least, min(integer.most, integer.least + 3) + 1)))
     requirement = allowed if integer.most < integer.least + 3 else f"at least {integer.least}"
     return f"{integer.phrase} of {noun} must be {requirement}"
+
+
+def _entry(name: str, meaning: str) -> list[str]:
+    """Lines of an enumerator below its meaning."""
+    return [*(f"  {line}" for line in _comment(meaning)), f"  {name},"]
 
 
 def _comment(text: str) -> list[str]:

@@ -31,10 +31,10 @@ class Integer:
     """Whether it may be omitted; optional integers are the last ones."""
     noun: str = ""
     """Noun for messages, with its article."""
-    reals: int = 0
-    """Number of reals per counted item."""
-    states: int = 0
-    """Number of states per counted item."""
+    numbers: tuple[str, ...] = ()
+    """Meanings of the numbers of each counted item, with units."""
+    states: tuple[str, ...] = ()
+    """Meanings of its states, with units."""
 
     @property
     def phrase(self) -> str:
@@ -45,9 +45,10 @@ class Integer:
     def meaning(self) -> str:
         """What the integer is, for the header of the law."""
         if self.kind is IntegerKind.NUMBERS:
-            counted = ((self.reals, "real"), (self.states, "state"))
-            each = " and ".join(f"{n} {name}{'s' if n > 1 else ''}" for n, name in counted if n)
-            return f"Number of items with {each} each." if each else f"{capital(self.phrase)}."
+            if not self.numbers:
+                return f"{capital(self.phrase)}."
+            states = f"; states of each: {'; '.join(self.states)}" if self.states else ""
+            return f"Number of {self.name.replace('_', ' ')}; numbers of each: {'; '.join(self.numbers)}{states}."
         is_named = "input" in self.phrase or self.kind is IntegerKind.ROADS
         text = f"Index of {self.phrase}" if is_named else f"Index of an input, {self.phrase}"
         return text + (", -1: none." if self.least == -1 else ".")

@@ -36,6 +36,8 @@ class Real:
     """Noun for messages, if that is not the name."""
     name: str = ""
     """Name, if that is not the name of the field."""
+    meaning: str = ""
+    """Meaning in the header of the law, if the field may also be something other than a number."""
 
 
 @dataclass(frozen=True)

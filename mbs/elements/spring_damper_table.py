@@ -36,10 +36,10 @@ class SpringDamperTable(Element):
     of the spring is the integral of the curve, its mean over a step by Simpson's rule on each piece, exact.
     """
 
-    spring: Annotated[float | Rows, Real(not_negative, name="stiffness")]
+    spring: Annotated[float | Rows, Real(not_negative, name="stiffness", meaning="Stiffness without a table, N/m.")]
     """Stiffness, N/m, or rows of stretch from the free length, m, and force, N, both positive in tension; the stretch
     rises from row to row. Shape (n, 2)."""
-    damper: Annotated[float | Rows, Real(not_negative, name="damping")] = 0.0
+    damper: Annotated[float | Rows, Real(not_negative, name="damping", meaning="Damping without a table, N s/m.")] = 0.0
     """Damping, N s/m, or rows of rate of the length, m/s, and force, N, both positive in rebound; rates rise, forces do
     not fall, and one row is (0, 0). Shape (n, 2)."""
     free_length: NotNegative = 0.0
@@ -53,7 +53,10 @@ class SpringDamperTable(Element):
 
     _noun = "a spring-damper"
     _signals = (("difference", SPACE_OR_PLANE),)
-    _integers = (Integer("spring_points", reals=4), Integer("damper_points", reals=3))
+    _integers = (
+        Integer("spring_points", numbers=("stretch, m", "force, N", "slope, N/m", "energy from stretch 0, J")),
+        Integer("damper_points", numbers=("rate of the length, m/s", "force, N", "slope, N s/m")),
+    )
     _outputs = LINE_OUTPUTS
     _elastic = True
 

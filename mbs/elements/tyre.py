@@ -9,6 +9,7 @@ from mbs.common.checks import number, positive
 from mbs.common.errors import ModelError
 from mbs.elements.element import Element
 from mbs.elements.integers import ROAD, Integer
+from mbs.elements.load_laws import force_per_load, slip_at_load
 from mbs.elements.reals import Group, NotNegative, Number, Pair, Positive, Real
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.tyre_bore import BORE, TyreBore
@@ -157,8 +158,7 @@ class Tyre(Element):
             load = f"at {q * self.nominal_load:g} N"
             for direction, curve in (("longitudinal", self.longitudinal), ("lateral", self.lateral)):
                 for key in ("slope", "max_force", "slide_force"):
-                    y1, y2 = getattr(curve, key)
-                    per_load = 2.0 * y1 - 0.5 * y2 - (y1 - 0.5 * y2) * q
+                    per_load = force_per_load(getattr(curve, key), q)
                     if not per_load > 0.0:
                         subject = f"{direction} {key.replace('_', ' ')} per load"
                         fault = f"{load} is {per_load:g} N per nominal load; it must be greater than zero"
@@ -178,12 +178,8 @@ def _faulty_slips(
     """Faults of two slips: the first must be positive, the second larger."""
     (first_key, first_pair, first_noun), (last_key, last_pair, last_noun) = slips
     field, name = (f"{direction}.", f"{direction} ") if direction else ("", "")
-    first, last = _linear(first_pair, q), _linear(last_pair, q)
+    first, last = slip_at_load(first_pair, q), slip_at_load(last_pair, q)
     if not first > 0.0:
         yield f"{field}{first_key}", f"{name}{first_noun}", f"{load} is {first:g}; it must be greater than zero"
     elif not last > first:
         yield f"{field}{last_key}", f"{name}{last_noun}", f"{load} is {last:g}; it must exceed {first:g}"
-
-
-def _linear(pair: Pair, q: float) -> float:
-    return pair[0] + (pair[1] - pair[0]) * (q - 1.0)

@@ -59,7 +59,7 @@ def load_path_modes(
     tolerance : float
         Square root of the energy, as a fraction of the largest, below which a combination of loads is left out.
     frame_loads : ndarray, shape (6, n_loads), optional
-        Forces and moments on the floating frame that act together with the loads (drag, a guide), N and N m.
+        Forces and moments on the floating frame that act together with the loads (drag, a driving function), N and N m.
 
     Returns
     -------

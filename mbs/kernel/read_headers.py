@@ -23,7 +23,12 @@ ENUMERATIONS = {
     "Cause": (PUBLIC, "ALI3_CAUSE_CALL", "ALI3_CAUSE_", "`ali3_cause`: cause of a refusal."),
     "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "Diagnostics of the solver."),
     "ParameterTarget": (SYSTEM, "ALI3_TARGET_ELEMENT", "ALI3_TARGET_", "Target of a parameter."),
-    "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
+    "DrivingFunctionType": (
+        "src/rows/driving_functions.h",
+        "ALI3_DRIVING_OF_TIME",
+        "ALI3_DRIVING_",
+        "Types of driving functions.",
+    ),
     "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
     "JudgedUnit": (PUBLIC, "ALI3_JUDGED_M", "ALI3_JUDGED_", "`ali3_judged.unit`."),
     "JudgedKind": (PUBLIC, "ALI3_JUDGED_PLACE", "ALI3_JUDGED_", "Bits of `ali3_judged.kind`."),

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from mbs.model.joints.joint import Joint as Joint
     from mbs.model.model import Model as Model
     from mbs.model.point_mass import PointMass as PointMass
-    from mbs.model.records import Guide as Guide
+    from mbs.model.records import DrivingFunction as DrivingFunction
     from mbs.model.records import Input as Input
     from mbs.model.records import Parameter as Parameter
     from mbs.model.sensor import Sensor as Sensor
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _LAZY = {
     "Body": "mbs.model.body",
     "Coordinate": "mbs.model.coordinate",
-    "Guide": "mbs.model.records",
+    "DrivingFunction": "mbs.model.records",
     "Input": "mbs.model.records",
     "Joint": "mbs.model.joints.joint",
     "Model": "mbs.model.model",

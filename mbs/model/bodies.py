@@ -99,7 +99,7 @@ class BodyVocabulary(Register):
         location = vector(position, self.dimension, f"the position of {subject}")
         if body.is_ground:
             raise ModelError(f"The {subject} sits on the ground, which does not move; give it to a body.")
-        if body.is_tabled:
+        if body.is_lookup_table:
             raise ModelError(
                 f"The {subject} sits on lookup-table body '{body.name}', whose mass is part of its table; give it to "
                 "its base."

@@ -48,8 +48,8 @@ class Body:
     is_ground = False
     is_point = False
     is_flexible = False
-    is_tabled = False
-    is_base = False  # of tabled bodies
+    is_lookup_table = False
+    is_base = False  # of lookup-table bodies
     is_node = False  # of a flexible body
     bends = False  # its vectors turn with its deformation
     flexibility: Flexibility | None = None  # of a body with nodes

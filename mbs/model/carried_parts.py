@@ -102,11 +102,11 @@ class WrittenAxis:
 
 @dataclass(frozen=True)
 class SlidingPoint:
-    """``p = start + sum of s_k * direction_k`` with the guides s in m; an end of `Model.distance`."""
+    """``p = start + sum of s_k * direction_k`` with the driving functions s in m; an end of `Model.distance`."""
 
     name: str
     body: Body
     start: AffineVector
     """Point of the body."""
     ways: tuple[tuple[AffineVector, int], ...]
-    """Perpendicular unit vectors of the body, each with the number of its guide."""
+    """Perpendicular unit vectors of the body, each with the number of its driving function."""

@@ -1,4 +1,4 @@
-"""Sensors of inputs, guides and the solver, constants, and notices of a run."""
+"""Sensors of inputs, driving functions and the solver, constants, and notices of a run."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -7,12 +7,12 @@ from mbs.common.affine import Affine
 from mbs.common.checks import number, one_of, shown
 from mbs.common.checks import text as checked_text
 from mbs.common.errors import ModelError
-from mbs.kernel.header.enumerations import GuideType, SensorType, SolverValue
-from mbs.model.guides import owned_guide
+from mbs.kernel.header.enumerations import DrivingFunctionType, SensorType, SolverValue
+from mbs.model.driving_functions import owned_driving_function
 from mbs.model.inputs import owned_input
-from mbs.model.joint_reactions import guide_terms
+from mbs.model.joint_reactions import driving_terms
 from mbs.model.joints.joint import Joint
-from mbs.model.records import Guide, Input
+from mbs.model.records import DrivingFunction, Input
 from mbs.model.sensor import Sensor
 from mbs.model.sensor_arguments import sensed_joints
 from mbs.model.sensors import RATE_UNITS, SensorVocabulary, order_number
@@ -26,15 +26,15 @@ SOLVER_WHOLE = (
     SolverValue.STATUS,
     SolverValue.CAPPED,
 )
-GUIDE_READINGS = {
-    "motion": SensorType.GUIDE,
-    "excess": SensorType.GUIDE_EXCESS,
+DRIVING_READINGS = {
+    "motion": SensorType.DRIVING,
+    "excess": SensorType.DRIVING_EXCESS,
     "force": SensorType.REACTION_PRODUCTS,
 }
 
 
 class ChannelSensorVocabulary(SensorVocabulary):
-    """Sensors of inputs, guides, elements and the solver."""
+    """Sensors of inputs, driving functions, elements and the solver."""
 
     def sense_constant(
         self,
@@ -84,7 +84,7 @@ class ChannelSensorVocabulary(SensorVocabulary):
     def sense_guide(
         self,
         name: str,
-        guide: Guide,
+        guide: DrivingFunction,
         kind: str = "motion",
         *,
         order: int = 0,
@@ -93,41 +93,45 @@ class ChannelSensorVocabulary(SensorVocabulary):
         unit: str = "",
         description: str = "",
     ) -> Sensor:
-        """A guide or one of its rates, its excess over the limits, or its force.
+        """A driving function or one of its rates, its excess over the limits, or its force.
 
         Parameters
         ----------
         kind : {"motion", "excess", "force"}
-            The motion; of a guide from `guide_inputs` the excess of the sum of its inputs over the limits, zero within
-            them; or the force with which it moves its joints, also by guides that follow it by a table,
-            in the direction of its motion: its power divided by its rate.
+            The motion; of a driving function from `guide_inputs` the excess of the sum of its inputs over the limits,
+            zero within them; or the force with which it moves its joints, also by driving functions that follow it by a
+            table, in the direction of its motion: its power divided by its rate.
         order : {0, 1, 2}
             Of the motion: the value, its rate or its second rate.
         joints : sequence of Joint, optional
-            Of the force: drives, and distances whose end the guide slides; by default all that there are so far.
+            Of the force: drives, and distances whose end the driving function slides; by default all that there are so
+            far.
         scale : float
             Factor on it.
         unit : str
-            By default the unit of the guide, or of its rate if the guide is in m or rad; for a force N or N m.
+            By default the unit of the driving function, or of its rate if the driving function is in m or rad; for a
+            force N or N m.
 
         Raises
         ------
         ModelError
-            The guide has no limits, or none of the joints follows it.
+            The driving function has no limits, or none of the joints follows it.
         """
         subject = f"sensor '{name}'"
-        one_of(kind, GUIDE_READINGS, f"The kind of {subject}")
-        motion, factor = owned_guide(self, guide, f"The {subject}"), number(scale, f"The scale of {subject}")
+        one_of(kind, DRIVING_READINGS, f"The kind of {subject}")
+        motion, factor = owned_driving_function(self, guide, f"The {subject}"), number(scale, f"The scale of {subject}")
         k = order_number(order, 2 if kind == "motion" else 0, subject)
         if kind == "force":
-            return _guide_force(self, name, motion, joints, factor, unit, description)
+            return _driving_force(self, name, motion, joints, factor, unit, description)
         if joints is not None:
-            raise ModelError(f"The {subject} reads the {kind} of a guide; joints are for its force.")
-        if kind == "excess" and motion.type != GuideType.OF_TWO_INPUTS:
-            raise ModelError(f"The guide '{motion.name}' of {subject} has no limits; those of guide_inputs have.")
+            raise ModelError(f"The {subject} reads the {kind} of a driving function; joints are for its force.")
+        if kind == "excess" and motion.type != DrivingFunctionType.OF_TWO_INPUTS:
+            raise ModelError(
+                f"The driving function '{motion.name}' of {subject} has no limits; those of guide_inputs have."
+            )
         integers = [motion.index, k] if kind == "motion" else [motion.index]
         unit = self._unit(unit, RATE_UNITS.get(motion.unit, (motion.unit,) * 3)[k])
-        return self._sense(name, unit, description, GUIDE_READINGS[kind], integers=integers, reals=[factor])
+        return self._sense(name, unit, description, DRIVING_READINGS[kind], integers=integers, reals=[factor])
 
     def sense_solver(self, name: str, kind: str, *, description: str = "") -> Sensor:
         """Sense a quantity of the solver.
@@ -169,28 +173,29 @@ class ChannelSensorVocabulary(SensorVocabulary):
         return with_notice
 
 
-def _guide_force(
+def _driving_force(
     model: SensorVocabulary,
     name: str,
-    guide: Guide,
+    guide: DrivingFunction,
     joints: Sequence[Joint] | None,
     factor: float,
     unit: str,
     description: str,
 ) -> Sensor:
     sensed = model.joints if joints is None else sensed_joints(model, name, "joints", joints)
-    terms = [replace(t, weight=factor * t.weight) for joint in sensed for t in guide_terms(joint, guide.index)]
-    by_table = [g.index for g in model.guides if g.type == GuideType.BY_TABLE and g.input == guide.index]
+    terms = [replace(t, weight=factor * t.weight) for joint in sensed for t in driving_terms(joint, guide.index)]
+    by_table = [g.index for g in model.guides if g.type == DrivingFunctionType.BY_TABLE and g.input == guide.index]
     terms += [
         replace(t, weight=factor * t.weight, slope=g)
         for g in by_table
         for joint in sensed
-        for t in guide_terms(joint, g)
+        for t in driving_terms(joint, g)
     ]
     if not terms:
         raise ModelError(
-            f"The sensor '{name}' asks for the force of guide '{guide.name}', which none of its joints follows."
+            f"The sensor '{name}' asks for the force of driving function '{guide.name}', "
+            "which none of its joints follows."
         )
     unit = model._unit(unit, {"m": "N", "rad": "N.m"}.get(guide.unit, "1"))
-    kind = SensorType.REACTION_BY_TABLE if by_table else GUIDE_READINGS["force"]
+    kind = SensorType.REACTION_BY_TABLE if by_table else DRIVING_READINGS["force"]
     return model._sense(name, unit, description, kind, terms=terms)

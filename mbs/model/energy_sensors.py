@@ -79,9 +79,9 @@ class EnergySensorVocabulary(SensorVocabulary):
             nonconservative together with the change of their own potential energy, so that springs have none, but for
             the work of jumps of inputs, as of a `PortRoad`, which is "by inputs" (with the method "ali3p" and
             generalised-alpha; with others it stays nonconservative). Work that is lost, in a damper or a brake, is
-            negative. "with guides" adds the work of all guides, which drive joints, to the nonconservative work of
-            elements: with "ali3p" and its projections from the mean forces of a step, jumps of inputs with them; with
-            others from the forces at both ends of a step, which differ from the mean where an input jumps.
+            negative. "with guides" adds the work of all driving functions, which drive joints, to the nonconservative
+            work of elements: with "ali3p" and its projections from the mean forces of a step, jumps of inputs with
+            them; with others from the forces at both ends of a step, which differ from the mean where an input jumps.
         elements : ElementRecord, str or sequence of them
             Of a work: force elements of this model or their names, whose works are added; "with guides" needs none.
 
@@ -116,7 +116,7 @@ class EnergySensorVocabulary(SensorVocabulary):
             raise ModelError(f"The sensor '{name}' needs at least one element and each once, got {names}.")
         numbers = [index_of[element] for element in names]
         if guided:
-            return self._sense(name, unit, description, SensorType.GUIDED_WORK, integers=[len(numbers), *numbers])
+            return self._sense(name, unit, description, SensorType.DRIVING_WORK, integers=[len(numbers), *numbers])
         return self._sense(
             name, unit, description, SensorType.WORK, integers=[WORKS.index(kind), len(numbers), *numbers]
         )

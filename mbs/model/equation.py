@@ -9,7 +9,7 @@ Product = tuple[float, Affine, Affine]
 
 
 @dataclass(frozen=True)
-class GuideTerm:
+class DrivingTerm:
     """``s_guide**power * (sum c * A * B + linear)`` with power 1 or 2."""
 
     guide: int
@@ -29,7 +29,7 @@ class AnglePart:
 
 @dataclass(frozen=True)
 class Equation:
-    """``sum c * A * B + linear + guide terms + angle part = 0``, or on velocities ``sum c * A * dB/dt = 0``."""
+    """``sum c * A * B + linear + driving terms + angle part = 0``, or on velocities ``sum c * A * dB/dt = 0``."""
 
     name: str
     """Name of the joint, or of its part, for errors and the list of rows."""
@@ -37,7 +37,7 @@ class Equation:
     """Kind of the condition: point, axis, distance, angle and others."""
     products: Sequence[Product] = ()
     linear: Affine = field(default_factory=Affine)
-    guides: Sequence[GuideTerm] = ()
+    guides: Sequence[DrivingTerm] = ()
     angle: AnglePart | None = None
     rates: Sequence[Product] = ()
     """Terms of a condition on velocities, which has no other terms."""

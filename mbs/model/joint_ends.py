@@ -14,7 +14,7 @@ from mbs.model.carried_parts import SlidingPoint
 FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | Body"
 """A point of a body, earth axes in the reference configuration, m; or a body for its centre of mass."""
 End: TypeAlias = "tuple[Body, ArrayLike] | Body | SlidingPoint"
-"""A fixed end, or a point that a guide slides."""
+"""A fixed end, or a point that a driving function slides."""
 PointPair: TypeAlias = "ArrayLike | tuple[ArrayLike, ArrayLike]"
 """A point, or one per body if the drawing does not close."""
 

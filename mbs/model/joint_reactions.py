@@ -26,11 +26,11 @@ def fold_constants(term: Term) -> list[Term]:
     return [replace(term, weight=weight, factors=tuple(factors))] if weight != 0.0 else []
 
 
-def guide_terms(joint: Joint, guide: int) -> list[Term]:
-    """Force or torque on a guide from the rows of a joint: lam times their derivatives with respect to the guide.
+def driving_terms(joint: Joint, guide: int) -> list[Term]:
+    """Force or torque on a driving function s from the rows of a joint: lam times their derivatives by s.
 
-    The rows do no work on coordinates and guide together, so with -Phi_q' lam on the coordinates the guide takes
-    lam dPhi/ds in the direction of its motion.
+    The rows do no work on coordinates and driving function together, so with -Phi_q' lam on the coordinates the driving
+    function takes lam dPhi/ds in the direction of its motion.
     """
     terms = []
     for row, equation in enumerate(joint.equations):

@@ -15,6 +15,7 @@ from mbs.model.constants import ConstantVocabulary
 from mbs.model.contact_vocabulary import ContactVocabulary
 from mbs.model.coordinate import Coordinate
 from mbs.model.drive_vocabulary import DriveVocabulary
+from mbs.model.driving_vocabulary import SpecialDrivingFunctionVocabulary
 from mbs.model.energy_sensors import EnergySensorVocabulary
 from mbs.model.flexible import FlexibleBody
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
@@ -28,7 +29,6 @@ from mbs.model.parameters import ParameterVocabulary
 from mbs.model.point_mass import PointMass
 from mbs.model.road_vocabulary import RoadVocabulary
 from mbs.model.sliding_shapes import SlidingVocabulary
-from mbs.model.special_guides import SpecialGuideVocabulary
 from mbs.model.spin import SpinVocabulary
 from mbs.model.springs import SpringVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
@@ -47,7 +47,7 @@ class Model(
     TableVocabulary,
     FlexibleVocabulary,
     InputVocabulary,
-    SpecialGuideVocabulary,
+    SpecialDrivingFunctionVocabulary,
     ParameterVocabulary,
     ConstantVocabulary,
     MotionSensorVocabulary,
@@ -154,7 +154,7 @@ class Model(
         """
         subject = f"initial velocity of body {shown(getattr(body, 'name', body))}"
         self.owned(body, f"The {subject}")
-        if body.is_ground or body.is_tabled or body.is_node:
+        if body.is_ground or body.is_lookup_table or body.is_node:
             raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
         d, size = self.dimension, 1 if self.dimension == 2 else 3
         if linear is None and angular is None:

@@ -7,24 +7,24 @@ from typing import TypeAlias
 from mbs.common.checks import array, flag, not_negative, not_zero, number, positive, shown, text, whole
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
-from mbs.kernel.header.enumerations import GuideType, ParameterTarget, SensorType
+from mbs.kernel.header.enumerations import DrivingFunctionType, ParameterTarget, SensorType
 from mbs.model.carried_parts import AXIS_REALS, INERTIA_REALS, Payload, WrittenAxis, WrittenInertia
-from mbs.model.records import Armature, Guide, Parameter
+from mbs.model.records import Armature, DrivingFunction, Parameter
 from mbs.model.register import Named, Register
 from mbs.model.spin import MAX_ELEVATION
 
 Reals: TypeAlias = dict[str, Callable[[object, str], float]]
 """Numbers that a parameter may write, by name, with their checks."""
-_INPUT_GUIDE_REALS: Reals = {"frequency": positive, "gain": number, "start": number}
-GUIDE_REALS = {
-    GuideType.OF_INPUT: _INPUT_GUIDE_REALS,
-    GuideType.OF_TWO_INPUTS: _INPUT_GUIDE_REALS | {"gain_2": number, "low": number, "high": number},
+_INPUT_DRIVING_REALS: Reals = {"frequency": positive, "gain": number, "start": number}
+DRIVING_REALS = {
+    DrivingFunctionType.OF_INPUT: _INPUT_DRIVING_REALS,
+    DrivingFunctionType.OF_TWO_INPUTS: _INPUT_DRIVING_REALS | {"gain_2": number, "low": number, "high": number},
 }
 Owner: TypeAlias = (
-    "ElementRecord | Guide | Payload | Armature | WrittenInertia | WrittenAxis | str | tuple[str, int] | "
+    "ElementRecord | DrivingFunction | Payload | Armature | WrittenInertia | WrittenAxis | str | tuple[str, int] | "
     "tuple[str, str]"
 )
-"""An element, a guide, a payload, an armature, a written inertia or axis, or the name of one; or ("road", number) or
+"""An element, driving function, payload, armature, written inertia or axis, or the name of one; or ("road", number) or
 ("sensor", name)."""
 Target: TypeAlias = (
     "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float] | "
@@ -33,8 +33,8 @@ Target: TypeAlias = (
 """Owner, its real, scale, optional offset, and whether the scale is divided by the value."""
 
 _SCALED_SENSORS = (
-    SensorType.GUIDE,
-    SensorType.GUIDE_EXCESS,
+    SensorType.DRIVING,
+    SensorType.DRIVING_EXCESS,
     SensorType.REACTION_PRODUCTS,
     SensorType.REACTION_BY_TABLE,
 )
@@ -94,8 +94,8 @@ def _resolve_target(model: Register, subject: str, target: Target) -> _Target:
     """One target of a parameter."""
     if not isinstance(target, (list, tuple)) or len(target) not in (3, 4, 5):
         raise ModelError(
-            f"A target of {subject} must be (element or guide, name of its real, scale) or the same with an offset, "
-            f"not {shown(target)}."
+            f"A target of {subject} must be (element or driving function, name of its real, scale) or the same "
+            f"with an offset, not {shown(target)}."
         )
     owner, real, scale = target[:3]
     conversion = (
@@ -125,14 +125,19 @@ def _resolve_target(model: Register, subject: str, target: Target) -> _Target:
             description = f"the {real} of {kind} '{owner_name}'" if real != "on" else f"the {kind} '{owner_name}'"
             return _Target((family, position, list(reals).index(real), *conversion), description, reals[real])
     raise ModelError(
-        f"The {subject} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide, "
-        "payload, armature or switch."
+        f"The {subject} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, "
+        "driving function, payload, armature or switch."
     )
 
 
 def _owners(model: Register) -> Iterator[tuple[int, str, Sequence[Named], Callable[[int], Reals]]]:
     """Kinds of targets other than elements: kind, its name, the targets, and numbers of the target at an index."""
-    yield ParameterTarget.GUIDE, "guide", model.guides, lambda k: GUIDE_REALS.get(model.guides[k].type, {})
+    yield (
+        ParameterTarget.DRIVING,
+        "driving function",
+        model.guides,
+        lambda k: DRIVING_REALS.get(model.guides[k].type, {}),
+    )
     yield ParameterTarget.PAYLOAD, "payload", model.payloads, lambda _: {"mass": not_negative}
     yield ParameterTarget.ARMATURE, "armature", model.armatures, lambda _: {"ratio": positive}
     yield ParameterTarget.INERTIA, "inertia", model.written_inertias, lambda _: dict.fromkeys(INERTIA_REALS, number)
@@ -202,7 +207,7 @@ class ParameterVocabulary(Register):
         tunable: bool = True,
         works: tuple[float, float] | None = None,
     ) -> Parameter:
-        """A number that is set without compiling again: it is written to elements, guides, roads and payloads.
+        """A number, set without compiling again, that is written to elements, driving functions, roads and payloads.
 
         Parameters
         ----------
@@ -213,8 +218,8 @@ class ParameterVocabulary(Register):
         unit : str
             "1" for a pure number.
         targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
-            ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
-            name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; or a
+            ``value * scale + offset`` is written to a real of the owner: an element, a driving function of an input or
+            their name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; a
             payload and "mass", an armature and "ratio"; or the name of a switch and "on", which takes 0 or 1. A real
             belongs to one parameter.
         tunable : bool

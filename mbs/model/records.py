@@ -1,10 +1,10 @@
-"""Records of a model other than bodies, joints and elements: inputs, guides, parameters, switches, constants."""
+"""Records of inputs, driving functions, parameters, switches and constants of a model."""
 
 from dataclasses import dataclass
 from enum import IntEnum
 
 from mbs.common.affine import Affine
-from mbs.kernel.header.enumerations import GuideType, ParameterTarget
+from mbs.kernel.header.enumerations import DrivingFunctionType, ParameterTarget
 
 
 @dataclass(frozen=True)
@@ -89,12 +89,12 @@ class Armature:
 
 
 @dataclass(frozen=True)
-class Guide:
+class DrivingFunction:
     """A prescribed motion; `reals`: numbers as in the System file, `second`: number of a second input or -1."""
 
     name: str
     index: int
-    type: GuideType
+    type: DrivingFunctionType
     input: int
     reals: tuple[float, ...]
     start: float
@@ -104,7 +104,7 @@ class Guide:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that writes value * scale + offset to data of elements, guides, roads, payloads and others."""
+    """Writes value * scale + offset to data of elements, driving functions, roads, payloads and others."""
 
     name: str
     value: float

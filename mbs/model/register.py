@@ -16,9 +16,9 @@ from mbs.model.changes import atomic_call
 from mbs.model.checked_shapes import Shape, Turning
 from mbs.model.coordinates import ModelCoordinates
 from mbs.model.joints.joint import Joint
-from mbs.model.records import Ahead, Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
+from mbs.model.records import Ahead, Armature, Constant, DrivingFunction, Input, Parameter, RoadFileParameter, Switch
 from mbs.model.sensor import Sensor
-from mbs.model.table_bodies import TabledBody, TabledNumber
+from mbs.model.table_bodies import LookupTableBody, LookupTableNumber
 
 
 class Named(Protocol):
@@ -57,7 +57,7 @@ class Register(ModelCoordinates):
         self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
         self.bodies: list[Body] = []
         self.spins: list[Spin] = []
-        self.tabled: list[TabledBody | TabledNumber] = []
+        self.lookup_tables: list[LookupTableBody | LookupTableNumber] = []
         self.payloads: list[Payload] = []
         self.armatures: list[Armature] = []
         self.inertias: dict[int, float] = {}  # by coordinate, with those of `armatures`, as drawn
@@ -71,7 +71,7 @@ class Register(ModelCoordinates):
         self.grounded = False  # whether a joint is connected to the ground
         # inputs and outputs
         self.inputs: list[Input] = []
-        self.guides: list[Guide] = []
+        self.guides: list[DrivingFunction] = []
         self.parameters: list[Parameter] = []
         self.road_files: list[RoadFileParameter] = []
         self.constants: list[Constant] = []
@@ -150,7 +150,7 @@ class Register(ModelCoordinates):
         """Numbers of bodies, joints, forces and other objects on which the equations depend."""
         lists = (
             self.bodies,
-            self.tabled,
+            self.lookup_tables,
             self.inertias,
             self.joints,
             self.elements,

@@ -12,9 +12,9 @@ MAX_FACTORS = 3
 
 @dataclass(frozen=True)
 class Term:
-    """``weight * lam * factors[0] * factors[1] * ... * guide * slope``: the multiplier of an equation of a joint times
-    at most three expressions, a guide and the slope of a guide by a table (-1: none). `joint` is by default the joint
-    of the sensor.
+    """``weight * lam * factors[0] * factors[1] * ... * driving function * slope``: the multiplier of an equation of a
+    joint times at most three expressions, a driving function and the slope of a driving function by a table (-1: none).
+    `joint` is by default the joint of the sensor.
     """
 
     weight: float

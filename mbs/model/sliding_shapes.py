@@ -30,7 +30,7 @@ class SlidingVocabulary(ShapeVocabulary):
     """Vocabulary of sliding parts and of computed meshes."""
 
     def sliding(self, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
-        """Something that is only drawn as sliding along a line of a body, such as a rack that a guide moves.
+        """Something that is only drawn as sliding along a line of a body, such as a rack that a driving function moves.
 
         Parameters
         ----------

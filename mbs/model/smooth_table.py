@@ -69,7 +69,7 @@ def _control_points(values: Array) -> Array:
 
 
 def pose_functions(base: Body, places: Array, rotations: Array) -> Array:
-    """Functions of a tabled body, shape (..., 12), from positions of its centre of mass and rotations on the base.
+    """Functions of a lookup-table body, shape (..., 12), of positions of its centre of mass and rotations on the base.
 
     `places`: m, shape (..., 3); `rotations`: rotation matrices from the drawn axes, shape (..., 3, 3).
     """

@@ -50,10 +50,10 @@ def _weights(axis: Array, x: float) -> Array:
     return weights
 
 
-class TabledBody(Body):
+class LookupTableBody(Body):
     """A rigid body that a table places on another (`Model.tabled_body`); it takes forces and sensors, no joints."""
 
-    is_tabled = True
+    is_lookup_table = True
     outputs: tuple[str, ...] = ()
     """Sensors of the wheel in drawings: of its centre, of the quaternion of the body, of its angle."""
     base: Body
@@ -77,7 +77,7 @@ class TabledBody(Body):
 
 
 @dataclass(frozen=True)
-class TabledNumber(Coordinate):
+class LookupTableNumber(Coordinate):
     """A number that is a function of one or two coordinates; made by `Model.tabled_number`."""
 
     parameters: tuple[Coordinate, ...]

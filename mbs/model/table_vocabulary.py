@@ -12,7 +12,7 @@ from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.inertia import inertia_matrix
 from mbs.model.smooth_table import check_drawn, checked_parameters, pose_functions, smooth_table
-from mbs.model.table_bodies import TabledBody, TabledNumber
+from mbs.model.table_bodies import LookupTableBody, LookupTableNumber
 
 
 class TableVocabulary(BodyVocabulary):
@@ -30,7 +30,7 @@ class TableVocabulary(BodyVocabulary):
         mass: float,
         com: ArrayLike,
         inertia: ArrayLike,
-    ) -> TabledBody:
+    ) -> LookupTableBody:
         """A rigid body whose pose on another body is a table of one or two coordinates.
 
         It has no equations: its inertia, its weight and the forces on it act on the base and on these coordinates. It
@@ -61,9 +61,9 @@ class TableVocabulary(BodyVocabulary):
         ModelError
             Axes or values are not so, or the table does not give the drawing where its coordinates are 0.
         """
-        subject = f"tabled body {shown(name)}"
+        subject = f"lookup-table body {shown(name)}"
         self.owned(base, f"The {subject}")
-        if self.dimension != 3 or base.is_point or base.is_flexible or base.is_tabled:
+        if self.dimension != 3 or base.is_point or base.is_flexible or base.is_lookup_table:
             raise ModelError(f"The {subject} needs a rigid body or the ground in space as its base, not '{base.name}'.")
         coordinates = tuple(self.owned_coordinate(c, f"The {subject}") for c in checked_parameters(parameters, subject))
         m, centre = positive(mass, f"The mass of {subject}"), vector(com, 3, f"the centre of mass of {subject}")
@@ -78,14 +78,14 @@ class TableVocabulary(BodyVocabulary):
         _check_axis_count(len(table.axes), len(coordinates), subject)
         drawn_pose = pose_functions(base, centre, np.eye(3))
         check_drawn(table.value(*[0.0] * len(coordinates)), drawn_pose, subject)
-        new = TabledBody(self, self.unique("body", name), centre, len(self.coordinates))
+        new = LookupTableBody(self, self.unique("body", name), centre, len(self.coordinates))
         new.add_mass(m, centre, 0.5 * np.trace(I) * np.eye(3) - I)
         new.base, new.parameters, new.table = base, coordinates, table
         if not base.is_ground:
             self.remember(base)
             base.is_base = True
         self.coordinates += new.coordinates()
-        self.tabled.append(new)
+        self.lookup_tables.append(new)
         return new
 
     def tabled_number(
@@ -96,7 +96,7 @@ class TableVocabulary(BodyVocabulary):
         axes: Sequence[ArrayLike],
         values: ArrayLike,
         unit: str = "rad",
-    ) -> TabledNumber:
+    ) -> LookupTableNumber:
         """A number that is a function of one or two coordinates, such as the angle of a lever over travel.
 
         Parameters
@@ -110,14 +110,14 @@ class TableVocabulary(BodyVocabulary):
         unit : str
             As rad of an angle.
         """
-        subject = f"tabled number {shown(name)}"
+        subject = f"lookup-table number {shown(name)}"
         coordinates = tuple(self.owned_coordinate(c, f"The {subject}") for c in checked_parameters(parameters, subject))
         table = smooth_table(axes, values, (), subject)
         _check_axis_count(len(table.axes), len(coordinates), subject)
         drawn_value = float(table.value(*[0.0] * len(coordinates))[0])
-        index = self.new_coordinate(self.unique("tabled number", name), "tabled", drawn_value)
-        new = TabledNumber(name, index, named(unit, "a unit"), coordinates, table)
-        self.tabled.append(new)
+        index = self.new_coordinate(self.unique("lookup-table number", name), "tabled", drawn_value)
+        new = LookupTableNumber(name, index, named(unit, "a unit"), coordinates, table)
+        self.lookup_tables.append(new)
         return new
 
 

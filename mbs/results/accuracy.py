@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ali3.message_text import unit_text
-from mbs.kernel.header.enumerations import GuideType
+from mbs.kernel.header.enumerations import DrivingFunctionType
 from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED, WRONG_ERROR
 from mbs.kernel.header.steps import Balance
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
@@ -245,7 +245,7 @@ def _higher_orders(system: System, method: str) -> list[str]:
     if (
         METHOD_TABLE[method].order > 2
         or len(arrays["y0"])
-        or (np.asarray(arrays["guide_type"]) != GuideType.OF_TIME).any()
+        or (np.asarray(arrays["guide_type"]) != DrivingFunctionType.OF_TIME).any()
     ):
         return []
     explicit = "semi_recursive" if is_open_tree(system) else "runge_kutta_8"

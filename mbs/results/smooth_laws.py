@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.enumerations import ElementType, GuideType, ParameterTarget
+from mbs.kernel.header.enumerations import DrivingFunctionType, ElementType, ParameterTarget
 from mbs.kernel.header.limits import RESOLVED
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
@@ -40,7 +40,7 @@ def unresolved_fraction(
 
 
 def is_smooth(system: System, span: tuple[float, float], inputs: Mapping[str, Signal] | None = None) -> bool:
-    """Whether all forces, guides and inputs are smooth within a step."""
+    """Whether all forces, driving functions and inputs are smooth within a step."""
     # an input function may jump within a step
     without_functions = not any(callable(signal) for signal in (inputs or {}).values())
     return without_functions and _has_smooth_laws(system, span)
@@ -52,7 +52,7 @@ def is_open_tree(system: System) -> bool:
 
 
 def _has_smooth_laws(system: System, span: tuple[float, float]) -> bool:
-    """Whether no element has a stop, contact, friction or table, and each guide is one polynomial of time in `span`."""
+    """Whether no element has a stop, contact, friction or table, and driving functions are polynomials in `span`."""
     arrays = system.arrays
     reals = np.array(arrays["el_real"])
     # the stiffness of a stop may be a parameter
@@ -64,12 +64,12 @@ def _has_smooth_laws(system: System, span: tuple[float, float]) -> bool:
     )
     guides = zip(arrays["guide_real_ptr"], arrays["guide_type"], strict=False)
     return smooth_elements and all(
-        kind == GuideType.OF_TIME and _is_one_piece(arrays["guide_real"][start : start + 3], span)
+        kind == DrivingFunctionType.OF_TIME and _is_one_piece(arrays["guide_real"][start : start + 3], span)
         for start, kind in guides
     )
 
 
 def _is_one_piece(head: NDArray[np.float64], span: tuple[float, float]) -> bool:
-    """Whether a guide has one piece that holds in all of `span`; `head`: number of pieces and the first two breaks."""
+    """Whether a driving function is one piece in all of `span`; `head`: number of pieces and the first two breaks."""
     pieces, begin, end = head
     return bool(pieces == 1 and begin <= span[0] and span[1] <= end)

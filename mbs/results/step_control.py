@@ -26,7 +26,7 @@ class Control:
     error: float
     """Estimate of the largest error of positions, relative to `length`: the distance from a coarser run times the ratio
     of their step errors. Errors that both runs have in common are not included. An estimate below a tenth of the
-    tolerance is unreliable and raised to it. It is 0 if guides prescribe all motion, and NaN if the step was given,
+    tolerance is unreliable and raised to it. It is 0 if all motion is prescribed, and NaN if the step was given,
     as no runs were compared."""
     h: float | None
     """The fixed step, s; None if the steps were under error control."""

@@ -27,6 +27,10 @@ Friction = Annotated[float, Field(ge=0.0, le=2.0)]
 DEFAULT_FRICTION = 0.9
 """Friction of a grid without frictions."""
 Range = tuple[float, float]
+POINTS_PER_WAVE = 24
+"""Points of a washboard along a wave; cubics between them are off by 3e-4 of the amplitude."""
+LEVEL_LENGTH = 5.0
+"""Length over which a rough road becomes level at both ends, m."""
 HEIGHT_RESOLUTION = 2.0**-17
 """Heights of washboards and rough roads are multiples of it, m: all machines compute the same file."""
 
@@ -101,9 +105,9 @@ class Washboard(_Description):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> GridRoad:
-        """Make a grid with 24 points per wave."""
-        dx = self.wavelength / 24.0
-        x = dx * np.arange(-24, math.ceil(self.length / dx) + 25)
+        """Make a grid that goes on for one wave before and behind the waves."""
+        dx = self.wavelength / POINTS_PER_WAVE
+        x = dx * np.arange(-POINTS_PER_WAVE, math.ceil(self.length / dx) + POINTS_PER_WAVE + 1)
         envelope = np.clip(x / self.wavelength, 0.0, 1.0) * np.clip((self.length - x) / self.wavelength, 0.0, 1.0)
         z = self.amplitude * envelope * np.sin(2.0 * np.pi * x / self.wavelength)
         heights = np.repeat(_round_heights(z)[:, None], 2, axis=1)
@@ -127,7 +131,7 @@ class Rough(_Description):
         n = [math.ceil(side / self.spacing) + 1 for side in (self.length, self.width)]
         heights = rough_heights(n[0], n[1], self.spacing, ISO_8608[self.roughness], self.seed)
         x = self.spacing * np.arange(n[0])
-        heights *= np.clip(np.minimum(x, self.length - x) / 5.0, 0.0, 1.0)[:, None]
+        heights *= np.clip(np.minimum(x, self.length - x) / LEVEL_LENGTH, 0.0, 1.0)[:, None]
         return GridRoad((self.start, -0.5 * self.width), (self.spacing,) * 2, _round_heights(heights), self.friction)
 
 
@@ -179,8 +183,8 @@ def grid_road(
     for limits, name, file in ((height_range, "heights", heights), (friction_range, "frictions", frictions)):
         if limits is not None and Path(str(file)).suffix.lower() != PICTURE:
             raise RoadFileError(
-                f"{heights}: the range {limits[0]:g} to {limits[1]:g} of {name} says what black and white of a picture "
-                f"({PICTURE}) are, but its {name} come from no picture; leave the range out."
+                f"{heights}: the range {limits[0]:g} to {limits[1]:g} of {name} gives the values of black and white "
+                f"of a picture ({PICTURE}), but the {name} come from no picture; leave the range out."
             )
     for step in spacing or ():
         positive(step, f"The spacing of the grid of {heights}", RoadFileError)
@@ -218,7 +222,9 @@ def _read_heights(
     """Read the heights of a table, array or picture, or sample a mesh or an OpenCRG file."""
     kind = Path(heights).suffix.lower()
     if mesh and kind not in MESHES:
-        raise RoadFileError(f"{heights} is not a mesh, which {next(iter(mesh))} is of; {', '.join(MESHES)} are.")
+        raise RoadFileError(
+            f"{heights} is not a mesh, so leave {next(iter(mesh))} out; meshes are {', '.join(MESHES)}."
+        )
     if kind in MESHES:
         from mbs.roads.mesh_road import mesh_road
 
@@ -230,7 +236,7 @@ def _read_heights(
     grid = read_grid(heights, height_range, "heights")
     step = spacing or grid.spacing
     if step is None:
-        raise RoadFileError(f"{heights} does not say how far its points are apart; give the spacing in x and y, m.")
+        raise RoadFileError(f"{heights} does not contain the spacing of its points; give the spacing in x and y, m.")
     return GridRoad(
         grid.origin or (0.0, 0.0), step, grid.values, DEFAULT_FRICTION if grid.frictions is None else grid.frictions
     )

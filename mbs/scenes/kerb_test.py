@@ -13,7 +13,7 @@ from scipy.interpolate import PPoly
 
 from mbs.elements.road import KerbRoad
 from mbs.model.model import Model
-from mbs.model.records import Guide
+from mbs.model.records import DrivingFunction
 from mbs.scenes import prototype_car
 from mbs.vehicle import Car
 from mbs.vehicle.fidelity import OFFERED, Fidelity
@@ -25,7 +25,7 @@ DURATION = 15.0  # s
 STEP = 0.01  # s
 EDGE = 7.5  # m from the front axle at rest to the kerb; front wheels pass it at 7.70 s, rear wheels at 8.16 s
 HEIGHT = 0.08  # m, of the kerb
-PIECE = 0.1  # s, length of a polynomial piece of the guide
+PIECE = 0.1  # s, length of a polynomial piece of the driving function
 _SMOOTH_STEP = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0])
 """Step from 0 to 1 on the interval 0 to 1, with first and second derivatives of zero at both ends."""
 
@@ -33,7 +33,7 @@ _SMOOTH_STEP = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0])
 def build(
     fidelity: Fidelity | int | str = Fidelity.DYNAMIC,
     car: Car | None = None,
-    guide: Callable[[Model, float], Guide] | None = None,
+    guide: Callable[[Model, float], DrivingFunction] | None = None,
 ) -> Model:
     """Model of the car in equilibrium in front of the kerb.
 
@@ -44,13 +44,13 @@ def build(
     car : Car, optional
         By default the prototype.
     guide : callable, optional
-        Makes the guide of the x coordinate of the chassis' reference point from its value at the start, m; by default
-        `smooth_guide`.
+        Makes the driving function of x of the chassis' reference point from its value at the start, m; by default
+        `smooth_driving_function`.
     """
-    make_guide = smooth_guide if guide is None else guide
+    make_driving_function = smooth_driving_function if guide is None else guide
     test_car = prototype_car.car() if car is None else car
     road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", test_car.road.friction)
-    m = test_car.model(road, fidelity, lambda model: make_guide(model, test_car.chassis.reference[0]))
+    m = test_car.model(road, fidelity, lambda model: make_driving_function(model, test_car.chassis.reference[0]))
     m.stop_time, m.step = DURATION, STEP
     return m
 
@@ -76,8 +76,8 @@ def distance(t: float | np.ndarray) -> np.ndarray:
     return total
 
 
-def smooth_guide(m: Model, start: float) -> Guide:
-    """Add the guide of x of a chassis point: polynomials of degree 5 that interpolate `distance` and two derivatives.
+def smooth_driving_function(m: Model, start: float) -> DrivingFunction:
+    """Prescribe x of a chassis point by polynomials of degree 5 that interpolate `distance` and two derivatives.
 
     `start`: x at rest, m.
     """

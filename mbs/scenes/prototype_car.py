@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from mbs.elements.road import Road
 from mbs.model.model import Model
-from mbs.model.records import Guide
+from mbs.model.records import DrivingFunction
 from mbs.vehicle import Car, Fidelity, load
 
 
@@ -16,7 +16,7 @@ def car() -> Car:
 def build(
     road: Road | None = None,
     fidelity: Fidelity | int | str = Fidelity.RIGID,
-    guide: Callable[[Model], Guide] | None = None,
+    guide: Callable[[Model], DrivingFunction] | None = None,
 ) -> Model:
     """The car at rest in static equilibrium, its front axle over the origin; see `mbs.vehicle.Car.model`.
 
@@ -28,7 +28,7 @@ def build(
         How much of the chassis is modelled, a member of `Fidelity`, its number or its name: 0 "rigid", 1
         "quasi_static", 2 "load_paths", 3 "dynamic", and for comparison 4 "many_modes" and "paper".
     guide : callable, optional
-        Makes the guide of the x coordinate of the floor's centre, m; the selector is then in neutral.
+        Makes the driving function of the x coordinate of the floor's centre, m; the selector is then in neutral.
     """
     return car().model(road, fidelity, guide)
 

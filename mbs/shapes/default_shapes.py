@@ -89,7 +89,7 @@ class Defaults:
                 shapes += [
                     s | {"body": body.name, "color": s.get("color", color)} for s in self._body_shapes(body, frame)
                 ]
-        for spin in (s for s in self.model.spins if s.name in self.names.turns):  # a tabled wheel is not drawn
+        for spin in (s for s in self.model.spins if s.name in self.names.turns):  # a lookup-table wheel is not drawn
             if self.names.turns[spin.name] not in drawn:
                 shapes.append(self._wheel_shape(spin) | {"body": spin.name})
         for line in self.geometry.lines:

@@ -20,7 +20,7 @@ from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.model.sliding_shapes import Sliding
-from mbs.model.table_bodies import TabledBody
+from mbs.model.table_bodies import LookupTableBody
 from mbs.system.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace, matrices
 
 Anchor = tuple[str, list[float]]
@@ -61,7 +61,7 @@ class FrameNames:
 
     def of_body(self, body: Body) -> str:
         """Frame of a body, or of the owner of a node or port."""
-        if body.is_tabled:
+        if body.is_lookup_table:
             return body.name
         return "ground" if body.is_ground else self.bodies[body.owner.number]
 
@@ -76,14 +76,14 @@ class FrameNames:
 
 
 def turns_of(model: Model) -> list[Spin | Turning]:
-    """Wheels and turning parts; of those on tabled bodies only wheels whose pose sensors read."""
+    """Wheels and turning parts; of those on lookup-table bodies only wheels whose pose sensors read."""
     turns: list[Spin | Turning] = [*model.spins, *model.turnings]
-    return [t for t in turns if not _carrier_body(t).is_tabled or _pose_sensors(t)]
+    return [t for t in turns if not _carrier_body(t).is_lookup_table or _pose_sensors(t)]
 
 
 def _pose_sensors(turn: Spin | Turning) -> tuple[str, ...]:
-    """Sensors of the pose of a wheel on a tabled body; empty if there are none, and on other bodies."""
-    return turn.carrier.outputs if isinstance(turn, Spin) and isinstance(turn.carrier, TabledBody) else ()
+    """Sensors of the pose of a wheel on a lookup-table body; empty if there are none, and on other bodies."""
+    return turn.carrier.outputs if isinstance(turn, Spin) and isinstance(turn.carrier, LookupTableBody) else ()
 
 
 def _carrier_body(turn: Spin | Turning) -> Body:
@@ -107,7 +107,7 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
         }
     for spin in model.spins:
         if outputs := _pose_sensors(spin):
-            assert isinstance(spin.carrier, TabledBody), "it has outputs"
+            assert isinstance(spin.carrier, LookupTableBody), "it has outputs"
             base = spin.carrier.base
             place, quaternion = frames[names.of_body(base)]["start"]
             (turn,) = matrices(np.array([quaternion]))

@@ -62,9 +62,9 @@ class JointGeometry:
     slides: list[Slide] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     sliding: list[str] = field(default_factory=list)
-    """Names of rods with an end moved by a guide without a sensor; they are not drawn."""
+    """Names of rods with an end moved by a driving function without a sensor; they are not drawn."""
     frames: dict[str, dict[str, Any]] = field(default_factory=dict)
-    """Frames of the ends of rods moved by guides with sensors, by name."""
+    """Frames of the ends of rods moved by driving functions with sensors, by name."""
 
 
 def joint_geometry(model: Model, names: FrameNames) -> JointGeometry:
@@ -103,27 +103,27 @@ def joint_geometry(model: Model, names: FrameNames) -> JointGeometry:
             geometry.lines.append(Line(record.name, line_ends, record))
             for frame, local in line_ends:
                 geometry.points.setdefault(frame, []).append(origins[frame] + np.array(local))
-    for spin in (s for s in model.spins if not s.carrier.is_tabled):
+    for spin in (s for s in model.spins if not s.carrier.is_lookup_table):
         geometry.points.setdefault(names.of_body(spin.carrier), []).append(origin_of(spin))
     return geometry
 
 
-def _guide_sensor(model: Model, guide: int) -> str:
-    """Name of the sensor of a guide in m; empty if there is none."""
+def _driving_sensor(model: Model, guide: int) -> str:
+    """Name of the sensor of a driving function in m; empty if there is none."""
     for sensor in model.sensors:
-        if sensor.type == SensorType.GUIDE and list(sensor.integers) == [guide, 0] and list(sensor.reals) == [1.0]:
+        if sensor.type == SensorType.DRIVING and list(sensor.integers) == [guide, 0] and list(sensor.reals) == [1.0]:
             return sensor.name
     return ""
 
 
 def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: SlidingPoint) -> dict[str, dict[str, Any]]:
-    """Frames of a sliding point by name, each the parent of the next; empty if a guide has no sensor."""
+    """Frames of a sliding point by name, each the parent of the next; empty if a driving function has no sensor."""
     parent, at = names.anchor(slide.body, place_drawn(drawn, slide.start))
     names_in_use = {"ground", *names.bodies.values(), *names.turns.values()}
     name = f"end of {slide.name}" if slide.name in names_in_use else slide.name
     frames: dict[str, dict[str, Any]] = {}
     for k, (direction, guide) in enumerate(slide.ways):
-        sensor = _guide_sensor(model, guide)
+        sensor = _driving_sensor(model, guide)
         if not sensor:
             return {}
         last = k == len(slide.ways) - 1

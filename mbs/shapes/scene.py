@@ -17,7 +17,7 @@ from mbs.model.checked_shapes import Shape
 from mbs.model.flexible import FlexibleBody
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
-from mbs.model.table_bodies import TabledBody
+from mbs.model.table_bodies import LookupTableBody
 from mbs.roads.scene_part import scene_part
 from mbs.shapes.arrows import force_arrows
 from mbs.shapes.default_shapes import Defaults
@@ -25,8 +25,8 @@ from mbs.shapes.frames import FrameNames, frames_of, numbers, place_drawn
 from mbs.shapes.joint_points import joint_geometry
 from mbs.system.drawing import Drawing, Places, matrices
 
-TABLED_REASON = "a table moves it, and pictures follow coordinates"
-SLIDING_REASON = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
+LOOKUP_TABLE_REASON = "a table moves it, and pictures follow coordinates"
+SLIDING_REASON = "one of its ends slides by a driving function, which no sensor reads (sense_guide)"
 Scene = dict[str, Any]
 JOINT_TYPES = ("spherical", "revolute", "universal", "weld")
 """Types of joints that constrain a common point."""
@@ -72,7 +72,11 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "arrows": force_arrows(model, names, geometry.lines),
         "roads": road_entries(model),
         "missing": [{"name": name, "why": SLIDING_REASON} for name in geometry.sliding if name not in named]
-        + [{"name": t.name, "why": TABLED_REASON} for t in model.tabled if isinstance(t, TabledBody) and not t.outputs],
+        + [
+            {"name": t.name, "why": LOOKUP_TABLE_REASON}
+            for t in model.lookup_tables
+            if isinstance(t, LookupTableBody) and not t.outputs
+        ],
     }
     return Drawing(scene, places, shared_points(model, names), _flexible_part_makers(model, names, places, q))
 

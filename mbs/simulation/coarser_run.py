@@ -16,7 +16,7 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
-from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
+from mbs.simulation.refined_run import BudgetExceededError, RefinedRuns, Watch
 
 COUNTERS = ("steps", "halvings", "divisions", "abrupt_steps", "branch_changes", "predictor_path")
 
@@ -114,7 +114,7 @@ class CoarserRuns:
             watch = self.watch(run[0], limit, smooth_from)
         try:
             other = refined.rerun(h, steps, 1.0 / step_ratio, iterations, watch)
-        except (SimulationError, TooDearError, TooFarError):
+        except (SimulationError, BudgetExceededError, TooFarError):
             return None
         made = other[0].report
         assert made is not None

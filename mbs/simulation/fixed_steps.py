@@ -154,7 +154,7 @@ def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accurac
             return confirmed
     try:
         estimate = refined.verdict()
-    except refined_run.TooDearError:
+    except refined_run.BudgetExceededError:
         further_costs = [refined.h / refined.tried * factor for factor in (1, 2, 4, MOST_PARTS)]
         needed = refined.cost + sum(cost for cost in further_costs if cost < (MOST_PARTS + 0.5) * refined.parts)
         estimate = refined.known or estimate

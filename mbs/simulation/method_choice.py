@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbs.kernel.binding import KernelError, Status
-from mbs.kernel.header.enumerations import GuideType
+from mbs.kernel.header.enumerations import DrivingFunctionType
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings
@@ -44,8 +44,8 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
     """Methods that may be the fastest for a System, and the property that excludes the others."""
     if len(system.arrays["y0"]) > 0:
         return ["ali3p"], "elements with states"
-    if np.any(system.arrays["guide_type"] != GuideType.OF_TIME):
-        return ["ali3p"], "guides through a filter"
+    if np.any(system.arrays["guide_type"] != DrivingFunctionType.OF_TIME):
+        return ["ali3p"], "driving functions through a filter"
     coarse = ["ali3p"] if tolerance >= COARSE else []
     if not prepared(system).meta["report"]["no_tree"]:
         return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5", *coarse], "a tree of joints"

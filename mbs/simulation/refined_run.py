@@ -37,7 +37,7 @@ Run = tuple[Trajectory, list[NDArray[np.float64]]]
 Watch = Callable[[NDArray[np.float64]], bool]
 
 
-class TooDearError(Exception):
+class BudgetExceededError(Exception):
     """A refined run would exceed the remaining budget."""
 
 
@@ -122,8 +122,8 @@ class RefinedRuns:
         coordinates = dict.fromkeys(self._columns, Compared(COORDINATES, place=True))
         start_coordinates = self._coordinates(self.run)
         at_rest = bool(start_coordinates) and not sizes_of(start_coordinates, coordinates, self.length, self.before)
-        has_guides = len(self.system.arrays["gterm_row"]) > 0
-        compared, context = compared_sensors(self.system), (at_rest, has_guides, report.energy_floor)
+        has_driving_functions = len(self.system.arrays["gterm_row"]) > 0
+        compared, context = compared_sensors(self.system), (at_rest, has_driving_functions, report.energy_floor)
         self.compared = select_compared(self.run[0], compared, self.length, self.before, *context)
         self.rests = at_rest and not self.compared
         if shows_motion(self.compared):
@@ -137,7 +137,7 @@ class RefinedRuns:
     def refine(self, parts: int) -> Accuracy:
         """Make a refined run with the step divided by `parts`, and return the accuracy estimated from it.
 
-        Raises `SimulationError` if the run fails, `TooDearError` if it exceeds the remaining budget.
+        Raises `SimulationError` if the run fails, `BudgetExceededError` if it exceeds the remaining budget.
         """
         refined = self._refined[parts] = self.rerun(self.h / parts, self.every * parts, float(parts))
         self.left_alone = bool(self.run[0].branch_change) and not refined[0].branch_change
@@ -147,7 +147,7 @@ class RefinedRuns:
 
     @property
     def is_smooth(self) -> bool:
-        """Whether all forces, guides and inputs are smooth within a step."""
+        """Whether all forces, driving functions and inputs are smooth within a step."""
         return is_smooth(self.system, (self.run[0].t[0], self.run[0].t[-1]), self.inputs)
 
     @property
@@ -185,7 +185,7 @@ class RefinedRuns:
         The step is halved, down to a 16th, while the refined run is coarse or its own error could change the verdict;
         with a `divisor` there is one run. If the last run is still uncertain, its possible error is added.
 
-        Raises `SimulationError` if a run fails, `TooDearError` if a run would exceed the remaining budget.
+        Raises `SimulationError` if a run fails, `BudgetExceededError` if a run would exceed the remaining budget.
         """
         parts = self.first_divisor
         verdict = self.refine(parts)
@@ -229,7 +229,7 @@ class RefinedRuns:
         if parts > max(self._refined) and not any(error <= accuracy.CLEAR for _, error in step_errors):
             try:
                 self._refined[parts] = self.rerun(self.h / parts, self.every * parts, float(parts))
-            except (SimulationError, TooDearError):
+            except (SimulationError, BudgetExceededError):
                 return step_errors
             return self._step_errors()
         return step_errors
@@ -276,13 +276,13 @@ class RefinedRuns:
     def rerun(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
         """Run the motion in steps of `h`, s, with a sample every `every` steps, and add the cost.
 
-        Raises `TooDearError` if the cost exceeds the remaining budget.
+        Raises `BudgetExceededError` if the cost exceeds the remaining budget.
         """
         spent_cost = 1.0 + self.cost
         self.tried = h
         fraction = 0.0
         if self.cost + cost > self.max_cost:
-            raise TooDearError
+            raise BudgetExceededError
         self.cost += cost
         total_cost = 1.0 + self.cost
 

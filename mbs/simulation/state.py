@@ -45,9 +45,9 @@ class State:
 
     Multipliers have the sign of ``M qdd + Phi_q' lam = Q``: a row Phi puts the force -Phi_q' lam on its
     coordinates. ``lam_user = row_scale * lam`` belongs to the row as the model writes it. The row of a drive is
-    coordinate minus guide, so the drive pushes the coordinate with -lam_user; the rows of a port and of a node of a
-    flexible body are free point minus point of the body, so the body feels +lam_user; a distance of length L has the
-    tension L lam_user. Sensors have the signs that their docstrings say.
+    coordinate minus driving function, so the drive pushes the coordinate with -lam_user; the rows of a port and of a
+    node of a flexible body are free point minus point of the body, so the body feels +lam_user; a distance of length L
+    has the tension L lam_user. Sensors have the signs that their docstrings say.
     """
 
     q: NDArray[np.float64]

@@ -6,6 +6,7 @@ from math import atan, sin
 import numpy as np
 from scipy.optimize import least_squares
 
+from mbs.elements.load_laws import force_at_load
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.tyre_files.pure_curves import (
@@ -14,7 +15,6 @@ from mbs.tyre_files.pure_curves import (
     TANGENTS,
     TMEASY_SLIPS,
     Array,
-    at_load,
     cornering_stiffness,
     formula_slip,
     magic_lateral,
@@ -120,7 +120,7 @@ def _force_errors(
 
     `law`: `magic_longitudinal` or `magic_lateral`; `slip`, `tmeasy_slip`: the same slips as both formulas take them.
     """
-    targets = [(r * nominal, tmeasy_forces(curve, r, tmeasy_slip), at_load(curve.max_force, r)) for r in LOADS]
+    targets = [(r * nominal, tmeasy_forces(curve, r, tmeasy_slip), force_at_load(curve.max_force, r)) for r in LOADS]
 
     def errors(c: dict[str, float]) -> Array:
         return np.concatenate([(law(c, nominal, load, slip) - target) / largest for load, target, largest in targets])

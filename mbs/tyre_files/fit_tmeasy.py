@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import least_squares
 
+from mbs.elements.load_laws import largest_load_of_force, largest_load_of_slip
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.tyre_files.pure_curves import (
@@ -201,15 +202,10 @@ def _fit_trail_at_both_loads(
 
 
 def _max_load_ratio(curves: Sequence[TyreCurve]) -> float:
-    """Load, relative to the nominal load, at which an extrapolated force or slip of TMeasy vanishes."""
-    limits = [100.0]  # no limit
+    """Load, relative to the nominal load, at which the first force or slip of TMeasy vanishes (or inf)."""
+    limits: list[float] = []
     for curve in curves:
-        for first, second in (curve.slope, curve.max_force, curve.slide_force):
-            difference = first - 0.5 * second
-            if difference > 0.0:
-                limits.append((2.0 * first - 0.5 * second) / difference)
+        limits += map(largest_load_of_force, (curve.slope, curve.max_force, curve.slide_force))
         slip_gaps = tuple(slide - peak for slide, peak in zip(curve.slide_slip, curve.max_slip, strict=True))
-        for first, second in (curve.max_slip, slip_gaps):
-            if second < first:
-                limits.append(1.0 + first / (first - second))
+        limits += map(largest_load_of_slip, (curve.max_slip, slip_gaps))
     return min(limits)

@@ -1,11 +1,12 @@
 """Steady forces at pure slip and trail of both tyre formulas, without camber and shifts, for fits."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import atan, sin, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mbs.elements.load_laws import force_at_load, slip_at_load
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
@@ -18,21 +19,6 @@ TANGENTS = np.geomspace(1e-3, 0.6, 80)
 """Tangents of the slip angle."""
 TMEASY_SLIPS = LONGITUDINAL_SLIPS / (1.0 + LONGITUDINAL_SLIPS)
 """Slips of TMeasy, which are relative to the rolling speed instead of the speed of travel."""
-
-
-def at_load(pair: Sequence[float], load_ratio: float) -> float:
-    """Force or stiffness of TMeasy at a load: a parabola through 0.
-
-    `pair`: values at one and two nominal loads; `load_ratio`: load relative to the nominal load.
-    """
-    first, second = pair
-    return load_ratio * (2.0 * first - 0.5 * second - (first - 0.5 * second) * load_ratio)
-
-
-def slip_at_load(pair: Sequence[float], load_ratio: float) -> float:
-    """Slip or relative trail of TMeasy at a load: linear. Arguments as in `at_load`."""
-    first, second = pair
-    return first + (second - first) * (load_ratio - 1.0)
 
 
 def tmeasy_force(
@@ -54,7 +40,7 @@ def tmeasy_force(
 def tmeasy_forces(curve: TyreCurve, load_ratio: float, slip: ArrayLike) -> Array:
     """Forces of TMeasy at a load relative to the nominal load, N. `slip`: as in `tmeasy_force`."""
     slope, max_force, slide_force = (
-        at_load(pair, load_ratio) for pair in (curve.slope, curve.max_force, curve.slide_force)
+        force_at_load(pair, load_ratio) for pair in (curve.slope, curve.max_force, curve.slide_force)
     )
     max_slip, slide_slip = (slip_at_load(pair, load_ratio) for pair in (curve.max_slip, curve.slide_slip))
     return tmeasy_force(slope, max_force, max_slip, slide_force, slide_slip, slip)

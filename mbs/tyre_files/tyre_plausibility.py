@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, quantities_of
+from mbs.elements.load_laws import force_at_load
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files.magic_file import TyreFile
 from mbs.tyre_files.pure_curves import (
-    at_load,
     carcass_stiffness,
     cornering_stiffness,
     magic_lateral,
@@ -162,7 +162,7 @@ def cornering_stiffness_at(tyre: MagicTyre | Tyre, load: float) -> float:
     """Cornering stiffness without camber at a load, N/rad. `load`: N."""
     if isinstance(tyre, MagicTyre):
         return cornering_stiffness(tyre.coefficients, tyre.nominal_load, load) * tyre.lky
-    return at_load(tyre.lateral.slope, load / tyre.nominal_load)
+    return force_at_load(tyre.lateral.slope, load / tyre.nominal_load)
 
 
 def _vertical_names(tyre: AnyTyre, prefix: str) -> dict[str, str]:
@@ -274,7 +274,7 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
             # the lateral slip is the tangent of the angle
             slips = np.tan(SLIPS) if curve is tyre.lateral else SLIPS
             load = q * nominal
-            pair.append(_Curve(at_load(curve.slope, q) / load, tmeasy_forces(curve, q, slips) / load, 0.0))
+            pair.append(_Curve(force_at_load(curve.slope, q) / load, tmeasy_forces(curve, q, slips) / load, 0.0))
         curves[q] = (pair[0], pair[1])
     keys: dict[str, dict[str, Any]] = {}
     for axis, name in (("y", "lateral"), ("x", "longitudinal")):

@@ -1,4 +1,4 @@
-"""URDF files as models (reader: yourdfpy, extra `urdf`): links as bodies, joints as joints with torques or guides."""
+"""URDF files as models (reader: yourdfpy, extra `urdf`): links as bodies, joints with torques or driving functions."""
 
 import warnings
 from collections import Counter
@@ -45,9 +45,9 @@ class Robot(Summarised):
     """A robot as a model, to which tools, loads, sensors and forces can be added."""
 
     model: Model
-    """Its inputs are ``JOINT.torque``, N m, or ``JOINT.force``, N, unless the joint has a guide; its sensors
-    ``JOINT.angle`` and ``JOINT.rate``, ``JOINT.position`` and ``JOINT.speed``, and of guides ``JOINT.torque``. A joint
-    that follows another has sensors only."""
+    """Its inputs are ``JOINT.torque``, N m, or ``JOINT.force``, N, unless the joint has a driving function; its sensors
+    ``JOINT.angle`` and ``JOINT.rate``, ``JOINT.position`` and ``JOINT.speed``, and of driving functions
+    ``JOINT.torque``. A joint that follows another has sensors only."""
     bodies: dict[str, Body] = field(default_factory=dict)
     """By link; links fixed to each other are one body, and links fixed to the ground are the ground."""
     poses: dict[str, Pose] = field(default_factory=dict)
@@ -118,7 +118,7 @@ def read_urdf(
                 "floating one above the only link of a root without mass, by floating=True."
             )
         if name in guides and joint.type == "prismatic":
-            raise ModelError(f"{file.name}: the joint '{name}' is prismatic; guides move turning joints.")
+            raise ModelError(f"{file.name}: the joint '{name}' is prismatic; driving functions move turning joints.")
     at |= {name: float(motion(0.0)) for name, motion in guides.items()}
     followers = read_mimic_joints(joints, at, file.name)
     at |= mimic_values(followers, at)

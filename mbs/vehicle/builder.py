@@ -83,7 +83,7 @@ class CarBuilder:
         part: str = "",
         inverse: bool = False,
     ) -> None:
-        """Make a number of the file a parameter of the model that sets a number of an element, guide or road.
+        """Make a number of the file a parameter that sets a number of an element, driving function or road.
 
         Name, unit, range and description of the parameter are as in the field of the file. Several calls for one
         number are allowed, for instance for both sides of the car.

@@ -40,7 +40,7 @@ from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_p
 from mbs.vehicle.schema_version import check_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.steering.steering_section import Steered
-from mbs.vehicle.tabled_axle import tabled_axle
+from mbs.vehicle.table_axle import table_axle
 
 MAX_FAULTS = 8
 
@@ -131,7 +131,7 @@ class BuiltCar(Summarised, CarContent):
             write_inertia(b, self.chassis)
             for name, payload in self.payload.items():
                 payload.build(b, name)
-            (steered, front), (_, rear) = self.tabled(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
+            (steered, front), (_, rear) = self.by_tables(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
             spins = front | rear
             if self.ports.torque is None:
                 self.drive.build(b, spins, neutral=drive is not None)
@@ -211,7 +211,7 @@ class BuiltCar(Summarised, CarContent):
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         yield steered, self.rear.build(b, "rear", b.chassis.fixed_end, self.brakes.build)
 
-    def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
+    def by_tables(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add the steering, and both axles with tables instead of links."""
         steered = self.steering.build(b, self.rack_direction)
         if steered.travel is None:
@@ -223,7 +223,7 @@ class BuiltCar(Summarised, CarContent):
         b.rack = steered.travel()
         for name, axle in self.axles.items():
             if axle.suspension.linked:
-                yield steered, tabled_axle(b, self, name, b.rack if name == "front" else None, self.brakes.build)
+                yield steered, table_axle(b, self, name, b.rack if name == "front" else None, self.brakes.build)
             else:
                 yield steered, axle.build(b, name, steered.tie_rod, self.brakes.build)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from mbs.elements.road import Road, RoadOfFile
 from mbs.model.model import Model
-from mbs.model.records import Guide
+from mbs.model.records import DrivingFunction
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.built_car import BuiltCar, checked_car
 from mbs.vehicle.changed_content import changed_content
@@ -31,7 +31,7 @@ class Car(BuiltCar):
         self,
         road: Road | RoadOfFile | None = None,
         fidelity: Fidelity | int | str = Fidelity.RIGID,
-        guide: Callable[[Model], Guide] | None = None,
+        guide: Callable[[Model], DrivingFunction] | None = None,
     ) -> Model:
         """Model of the car at rest in static equilibrium, with its front axle above the origin.
 
@@ -46,7 +46,8 @@ class Car(BuiltCar):
         fidelity : Fidelity, int or str
             Model of the chassis: a member of `Fidelity`, its number or its name.
         guide : callable, optional
-            Adds the guide that prescribes x of the chassis' reference point, m; the selector is then in neutral.
+            Adds the driving function that prescribes x of the chassis' reference point, m; the selector is then in
+            neutral.
 
         Raises
         ------

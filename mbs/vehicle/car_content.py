@@ -24,6 +24,9 @@ from mbs.vehicle.section import Section, sections_of
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.steering import Steering
 
+MARGIN = 0.13
+"""Margin of the footprint around the wheels and the outline, m; chosen."""
+
 
 class Payload(Section):
     """A person or a piece of luggage."""
@@ -34,7 +37,7 @@ class Payload(Section):
     """Centre of mass as drawn; left and right are as given, nothing is mirrored."""
 
     def build(self, b: CarBuilder, name: str) -> None:
-        """Add the payload, whose force a frame that may bend takes at several joints."""
+        """Add the payload; a flexible frame takes its force at several joints."""
         point = None if b.chassis.rigid else b.chassis.place(self.point)
         payload = b.m.payload(name, b.chassis.body, self.point, mass=self.mass, point=point)
         b.tie(self, "mass", payload, "mass")
@@ -195,8 +198,7 @@ class CarContent(Section):
 
     @property
     def footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and largest x and y of the car as drawn, with a margin of 0.13 m."""
-        margin = 0.13
+        """Least and largest x and y of the car as drawn, with a margin."""
         x = self.rear.wheel.centre[0] - self.rear.tyre.radius, self.front.wheel.centre[0] + self.front.tyre.radius
         half_width = 0.5 * self.vehicle.width
-        return (x[0] - margin, x[1] + margin), (-half_width - margin, half_width + margin)
+        return (x[0] - MARGIN, x[1] + MARGIN), (-half_width - MARGIN, half_width + MARGIN)

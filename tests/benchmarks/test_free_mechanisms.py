@@ -42,7 +42,7 @@ def test_each_joint_and_each_force_has_a_mechanism(monkeypatch):
 def test_energy_momentum_keeps_the_energy_of_each():
     for name in ELEMENTS:
         actual = measure(name, 0.2, 150, "energy_momentum")
-        if name == "tabled body":
+        if name == "lookup-table body":
             assert actual["told"] == "no"
         else:
             assert actual["energy"] < (0.1 if name.startswith("drive") else 1e-4 if name == "friction" else 1e-8), (

@@ -116,7 +116,7 @@ def _sensors(m: Model, body: Body, point: Array) -> None:
 
 
 def scissor_lift(pen: Pen, guide: str, turn: float, scale: float) -> Model:
-    """Planar: crossed bars lift a plate that a guide holds upright, as the bars do already."""
+    """Planar: crossed bars lift a plate that a driving function holds upright, as the bars do already."""
     c, s = np.cos(turn), np.sin(turn)
     R = np.array([[c, -s], [s, c]])
     m = Model("scissor lift", dimension=2, gravity=tuple(9.81 * scale * R @ (0.0, -1.0)))

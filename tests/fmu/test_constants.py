@@ -13,7 +13,7 @@ from lxml import etree
 
 import mbs
 from fmu_src.build.build import build_fmu
-from fmu_src.description.fmi3 import LS_STRUCT
+from fmu_src.description.terminals import LS_STRUCT
 from mbs.vehicle import load
 from mbs.vehicle.read_car import CARS
 from tests import kinds

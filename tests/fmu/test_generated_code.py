@@ -94,7 +94,7 @@ def test_a_build_from_its_sources_has_its_bits(build, host, tmp_path):
     expected, file = driven_rows(host(fmu), *PULLS["crane"]), tmp_path / "Crane.fmu"
     for word in (b"", b"/* a word */\n"):
         write_zip(files | {code: files[code] + word}, file)
-        assert add_platforms(file, [PLATFORM], file, told=lambda what, note: nullcontext()) == [PLATFORM]
+        assert add_platforms(file, [PLATFORM], file, report_stage=lambda what, note: nullcontext()) == [PLATFORM]
         assert driven_rows(host(file), *PULLS["crane"]) == expected
 
 

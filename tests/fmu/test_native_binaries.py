@@ -36,7 +36,9 @@ def all_platforms(build: Callable[..., Path], made_once: Callable[[str, Callable
 
     def fill(folder: Path) -> None:
         with unoptimised():
-            add_platforms(build("crane"), PLATFORMS, folder / "Crane.fmu", told=lambda what, note: nullcontext())
+            add_platforms(
+                build("crane"), PLATFORMS, folder / "Crane.fmu", report_stage=lambda what, note: nullcontext()
+            )
 
     return made_once("all_platforms", fill) / "Crane.fmu"
 

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from fmu_src.description.fmi3 import terminals
+from fmu_src.description.terminals import terminals
 from fmu_src.variables.arrays import arrays, scalars
 from fmu_src.variables.variables import variable_table
 from tests.fmu.calls import OK

@@ -11,8 +11,8 @@ import mbs
 from benchmarks.car import manoeuvres
 from fmu_src.build.car_registry import build_car
 from fmu_src.description.description import declared_types
-from fmu_src.description.fmi3 import terminals
 from fmu_src.description.nominal_values import drive_sizes, with_nominal
+from fmu_src.description.terminals import terminals
 from fmu_src.variables.arrays import arrays, common_text
 from fmu_src.variables.variables import Variable, variable_table
 from tests.quick import quick

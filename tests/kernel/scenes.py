@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mbs.kernel.header.enumerations import ElementType, GuideType, SensorType
+from mbs.kernel.header.enumerations import DrivingFunctionType, ElementType, SensorType
 
 from .system_builder import Element, Row, SystemBuilder, distance_row
 
@@ -69,7 +69,7 @@ def sleigh() -> SystemBuilder:
 
 
 def everything() -> SystemBuilder:
-    """Two planar points with a spring, a distance row, an angle row, both kinds of guide, an input and a parameter."""
+    """Two planar points with a spring, a distance and an angle row, two driving functions, input and parameter."""
     M = np.diag([1.0, 2.0, 1.5, 2.5, 0.0])
     rows = [
         distance_row((0, 1), (2, 3), 1.25, False),
@@ -86,8 +86,8 @@ def everything() -> SystemBuilder:
     b.inputs = [(0.0, -1.0, 1.0)]
     quintic = [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]
     b.guides = [
-        (GuideType.OF_INPUT, 0, [20.0, 0.5, 0.0]),
-        (GuideType.OF_TIME, -1, [2.0, 0.0, 1.0, 2.0, *quintic, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (DrivingFunctionType.OF_INPUT, 0, [20.0, 0.5, 0.0]),
+        (DrivingFunctionType.OF_TIME, -1, [2.0, 0.0, 1.0, 2.0, *quintic, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
     ]
     dx, dy = b.signal({0: -1.0, 2: 1.0}), b.signal({1: -1.0, 3: 1.0}, 0.5)
     b.elements = [
@@ -98,7 +98,7 @@ def everything() -> SystemBuilder:
         (SensorType.SIGNAL, [dx], [1.0]),
         (SensorType.ELEMENT_OUTPUT, [0, 1], [1.0]),
         (SensorType.INPUT, [0], []),
-        (SensorType.GUIDE, [0, 0], [1.0]),
+        (SensorType.DRIVING, [0, 0], [1.0]),
         (SensorType.ENERGY, [3], []),
         (SensorType.REACTION, [1, 0], [1.0]),
         (SensorType.WORK, [1, 1, 0], []),

@@ -16,8 +16,8 @@ INTS = {name for name, (items, _) in ARRAYS.items() if items == "INTEGERS"}
 
 @dataclass
 class Row:
-    """constant + lin . q + sum h q_i q_j (+ guides); an angle row adds cos(q_theta) S - sin(q_theta) C. A velocity row
-    is lin . qd + sum h q_i qd_j alone.
+    """constant + lin . q + sum h q_i q_j (+ driving functions); an angle row adds cos(q_theta) S - sin(q_theta) C. A
+    velocity row is lin . qd + sum h q_i qd_j alone.
     """
 
     constant: float
@@ -25,7 +25,7 @@ class Row:
     quad: dict[tuple[int, int], float] = field(default_factory=dict)
     theta: int | None = None
     angle: list[tuple[int, int, float, float]] = field(default_factory=list)  # i, j (-1: none), hc, hs
-    guided: list[tuple[int, int, int, int, float]] = field(default_factory=list)  # guide, power, i, j, h
+    guided: list[tuple[int, int, int, int, float]] = field(default_factory=list)  # driving function, power, i, j, h
     rates: dict[tuple[int, int], float] = field(default_factory=dict)
 
     def columns(self) -> list[int]:
@@ -121,7 +121,7 @@ class SystemBuilder:
         return g
 
     def value(self, row: Row, q: np.ndarray, s: np.ndarray | None = None) -> float:
-        """Value of a row in user units; guides are zero unless given."""
+        """Value of a row in user units; driving functions are zero unless given."""
         x = np.append(q, 1.0)  # index -1 means 1
         v = (
             row.constant

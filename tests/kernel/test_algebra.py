@@ -22,8 +22,8 @@ def initialised(builder: SystemBuilder) -> Instance:
     return instance
 
 
-def guide_values(t: float) -> np.ndarray:
-    """The guides of `everything` with input 0 at rest: filtered input, then 10 t^3 - 15 t^4 + 6 t^5."""
+def driving_values(t: float) -> np.ndarray:
+    """The driving functions of `everything` with input 0 at rest: filtered input, then 10 t^3 - 15 t^4 + 6 t^5."""
     return np.array([0.0, 10 * t**3 - 15 * t**4 + 6 * t**5])
 
 
@@ -43,7 +43,7 @@ def test_rows_are_the_polynomials_they_were_made_of():
     rng = np.random.default_rng(SEED)
     for t in (0.0, 0.3, 0.9, 1.7):
         q = b.q0 + rng.normal(size=5)
-        s = guide_values(t) if t < 1.0 else np.array([0.0, 1.0])
+        s = driving_values(t) if t < 1.0 else np.array([0.0, 1.0])
         phi = np.array(instance.evaluate(q, np.zeros(5), None, t)["phi"])
         np.testing.assert_allclose(phi, scale * [b.value(row, q, s) for row in b.rows], rtol=1e-12, atol=1e-13)
 

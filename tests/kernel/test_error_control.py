@@ -7,7 +7,7 @@ import pytest
 
 from mbs.kernel.binding import ControlFields, KernelError, LoadedSystem, Status
 from mbs.kernel.binding.instance import Instance
-from mbs.kernel.header.enumerations import GuideType
+from mbs.kernel.header.enumerations import DrivingFunctionType
 from mbs.settings.methods import METHOD_TABLE
 
 from .scenes import everything, four_bar, pendulum
@@ -134,7 +134,7 @@ def test_a_step_ends_where_a_guide_has_a_break() -> None:
     b = SystemBuilder(np.array([[1.0]]), [0.0], rows=[Row(0.0, {0: 1.0}, guided=[(0, 1, -1, -1, -1.0)])])
     first, second, third = [0.0, 0.0, 1.0], [0.31**2, 0.62, 0.0], [0.31**2 + 0.62 * 0.46, 0.62, -1.0]
     pieces = [c for piece in (first, second, third) for c in (*piece, 0.0, 0.0, 0.0)]
-    b.guides = [(GuideType.OF_TIME, -1, [3.0, 0.0, 0.31, 0.77, 2.0, *pieces])]
+    b.guides = [(DrivingFunctionType.OF_TIME, -1, [3.0, 0.0, 0.31, 0.77, 2.0, *pieces])]
     instance, fields, ends = start(b), control(1e-2, 1.0), []
     while instance.time < 1.0:
         instance.control_run(fields, None, 1.0, 1, np.empty(0), None, None, 0)

@@ -19,7 +19,7 @@ from mbs.scenes import (
     spinning_beam,
 )
 from mbs.simulation.prepared_system import prepared
-from tests.model.tabled_models import coupled
+from tests.model.table_models import coupled
 from tests.simulation.many_cars import CARS, attach, car
 from tests.simulation.many_cars import system as car_system
 

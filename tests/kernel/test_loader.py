@@ -64,9 +64,9 @@ SCALED = (
     "SIGNAL_SECOND_RATE",
     "ANGULAR_RATE",
     "ELEMENT_OUTPUT",
-    "GUIDE",
+    "DRIVING",
     "MASS",
-    "GUIDE_EXCESS",
+    "DRIVING_EXCESS",
     "SCALED_INPUT",
 )
 

@@ -83,7 +83,7 @@ def test_reset_goes_back_to_the_file() -> None:
 
 
 def test_a_filtered_guide_starts_at_rest_where_its_input_holds_it() -> None:
-    """Also where the instance was stepped before, and the guide moved."""
+    """Also where the instance was stepped before, and the driving function moved."""
     b = everything()
     b.sensors = [(12, [0, order], [1.0]) for order in range(3)]
     instance = Instance(LoadedSystem(b.to_bytes()))

@@ -6,7 +6,7 @@ import pytest
 from mbs.kernel import binding
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.kernel.header.enumerations import ElementType, GuideType
+from mbs.kernel.header.enumerations import DrivingFunctionType, ElementType
 
 from .scenes import GRAVITY, everything, four_bar, pendulum
 from .system_builder import Element, Row, SystemBuilder, distance_row
@@ -186,9 +186,9 @@ def test_an_energy_that_overflows_is_refused_and_the_state_stays() -> None:
 
 
 def test_rates_of_a_filter_that_overflow_are_refused() -> None:
-    """Of a guide that no row has: nothing else of the step sees them."""
+    """Of a driving function that no row has: nothing else of the step sees them."""
     b = pendulum()
-    b.inputs, b.guides = [(0.0, -1.0, 1.0)], [(GuideType.OF_INPUT, 0, [1e200, 1.0, 0.0])]
+    b.inputs, b.guides = [(0.0, -1.0, 1.0)], [(DrivingFunctionType.OF_INPUT, 0, [1e200, 1.0, 0.0])]
     instance = start(b)
     instance.set_input(0, 0.5)
     before = [bytes(part) for part in instance.get_state()]

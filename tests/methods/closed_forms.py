@@ -1,9 +1,9 @@
 """Mechanisms whose motion, accelerations and forces follow from one equation in one angle, and that equation solved to
 thirteen digits: what every reported quantity is held against.
 
-`rod`: a rod that swings on a hinge. `arm`: a rod that hangs from an arm whose angle a guide prescribes, so that
-positions depend on the method and the torque of the drive on everything. `chirp`: the rod with a motor whose torque is
-a function of time. Joint forces are those on the rod.
+`rod`: a rod that swings on a hinge. `arm`: a rod that hangs from an arm whose angle a driving function prescribes, so
+that positions depend on the method and the torque of the drive on everything. `chirp`: the rod with a motor whose
+torque is a function of time. Joint forces are those on the rod.
 """
 
 from collections.abc import Callable

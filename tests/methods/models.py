@@ -73,7 +73,7 @@ MOVED_S = 1.0
 
 
 def driven() -> Model:
-    """A pendulum on an arm whose angle a guide turns by one radian within a second; then the arm stands."""
+    """A pendulum on an arm whose angle a driving function turns by one radian within a second; then the arm stands."""
     m = Model("driven", dimension=2)
     arm = m.body("arm", mass=1.0, com=(0.5, 0.0), inertia=1.0 / 12.0)
     bob = m.body("bob", mass=1.0, com=(1.0, -0.3), inertia=0.02)

@@ -29,7 +29,10 @@ def followed() -> Model:
     return m
 
 
-BACKWARDS = "'energy_momentum_4' takes no element states or filtered guides, no tabled bodies, and no damping. 'ali3p' "
+BACKWARDS = (
+    "'energy_momentum_4' takes no element states or filtered driving functions, no lookup-table bodies, and no "
+    "damping. 'ali3p' "
+)
 TREE = "rigid bodies that revolute and prismatic joints"
 
 
@@ -40,7 +43,7 @@ TREE = "rigid bodies that revolute and prismatic joints"
         ("energy_momentum_4", followed(), BACKWARDS),
         ("radau_5", prototype_car.build(), "takes no element states"),
         ("radau_5", sleigh(0.0), "no rolling"),
-        ("semi_recursive", driven(), f"{TREE}.*guides or switches"),
+        ("semi_recursive", driven(), f"{TREE}.*driving functions or switches"),
         ("semi_recursive", sleigh(0.0), "joint"),
     ],
 )

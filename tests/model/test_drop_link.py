@@ -15,7 +15,7 @@ Y = (0.0, 1.0, 0.0)
 
 
 def lifted(axis=Y, side=0.0):
-    """A lever of 0.25 m on the ground and a rod down to a body that a guide lifts by 0.1 m."""
+    """A lever of 0.25 m on the ground and a rod down to a body that a driving function lifts by 0.1 m."""
     m = Model("lever", gravity=(0, 0, 0))
     body = m.body("body", mass=2.0, com=(LEVER, side, -ROD), inertia=(0.1, 0.1, 0.1))
     m.prismatic("column", body, m.ground, axis=(0, 0, 1))

@@ -58,7 +58,7 @@ def test_the_tension_of_a_pendulum_whose_length_is_driven(method):
 
 # --- a line that turns ---
 def bead():
-    """A bead on a straight wire that a guide turns."""
+    """A bead on a straight wire that a driving function turns."""
     m = Model("bead", dimension=2)
     wire = m.body("wire", mass=1.0, com=(0.5, 0.0), inertia=0.1)
     m.revolute("bearing", m.ground, wire, point=(0.0, 0.0))

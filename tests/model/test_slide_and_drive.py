@@ -1,4 +1,4 @@
-"""A sliding point (rack), driven distances and driven components follow their guides."""
+"""A sliding point (rack), driven distances and driven components follow their driving functions."""
 
 import numpy as np
 import pytest
@@ -83,7 +83,7 @@ def test_limits_of_an_input_and_times_of_a_guide_are_in_order():
         Model("a").input("rack", min=2.0, max=1.0)
     with pytest.raises(ModelError, match="starts at 0, which is not between its limits 1 and 2"):
         Model("a").input("rack", min=1.0, max=2.0)
-    with pytest.raises(ModelError, match="guide 'g'"):
+    with pytest.raises(ModelError, match="driving function 'g'"):
         Model("a").guide_time("g", ([0.0, 1.0, 0.5], [0, 1, 2]))
 
 
@@ -117,7 +117,7 @@ def test_a_guide_of_another_model_is_refused():
     other = Model("other")
     guide = other.guide_time("g", ([0.0, 1.0], [0.0, 1.0]))
     m = Model("this")
-    with pytest.raises(ModelError, match="guide made by model 'this'"):
+    with pytest.raises(ModelError, match="driving function made by model 'this'"):
         m.slide("s", m.ground, point=(0, 0, 0), direction=(1, 0, 0), guide=guide)
 
 

@@ -17,7 +17,7 @@ from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import Status
 from mbs.model.body import Body
 from tests.kernel.sensor_rates import RATE_ERROR, rates_of, slopes_of
-from tests.model.tabled_models import (
+from tests.model.table_models import (
     ELBOW,
     WATCHED,
     Array,
@@ -59,7 +59,7 @@ def test_the_error_falls_with_the_fourth_power_of_the_spacing() -> None:
 
 
 def test_the_work_of_a_damper_is_the_loss_of_energy() -> None:
-    """Ways on tabled bodies are right to second order, so that the difference falls with the square of the step."""
+    """Displacements on lookup-table bodies are right to second order: the difference falls with the step squared."""
     system, errors = two_by_table(damping=8.0), []
     for h in (0.01, 0.005, 0.0025):
         run = simulate(system, 0.5, h, method="ali3p")
@@ -133,7 +133,7 @@ def test_beyond_its_table_a_number_is_extrapolated_along_the_tangent() -> None:
     inside, outside = s <= 0.2, s > 0.2
     assert np.abs(run["square"] - s**2)[inside].max() < 1e-12
     assert np.abs(run["square"] - (0.04 + 0.4 * (s - 0.2)))[outside].max() < 1e-12
-    number = m.tabled[-1]
+    number = m.lookup_tables[-1]
     assert number.table.value(0.45)[0] == pytest.approx(0.04 + 0.4 * 0.25, abs=1e-12)
 
 
@@ -165,14 +165,17 @@ def wrong(**changed: Any) -> None:
     try:
         m.tabled_body("part", **arguments | changed)
     finally:
-        assert not m.tabled
+        assert not m.lookup_tables
         assert len(m.coordinates) == before
 
 
 @pytest.mark.parametrize(
     ("changed", "sentence"),
     [
-        ({"com": (0.0, 0.1, 0.0)}, "The table of tabled body 'part' is off the drawing by 0.1 where its coordinates"),
+        (
+            {"com": (0.0, 0.1, 0.0)},
+            "The table of lookup-table body 'part' is off the drawing by 0.1 where its coordinates",
+        ),
         ({"axes": [np.geomspace(1.0, 2.0, 9)]}, "9 points; they must be 4 or more, rising and equally spaced"),
         ({"axes": [np.linspace(-1, 1, 8)]}, "has shape (9, 12); it must be numbers of shape (8, 12)"),
         ({"rotations": np.full((9, 3, 3), 0.5)}, "must be rotation matrices"),

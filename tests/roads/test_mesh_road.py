@@ -213,7 +213,7 @@ def test_a_description_gives_unit_and_axis(tmp_path, scale, up, order):
     assert tuple(road.origin) == (10.0, 20.0)
     (tmp_path / "z.csv").write_text("0,0\n0,0\n")
     (tmp_path / "a.toml").write_text(description.replace("a.ply", "z.csv"))
-    with pytest.raises(RoadFileError, match=r"z\.csv is not a mesh, which scale is of"):
+    with pytest.raises(RoadFileError, match=r"z\.csv is not a mesh, so leave scale out"):
         read_road(tmp_path / "a.toml")
 
 

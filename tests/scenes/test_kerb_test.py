@@ -1,4 +1,4 @@
-"""The paper's test on the kerb: guide, size of the model, iterations, moments against the reference, and rest."""
+"""The paper's test on the kerb: prescribed motion, size of the model, iterations, moments, and rest."""
 
 from functools import cache
 

@@ -29,7 +29,7 @@ def test_a_body_that_tumbles_beside_a_sensor_at_rest_is_reported(beside: str) ->
 
 
 def arm(rate: float, beside: str) -> mbs.System:
-    """A driven arm with a rod that swings on it: what its guide prescribes, its torque and the rate of the rod."""
+    """A driven arm with a rod that swings on it: the prescribed angle, its torque and the rate of the rod."""
     m = mbs.Model("arm", dimension=2)
     first = m.body("first", mass=1.0, com=(0.5, 0.0), inertia=0.1)
     rod = m.body("rod", mass=2.0, com=(1.25, 0.0), inertia=0.05)
@@ -62,7 +62,7 @@ def test_what_a_guide_prescribes_switches_rates_and_the_torque_of_its_motor_on(b
 
 
 def test_rates_are_judged_where_no_place_moves_by_itself() -> None:
-    """Without guides each place that moves does; with them two motions say so."""
+    """Without driving functions each place that moves does; with them two motions say so."""
     candidates = {"x": PLACE, "rate": RATE}
     values = {"x": np.sin(T), "rate": np.cos(9.0 * T)}
     assert set(select_compared(values, candidates, 1.0)) == {"x"}

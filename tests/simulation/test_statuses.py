@@ -20,7 +20,7 @@ from mbs.scenes import prototype_car
 from tests.kernel.scenes import four_bar
 from tests.kernel.system_builder import SystemBuilder
 from tests.methods.test_refusals import driven_four_bar, four_bar_with_crank, sliding
-from tests.model.tabled_models import number_model
+from tests.model.table_models import number_model
 from tests.model.test_free_wheels import WHEELS
 from tests.model.test_parametric_inertias import DRAWN, thrown
 from tests.simulation.test_start_in_equilibrium import hanging

@@ -148,8 +148,9 @@ def test_the_start_stands_on_the_answers_as_on_a_road():
 def test_between_answers_lies_their_mean_by_the_inverse_squares_of_the_distances(
     place, slope_there, height_there, steep
 ):
-    """A point of a body on a vertical guide rests on 0.2 m at x = -1 and 0.4 m at x = 1, as on the mean; slopes that
-    depart from the plane of both by 0.08, 0.1 and 0.12 are left with 0.71, 0.56 and 0.41 of that (decision 91).
+    """A point of a body on a vertical driving function rests on 0.2 m at x = -1 and 0.4 m at x = 1, as on the mean;
+    slopes that depart from the plane of both by 0.08, 0.1 and 0.12 are left with 0.71, 0.56 and 0.41 of that (decision
+    91).
     """
     m = mbs.Model("between")
     body = m.body("body", mass=10.0, com=(place, 0.0, 1.0), inertia=(1.0, 1.0, 1.0))

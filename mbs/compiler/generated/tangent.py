@@ -11,7 +11,7 @@ from mbs.compiler.generated.text import are_consecutive, declare_array, function
 
 FRONT = (
     "APART void tangent{0}_{1}(const ali3_tangent_parts *restrict parts, const double *restrict w, "
-    "const double *restrict factor, const double *restrict guide, const double *restrict angle, double *restrict F)"
+    "const double *restrict factor, const double *restrict driving, const double *restrict angle, double *restrict F)"
 )
 WHOLE = "APART void tangent{0}(const ali3_tangent_parts *restrict parts, double *restrict F)"
 
@@ -33,7 +33,7 @@ def tangent(pattern: Pattern) -> list[str]:
     body = [
         f"  double w[{n + 1}];",
         declare_array("factor", pattern.nc),
-        declare_array("guide", guides),
+        declare_array("driving", guides),
         f"  for (int i = 0; i < {n}; i++) w[i] = parts->square * parts->J[i];",
         f"  w[{n}] = 0.0;",
         f"  for (int i = 0; i < {pattern.nc}; i++) factor[i] = parts->geometric * parts->lam[i];",
@@ -42,9 +42,11 @@ def tangent(pattern: Pattern) -> list[str]:
         row, g, power = (pattern.array[f"gterm_{name}"][t] for name in ("row", "guide", "power"))
         is_square = pattern.array["gterm_a"][t] == pattern.array["gterm_b"][t]
         slope = f"parts->gterm_h[{t}] * parts->s[{g}]" + (f" * parts->s[{g}]" if power != 1 else "")
-        body.append(f"  guide[{t}] = factor[{row}] * ({slope}){' * 2.0' if is_square else ''};")
+        body.append(f"  driving[{t}] = factor[{row}] * ({slope}){' * 2.0' if is_square else ''};")
     body += angles.lines(pattern)
-    calls = [f"tangent{pattern.suffix}_{front.number}(parts, w, factor, guide, angle, F);" for front in pattern.fronts]
+    calls = [
+        f"tangent{pattern.suffix}_{front.number}(parts, w, factor, driving, angle, F);" for front in pattern.fronts
+    ]
     body += [f"  {call}" for call in calls]
     return lines + function(WHOLE.format(pattern.suffix), body)
 
@@ -79,7 +81,7 @@ class _FrontTangent:
         return groups
 
     def _second_derivatives(self) -> dict[tuple[int, int], list[tuple[str, int, int]]]:
-        """Second derivatives at each entry: of rows, then of terms with guides, then of angles; (array, index, row)."""
+        """Second derivatives at each entry: of rows, driving functions, angles in this order; (array, index, row)."""
         pattern = self.pattern
         derivatives: dict[tuple[int, int], list[tuple[str, int, int]]] = defaultdict(list)
         a, b, ptr = (pattern.array[name] for name in ("quad_a", "quad_b", "quad_ptr"))
@@ -91,7 +93,7 @@ class _FrontTangent:
             first, second = pattern.array["gterm_a"][t], pattern.array["gterm_b"][t]
             if pattern.array["row_front"][k] == self.front.number and second >= 0:
                 position = pattern.product_position(k, pattern.row_ptr[k] + first, pattern.row_ptr[k] + second)
-                derivatives[pattern.front_position[position][1:]].append(("guide", t, -1))
+                derivatives[pattern.front_position[position][1:]].append(("driving", t, -1))
         for number, (row, position) in enumerate(angles.positions(pattern)):
             if pattern.array["row_front"][row] == self.front.number:
                 derivatives[pattern.front_position[position][1:]].append(("angle", number, -1))
@@ -100,7 +102,7 @@ class _FrontTangent:
     def function(self) -> list[str]:
         """C function of the front."""
         lines = ["  const double *J = parts->J, *hess = parts->hess_val, *val = parts->sig_val;",
-                 "  (void)J, (void)hess, (void)val, (void)w, (void)factor, (void)guide, (void)angle;"]  # fmt: skip
+                 "  (void)J, (void)hess, (void)val, (void)w, (void)factor, (void)driving, (void)angle;"]  # fmt: skip
         self.used_products: set[str] = set()
         blocks = [self._block(_Block(rows, columns)) for q, columns in enumerate(self.groups)
                   for rows in self.groups[q:]]  # fmt: skip

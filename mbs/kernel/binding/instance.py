@@ -296,7 +296,7 @@ class Instance(StandingInstance):
         return written.value
 
     def refresh(self) -> None:
-        """Compute accelerations and multipliers again after a jump of inputs or guides, discarding past steps."""
+        """Compute accelerations and multipliers again after a jump of inputs or driving functions; drop past steps."""
         self._check(self._library.ali3_refresh(self._handle))
 
     def follow(self, other: Instance) -> None:

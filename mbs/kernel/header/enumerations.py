@@ -62,7 +62,7 @@ class ParameterTarget(IntEnum):
     """Target of a parameter."""
 
     ELEMENT = 0
-    GUIDE = 1
+    DRIVING = 1
     ROAD = 2
     PAYLOAD = 3
     SWITCH = 4
@@ -72,8 +72,8 @@ class ParameterTarget(IntEnum):
     AXIS = 8
 
 
-class GuideType(IntEnum):
-    """Types of guides."""
+class DrivingFunctionType(IntEnum):
+    """Types of driving functions."""
 
     OF_TIME = 0
     OF_INPUT = 1
@@ -126,7 +126,7 @@ class SensorType(IntEnum):
     REACTION = 9
     ENERGY = 10
     INPUT = 11
-    GUIDE = 12
+    DRIVING = 12
     SOLVER = 13
     NORM = 14
     DIRECTION = 15
@@ -135,9 +135,9 @@ class SensorType(IntEnum):
     REACTION_PRODUCTS = 18
     WORK = 19
     MASS = 20
-    GUIDE_EXCESS = 21
+    DRIVING_EXCESS = 21
     REACTION_BY_TABLE = 22
-    GUIDED_WORK = 23
+    DRIVING_WORK = 23
     SCALED_INPUT = 24
     CARRIED = 25
 

@@ -216,7 +216,7 @@ enum { ALI3_BALANCE_KEPT = 0, ALI3_BALANCE_OPEN, ALI3_BALANCE_WRONG };
 
 /* Numbers of the parts of a System, by which the lengths of its vectors are named. */
 typedef struct {
-  int32_t nq, nc, nu, ng; /* coordinates, rows, inputs, guides */
+  int32_t nq, nc, nu, ng; /* coordinates, rows, inputs, driving functions */
   int32_t ne, ny, ns, np; /* force elements, their states, sensors, parameters */
   int32_t nout, nf; /* outputs of all elements, fronts */
   int32_t front_size, nnz_mass, nnz_rows; /* numbers in front storage, entries of M and of Phi_q */
@@ -324,9 +324,10 @@ ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double
  * energy. */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
-/* If the file starts in static equilibrium and parameters of elements or guides differ from the file: that equilibrium
- * first, at the place of the drawing, then the pose. Coordinates given by ali3_set_q stay as they are. Position problem
- * (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and multipliers. */
+/* If the file starts in static equilibrium and parameters of elements or driving functions differ from the file: that
+ * equilibrium first, at the place of the drawing, then the pose. Coordinates given by ali3_set_q stay as they are.
+ * Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
+ * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* After ali3_initialise of a scene that a pose may place: the place along the ground and the velocity of the heaviest
  * point, the heading and the yaw rate of the heaviest direction (in a car that of its chassis) are held for the
@@ -405,12 +406,14 @@ typedef struct {
   const double *time; /* n, s, ascending, after the present time */
   double *sensors, *positions; /* n x ns, n x nq, row major; may be NULL */
 } ali3_record;
-/* At most most_steps steps towards t_end, which is the end of one. Breaks of guides of time are ends of steps; inputs
- * must not jump before t_end. scale (nq): size of a unit of each coordinate, m; NULL: 1. *done counts the rows of the
- * record that are written. A step that fails as short as it may be ends the call; the state before it is kept. */
+/* At most most_steps steps towards t_end, which is the end of one. Breaks of driving functions of time are ends of
+ * steps; inputs must not jump before t_end. scale (nq): size of a unit of each coordinate, m; NULL: 1. *done counts
+ * the rows of the record that are written. A step that fails as short as it may be ends the call; the state before it
+ * is kept. */
 ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const double *scale, double t_end,
                                       int64_t most_steps, const ali3_record *record, int64_t *done);
-/* Accelerations and multipliers of the present inputs and guides, without the history: after a jump of these. */
+/* Accelerations and multipliers of the present inputs and driving functions, without the history: after a jump of
+ * these. */
 ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
 /* The same of n sensors by their numbers. */

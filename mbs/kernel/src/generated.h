@@ -19,7 +19,7 @@ enum { ALI3_GENERATED_VERSION = 1 };
 /* Terms of the tangent; names as in the System and its instance. */
 typedef struct {
   const double *front_mass, *J, *lam; /* of ali3_masses.front; Phi_q in the row pattern; multipliers (nc) */
-  const double *s; /* ng: guides */
+  const double *s; /* ng: driving functions */
   const double *hess_val, *gterm_h, *angle_hc, *angle_hs, *sig_val; /* of the System */
   const double *S; /* signal tangents of all elements, as in->element.S */
   const double *q; /* shifted near the origin, as for the rows */
@@ -34,7 +34,7 @@ typedef struct ali3_generated {
   const struct ali3_generated *turned; /* of the same System with all directions of wheel axes; NULL: not generated */
   /* The functions are those of ali3_constraints, ali3_constraint_gamma, ali3_rows_times, ali3_rows_transposed,
    * ali3_constant_mass_times, ali3_active_signals, ali3_add_forces, the tangent of a step, ali3_factorise and
-   * ali3_solve; rows and gamma without terms of guides and angles. */
+   * ali3_solve; rows and gamma without terms of driving functions and angles. */
   void (*rows)(const double *row_lin, const double *row_const, const double *hess_val, const double *q, double *Phi,
                double *J);
   void (*gamma)(const double *hess_val, const double *qd, double *gamma);

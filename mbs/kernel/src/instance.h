@@ -38,10 +38,10 @@ struct ali3_instance {
 
   ali3_element_work element; /* forces */
   ali3_flexible_work flexible;
-  ali3_tabled_memory tabled;
+  ali3_lookup_memory lookup;
   ali3_watch watch;
 
-  ali3_guide_work guide; /* methods */
+  ali3_driving_arrays driving; /* methods */
   ali3_discrete discrete;
   ali3_radau radau;
   ali3_tree_work *tree;

@@ -23,7 +23,7 @@ enum { ALI3_TRIPLES = 1, ALI3_POINTS };
 
 enum { /* par_target: kind of data that a parameter writes */
        ALI3_TARGET_ELEMENT = 0,
-       ALI3_TARGET_GUIDE,
+       ALI3_TARGET_DRIVING,
        ALI3_TARGET_ROAD,
        ALI3_TARGET_PAYLOAD,
        ALI3_TARGET_SWITCH,
@@ -49,11 +49,11 @@ typedef struct {
   double hc, hs; /* coefficients of the stored row */
 } ali3_angle_term;
 
-/* A term h s^power q_a q_b of a row with a guide s. */
+/* A term h s^power q_a q_b of a row with a driving function s. */
 typedef struct {
   ali3_term term; /* h q_a q_b */
-  int32_t row, guide, power; /* indices of both; exponent, 1 or 2 */
-} ali3_guide_term;
+  int32_t row, driving, power; /* indices of both; exponent, 1 or 2 */
+} ali3_driving_term;
 
 typedef struct { /* outputs of an element that are forces of a contact or a stop, N */
   int32_t element, first, n; /* its index; first of these outputs among those of all elements, and their number */
@@ -68,10 +68,10 @@ typedef struct { /* data of an element */
 } ali3_element_size;
 
 typedef struct ali3_element_type ali3_element_type; /* elements/element.h */
-typedef struct ali3_tabled ali3_tabled; /* tabled/tabled.h */
-typedef struct ali3_tabled_base ali3_tabled_base;
-typedef struct ali3_tabled_parameter ali3_tabled_parameter;
-typedef struct ali3_tabled_group ali3_tabled_group;
+typedef struct ali3_lookup ali3_lookup; /* lookup/lookup.h */
+typedef struct ali3_lookup_base ali3_lookup_base;
+typedef struct ali3_lookup_parameter ali3_lookup_parameter;
+typedef struct ali3_lookup_group ali3_lookup_group;
 typedef struct ali3_tree ali3_tree; /* tree/tree.h: the part of a System for relative coordinates */
 
 struct ali3_system {
@@ -90,9 +90,9 @@ struct ali3_system {
   int32_t max_front; /* coordinates of the largest front */
   double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
   int32_t n_flexible, max_modes; /* number of flexible bodies, largest number of modes of one */
-  int32_t n_tabled, n_dependent; /* number of tabled bodies and numbers, and of their dependent coordinates */
-  int32_t n_tabled_base, n_tabled_parameter, n_tabled_group; /* lengths of the arrays of these names below */
-  int32_t tabled_square; /* numbers of the work array of the largest group */
+  int32_t n_lookup, n_dependent; /* number of lookup-table bodies and numbers, and of their dependent coordinates */
+  int32_t n_lookup_base, n_lookup_parameter, n_lookup_group; /* lengths of the arrays of these names below */
+  int32_t lookup_square; /* numbers of the work array of the largest group */
   bool senses_rows; /* a sensor reads multipliers or violations */
   bool has_force_tables; /* an element has a force by a table */
   bool has_avx2; /* the processor has AVX2, see algebra/processor.h */
@@ -130,8 +130,8 @@ struct ali3_system {
   int32_t *angle_theta_col; /* as angle_row: coordinate theta of the row */
   int32_t *angle_theta_j; /* as angle_row: entry of theta in the row pattern */
   int32_t *angle_theta_pos; /* as angle_row: place of the second derivative by theta in front storage */
-  ali3_guide_term *gterm; /* as gterm_row, its terms */
-  int32_t *driven_row; /* n_driven: rows with guide terms, ascending */
+  ali3_driving_term *gterm; /* as gterm_row, its terms */
+  int32_t *driven_row; /* n_driven: rows with driving function terms, ascending */
   int32_t *turning; /* n_turning: entries of angle_row whose angle has inertia or other rows (rows/turning.h) */
   int32_t n_driven, n_turning; /* lengths of both */
   ali3_term *velocity; /* as velocity_a, its terms; b: the coordinate of the rate */
@@ -173,14 +173,14 @@ struct ali3_system {
 
   int32_t *flex_square; /* n_flexible + 1: offsets of the n x n matrices of flexible bodies with n modes */
 
-  /* Tabled bodies and numbers (tabled/tabled.h) */
-  ali3_tabled *tabled; /* n_tabled: the bodies and numbers */
-  ali3_tabled_base *tabled_base; /* n_tabled_base: frames that they move on */
-  ali3_tabled_parameter *tabled_parameter; /* n_tabled_parameter: those of the bodies of a base, base by base */
-  ali3_tabled_group *tabled_group; /* n_tabled_group */
-  int32_t *tabled_order; /* elements on tabled items, ordered by group */
-  int32_t *tabled_signal; /* as el_sig: index of the signal in the group of its element */
-  int32_t *el_tabled; /* ne: group of the element, -1: none */
+  /* Lookup-table bodies and numbers (lookup/lookup.h) */
+  ali3_lookup *lookup; /* n_lookup: the bodies and numbers */
+  ali3_lookup_base *lookup_base; /* n_lookup_base: frames that they move on */
+  ali3_lookup_parameter *lookup_parameter; /* n_lookup_parameter: those of the bodies of a base, base by base */
+  ali3_lookup_group *lookup_group; /* n_lookup_group */
+  int32_t *lookup_order; /* elements on lookup-table items, ordered by group */
+  int32_t *lookup_signal; /* as el_sig: index of the signal in the group of its element */
+  int32_t *el_lookup; /* ne: group of the element, -1: none */
   int32_t *el_entry_dependent; /* as el_entry_local: index of the dependent in its item, -1: a coordinate */
 
   ali3_tree *tree; /* NULL: the System has none */
@@ -189,14 +189,14 @@ struct ali3_system {
   /* Work that sensors read (state/work.h) */
   int32_t n_work, n_work_force; /* number of elements with sensed work, number of their signals */
   int32_t n_input_work; /* n_work if inputs may change the potentials of elements, otherwise 0 */
-  int32_t n_guide_work; /* 1 if the work of guides is sensed, otherwise 0 */
+  int32_t n_driving_work; /* 1 if the work of driving functions is sensed, otherwise 0 */
   /* ne: index of the element in work_element, or -1; elements with sensed work; n_work + 1: offsets of their signals */
   int32_t *work_of, *work_element, *work_ptr;
 
   int32_t shift_x, shift_y, shift_z; /* a coordinate that a translation of the scene along x, y, z changes, or -1 */
 };
 
-/* Items of a triad in mode_triad (9 signals, kind, ring), and most triads of a loop. */
+/* Items of a triad in mode_triad (9 signals, kind, cycle), and most triads of a loop. */
 enum { ALI3_TRIAD_ITEMS = 11, ALI3_MAX_TRIADS = 15 };
 
 /* The larger one of the System as loaded and the System of instances with other axes. */

@@ -11,7 +11,7 @@
   X(nq, q0, 1, "coordinates") \
   X(nc, row_const, 1, "rows (constraint equations)") \
   X(nu, input_start, 1, "inputs") \
-  X(ng, guide_type, 1, "guides") \
+  X(ng, guide_type, 1, "driving functions") \
   X(ne, el_type, 1, "force elements") \
   X(ny, y0, 1, "element states") \
   X(ns, sen_type, 1, "sensors") \
@@ -25,7 +25,7 @@
   X(n_quad, quad_a, 1, "quadratic terms") \
   X(n_angle, angle_row, 1, "rows of angles") \
   X(n_angle_term, angle_a, 1, "terms of these") \
-  X(n_gterm, gterm_row, 1, "terms with guides") \
+  X(n_gterm, gterm_row, 1, "terms with driving functions") \
   X(n_velocity, velocity_row, 1, "rows on velocities") \
   X(n_velocity_term, velocity_a, 1, "terms of these") \
   X(n_switch, switch_start, 1, "switches") \
@@ -36,7 +36,7 @@
   X(n_armature, armature_ratio, 1, "armatures whose ratio parameters write") \
   X(n_inertia, inertia_real, 10, "bodies whose inertia parameters write") \
   X(n_axis, axis_inertia, 1, "wheels whose axis parameters write") \
-  X(n_tabled, tabled_size, 3, "tables") \
+  X(n_lookup, tabled_size, 3, "tables") \
   X(n_ported_ptr, ported_ptr, 1, "coordinates without ports, and 1") \
   X(n_ported, ported_row, 1, "entries of the map from these") \
   X(n_ported_lam_ptr, ported_lam_ptr, 1, "rows without ports, and 1") \
@@ -116,7 +116,7 @@
   X(REALS, gterm_h, MUST, n_gterm, FINITE, "h, of Phi_stored") \
   X(INTEGERS, velocity_row, MUST, n_velocity, BELOW(nc), \
     "rows that are conditions on velocities, ascending: sum over b of A_b qd_b = 0. They have no constant, " \
-    "quadratic, angle or guide terms; their `row_lin` are constant parts of A") \
+    "quadratic, angle or driving function terms; their `row_lin` are constant parts of A") \
   X(INTEGERS, velocity_ptr, MUST, n_velocity + 1, OFFSETS(velocity_a), "terms A_b += h * q_a of such a row") \
   X(INTEGERS, velocity_a, MUST, n_velocity_term, RELATED, "a, a position within the row's pattern") \
   X(INTEGERS, velocity_b, MUST, n_velocity_term, RELATED, "b, another") \
@@ -158,22 +158,22 @@
   X(INTEGERS, el_loc_ptr, MUST, ne + 1, OFFSETS(el_loc), "where its local indices are") \
   X(INTEGERS, el_loc, MUST, ANY, RELATED, \
     "local index of each signal entry in that front (concatenated over the element's signals in order)") \
-  /* Inputs, guides and roads */ \
+  /* Inputs, driving functions and roads */ \
   X(REALS, input_start, MUST, nu, FINITE, "value at the start, in the unit that `meta` names") \
   X(REALS, input_min, MUST, nu, OR_INFINITE, "lowest value, same unit") \
   X(REALS, input_max, MUST, nu, OR_INFINITE, "highest value, same unit") \
-  X(INTEGERS, guide_type, MUST, ng, BELOW(ALI3_GUIDE_TYPE_COUNT), \
+  X(INTEGERS, guide_type, MUST, ng, BELOW(ALI3_DRIVING_TYPE_COUNT), \
     "0: polynomial pieces of time; 1: an input through a filter; 2: two inputs through a filter; 3: a curve over " \
-    "an earlier guide") \
+    "an earlier driving function") \
   X(INTEGERS, guide_input, MUST, ng, RELATED, \
-    "input of types 1 and 2; earlier guide of type 3, which is not of type 3") \
+    "input of types 1 and 2; earlier driving function of type 3, which is not of type 3") \
   X(INTEGERS, guide_second, MAY, OR_NONE(ng), RELATED, "second input of type 2; may be missing if there is none") \
-  X(INTEGERS, guide_real_ptr, MUST, ng + 1, OFFSETS(guide_real), "reals of a guide") \
+  X(INTEGERS, guide_real_ptr, MUST, ng + 1, OFFSETS(guide_real), "numbers of a driving function") \
   X(REALS, guide_real, MUST, ANY, FINITE, \
     "type 0: [n, b_0..b_n, then n*6 coefficients c0..c5 of (t-b_k)^j], clamped outside with zero rates; type 1: " \
     "s'' = w^2 (u*gain - s) - 2 w s', [w, gain, s0]; type 2: clamp(u*gain + u_2*gain_2, low, high) instead of " \
-    "u*gain, [w, gain, s0, gain_2, low, high]; type 3: n values of the other guide, n values and n slopes, a " \
-    "cubic between two points and straight beyond the ends") \
+    "u*gain, [w, gain, s0, gain_2, low, high]; type 3: n values of the other driving function, n values and n " \
+    "slopes, a cubic between two points and straight beyond the ends") \
   X(INTEGERS, road_type, MUST, nr, RELATED, "see `mbs/kernel/src/elements/road.h`") \
   X(INTEGERS, road_real_ptr, MUST, nr + 1, OFFSETS(road_real), "reals of a road") \
   X(REALS, road_real, MUST, ANY, FINITE, \
@@ -223,22 +223,22 @@
   X(INTEGERS, axis_signal, MAY, 9 * n_axis, BELOW(nsig), \
     "signals of f, g and e, which have entries for all coordinates of those") \
   X(INTEGERS, axis_spin, MAY, n_axis, BELOW(nq), "coordinate of the spin") \
-  X(INTEGERS, axis_table, MAY, n_axis, WITHIN(-1, n_tabled - 1), "the table that is the carrier, or -1") \
+  X(INTEGERS, axis_table, MAY, n_axis, WITHIN(-1, n_lookup - 1), "the table that is the carrier, or -1") \
   /* Tables */ \
-  X(INTEGERS, tabled_size, MAY, 3 * n_tabled, RELATED, \
+  X(INTEGERS, tabled_size, MAY, 3 * n_lookup, RELATED, \
     "of each table: functions (12 of a body, 1 of a number) and control points along both variables (the second " \
     "1: there is one variable)") \
-  X(INTEGERS, tabled_param, MAY, 2 * n_tabled, WITHIN(-1, nq - 1), "coordinates that are the variables, -1: none") \
-  X(INTEGERS, tabled_frame, MAY, 12 * n_tabled, WITHIN(-1, nq - 1), \
+  X(INTEGERS, tabled_param, MAY, 2 * n_lookup, WITHIN(-1, nq - 1), "coordinates that are the variables, -1: none") \
+  X(INTEGERS, tabled_frame, MAY, 12 * n_lookup, WITHIN(-1, nq - 1), \
     "of a body the coordinates of its base, r, a, b, c, -1: the earth") \
-  X(REALS, tabled_axis, MAY, 4 * n_tabled, FINITE, "first point and spacing along both variables, in their units") \
+  X(REALS, tabled_axis, MAY, 4 * n_lookup, FINITE, "first point and spacing along both variables, in their units") \
   X(REALS, tabled_coef, MAY, RELATED_LENGTH, FINITE, \
     "control points of uniform cubic B-splines, functions fastest, then the second variable: p and R's columns " \
     "along the axes of the base; as many as `tabled_size` says") \
-  X(REALS, tabled_mass, MAY, 10 * n_tabled, FINITE, \
+  X(REALS, tabled_mass, MAY, 10 * n_lookup, FINITE, \
     "mass, kg, first moments, kg m, second moments xx, yy, zz, yz, zx, xy, kg m², of a body about r + X_0 along " \
     "its axes") \
-  X(REALS, tabled_gravity, MAY, 3 * n_tabled, FINITE, \
+  X(REALS, tabled_gravity, MAY, 3 * n_lookup, FINITE, \
     "acceleration of gravity, m/s², earth axes. Dependents, 12 of a body and 1 of a number, follow each other; " \
     "`sig_col` may name them from nq on") \
   /* Ports */ \
@@ -271,7 +271,8 @@
     "of an x component minus, of a y component plus (the signal of the other one + 1), or 0: how a pose turns a" \
     " scene that starts elsewhere than at `q0`") \
   X(INTEGERS, static_start, MAY, OR_NONE(1), WITHIN(1, 1), \
-    "[1]: `q0` is a static equilibrium, to be found again where parameters of elements, guides or payloads differ") \
+    "[1]: `q0` is a static equilibrium, to be found again where parameters of elements, driving functions or " \
+    "payloads differ") \
   X(INTEGERS, static_par, MAY, n_static, BELOW(np), "parameters that hold other values while it is sought") \
   X(REALS, static_value, MAY, n_static, FINITE, "these values") \
   X(REALS, static_q, MAY, RELATED_LENGTH, FINITE, \

@@ -9,7 +9,7 @@ from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried_parts import SlidingPoint
-from mbs.model.equation import Equation, GuideTerm, dot_products
+from mbs.model.equation import DrivingTerm, Equation, dot_products
 from mbs.model.joint_ends import End, body_and_point, different
 from mbs.model.joints.joint import Drawing, Joint, JointEnds
 
@@ -17,7 +17,7 @@ ENDS = "(body, point), a point mass or a sliding point"
 
 
 def end_point(model: BodyVocabulary, end: End, subject: str) -> tuple[AffineVector, SlidingPoint | None]:
-    """The point of an end, at guide value zero if it slides, and the sliding point."""
+    """The point of an end, at driving function value zero if it slides, and the sliding point."""
     if isinstance(end, SlidingPoint):
         model.owned(end.body, subject)
         return end.start, end
@@ -38,8 +38,8 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, *, length
     Parameters
     ----------
     end_1, end_2 : (Body, array_like), Body or SlidingPoint
-        A body and its point, m; a body alone for its centre of mass; or a point that a guide slides (one of the
-        two at most).
+        A body and its point, m; a body alone for its centre of mass; or a point that a driving function slides (one of
+        the two at most).
     length : float, optional
         m; by default as drawn.
 
@@ -72,12 +72,12 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, *, length
     length = positive(length, f"The length of {subject}")
     constant = Affine({}, -0.5 * length * length)
     slide, sign = (slide_1, 1.0) if slide_1 is not None else (slide_2, -1.0)
-    guides: list[GuideTerm] = []
+    guides: list[DrivingTerm] = []
     if slide is not None:
         for direction, guide in slide.ways:
             guides += [
-                GuideTerm(guide, 1, dot_products(gap, direction, sign)),
-                GuideTerm(guide, 2, linear=Affine({}, 0.5)),
+                DrivingTerm(guide, 1, dot_products(gap, direction, sign)),
+                DrivingTerm(guide, 2, linear=Affine({}, 0.5)),
             ]
     joint = Joint(
         name,

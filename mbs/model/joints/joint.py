@@ -138,7 +138,7 @@ class Joint:
     actuator : JointEnds or None
         Ends of a driven distance.
     slide : (int, SlidingPoint) or None
-        Number of the end of a distance that a guide slides, and the sliding point.
+        Number of the end of a distance that a driving function slides, and the sliding point.
     """
 
     def __init__(

@@ -110,7 +110,7 @@ class FlexibleFrame:
         if fidelity is not Fidelity.LOAD_PATHS:
             return body
         # the frame needs the stretch between the pivots of a wishbone to satisfy its constant length, and all
-        # directions at the origin for a guide, whose force on a pitched car has a vertical component
+        # directions at the origin for a driving function, whose force on a pitched car has a vertical component
         loads, pairs = self.recorded_loads(), self._relief_with_stretch[1]
         all_loads = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
         guided = np.zeros((6, all_loads.shape[1]))

@@ -17,6 +17,6 @@ def write_inertia(b: CarBuilder, data: Chassis) -> None:
         "chassis", b.chassis.place(data.com), axes, mass=data.mass, com=data.com, inertia=data.tensor
     )
     b.tie(data, "mass", chassis, "mass")
-    for field, reals in MODEL_NUMBERS.items():
-        for (path, value), real in zip(data.numbers(field).items(), reals, strict=True):
-            b.tie(data, field, chassis, real, value=value, part=path.rpartition(".")[2])
+    for field, names in MODEL_NUMBERS.items():
+        for (path, value), name in zip(data.numbers(field).items(), names, strict=True):
+            b.tie(data, field, chassis, name, value=value, part=path.rpartition(".")[2])

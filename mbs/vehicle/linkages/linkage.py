@@ -205,7 +205,7 @@ class Linkage(StandingModel):
         def rate(qd: Array) -> Array:
             return self.evaluator.convective(position.q, qd, position.rack)
 
-        # the rate of the guide is 1: gamma(v, s') = a(v, v) + b(v) s' + c s'^2
+        # the rate of the driving function is 1: gamma(v, s') = a(v, v) + b(v) s' + c s'^2
         rack_term, right_sides = rate(zero_rates), []
         for direction in directions.T:
             forward, backward = (rate(sign * (position.tangent @ direction)) for sign in (1.0, -1.0))

@@ -7,7 +7,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from mbs.model.carried_parts import Spin
 from mbs.model.flexible import FlexibleBody
-from mbs.model.table_bodies import TabledBody
+from mbs.model.table_bodies import LookupTableBody
 from mbs.system.drawing import POSE
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.builder import CarBuilder
@@ -49,7 +49,7 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links:
     b.m.default_shapes = False
     linked = links and car.linked
     for wheel, spin in spins.items():
-        if isinstance(spin.carrier, TabledBody):
+        if isinstance(spin.carrier, LookupTableBody):
             spin.carrier.outputs = tuple(f"wheel_{wheel}.{part}" for part in (*POSE, "angle"))
     looks = Looks(b, car, spins, tie_rod_owner(b, car) if linked else b.chassis.frame)
     for name, axle in car.axles.items():

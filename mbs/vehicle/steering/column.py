@@ -12,7 +12,7 @@ from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.joint_ends import End
 from mbs.model.model import Model
-from mbs.model.records import Guide, Input
+from mbs.model.records import DrivingFunction, Input
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.inputs import new_port
@@ -116,8 +116,8 @@ class Column(RackSection, of=TorsionBar):
             self._torque_outputs(m, wheel, racks, demand, torque, guide),
         )
 
-    def _add_hands(self, b: CarBuilder, wheel: Coordinate, demand: Input, torque: Input) -> Guide:
-        """Add massless hands on the wheel, which follow the demanded angle or apply the torque; return their guide."""
+    def _add_hands(self, b: CarBuilder, wheel: Coordinate, demand: Input, torque: Input) -> DrivingFunction:
+        """Add massless hands, which follow the demand or apply the torque; return their driving function."""
         m, largest = b.m, self.wheel_angle_max
         guide = m.guide_inputs(
             "steering wheel",
@@ -173,7 +173,7 @@ class Column(RackSection, of=TorsionBar):
         m.sense_coordinate("steering_wheel_angle", wheel, description=WHEEL_ANGLE)
 
     def _torque_outputs(
-        self, m: Model, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, guide: Guide
+        self, m: Model, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, guide: DrivingFunction
     ) -> Callable[[], None]:
         """Function that adds the outputs of speeds, forces and torques when rack and tie rods are in the model."""
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mbs.model.joint_ends import End
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
-from mbs.model.records import Guide
+from mbs.model.records import DrivingFunction
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (
@@ -169,7 +169,7 @@ class PitmanArm(SteeringSection):
         """Right-handed rotation of the arm per angle to the left, 1 or -1. `way`: as in `signed`."""
         return way * math.copysign(1.0, (self.four_bar.joint - self.four_bar.pivot).real)
 
-    def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
+    def ends(self, b: CarBuilder, guide: DrivingFunction, way: float) -> TieRodEnd:
         """Points of the link, moved in its plane by tables against the angle of the arm."""
 
         angles, turn = self._angles, self.turn(way)
@@ -229,7 +229,7 @@ class PitmanArm(SteeringSection):
 
         return Steered(self.ends(b, arm, way), outputs, torque_outputs)
 
-    def _link_outputs(self, m: Model, arm: Guide, way: float) -> None:
+    def _link_outputs(self, m: Model, arm: DrivingFunction, way: float) -> None:
         """Add the outputs of the pose of the centre link."""
         turn, angles = self.turn(way), self._angles
         _, rotation, rate = self.four_bar.turned(turn * angles)

@@ -11,7 +11,7 @@ from pydantic import ConfigDict, model_validator
 from mbs.model.coordinate import Coordinate
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
-from mbs.model.records import Guide, Input
+from mbs.model.records import DrivingFunction, Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.inputs import new_port
 from mbs.vehicle.quantities import PrescribedFriction
@@ -147,8 +147,8 @@ class RackByAngle(RackSection):
         return Steered(rack_ends(b, rack), outputs, torque_outputs, travel)
 
 
-def _tie_rods(m: Model, guide: Guide) -> list[Joint]:
-    """Rods with an end moved by a guide, or the drive of the rack if it is a coordinate.
+def _tie_rods(m: Model, guide: DrivingFunction) -> list[Joint]:
+    """Rods with an end moved by a driving function, or the drive of the rack if it is a coordinate.
 
     `m`: model with the suspension.
     """

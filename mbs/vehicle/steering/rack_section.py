@@ -3,7 +3,7 @@
 import math
 
 from mbs.model.joint_ends import End
-from mbs.model.records import Guide
+from mbs.model.records import DrivingFunction
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import Frequency, RackPerTurn, RoadWheelAngle, Travel
@@ -43,8 +43,8 @@ class RackSection(SteeringSection):
         rate = 2.0 * math.pi / self.rack_per_turn
         return rate * motion, rate
 
-    def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
-        """Ends of the rack, moved by a guide."""
+    def ends(self, b: CarBuilder, guide: DrivingFunction, way: float) -> TieRodEnd:
+        """Ends of the rack, moved by a driving function."""
         return rack_ends(b, guide)
 
     def travel_text(self, way: float) -> str:
@@ -52,7 +52,7 @@ class RackSection(SteeringSection):
         return f"rack travel, positive to the left (turns the wheels {'left' if way > 0.0 else 'right'})"
 
 
-def rack_ends(b: CarBuilder, guide: Guide) -> TieRodEnd:
+def rack_ends(b: CarBuilder, guide: DrivingFunction) -> TieRodEnd:
     """Ends of a massless rack. `guide`: its travel, m, positive to the left."""
 
     def end(side: Side, point: Point) -> End:

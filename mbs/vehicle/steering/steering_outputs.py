@@ -1,7 +1,7 @@
 """Outputs of every steering."""
 
 from mbs.model.model import Model
-from mbs.model.records import Guide, Input
+from mbs.model.records import DrivingFunction, Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.steering.steering_section import SteeringSection
 
@@ -14,11 +14,11 @@ RADIAN_OUTPUTS = ("steering_wheel_angle", "steering_wheel_speed", "steering_dema
 TORQUE_OUTPUT = "steering_wheel_torque"
 
 
-def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
+def demand_outputs(m: Model, demand: Input, guide: DrivingFunction, scale: float) -> None:
     """Add the demand as used, and the part of both demands beyond full lock.
 
     `demand`: result of `SteeringSection.angle_demand`; `guide`: follows the demand; `scale`: radians of the steering
-    wheel per unit of the guide.
+    wheel per unit of the driving function.
     """
     m.sense_input(f"used.{demand.name}", demand, description=f"{demand.name} as used")
     excess = m.sense_guide(
@@ -32,24 +32,26 @@ def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
     m.notice(excess, "The demanded angle of the steering wheel is beyond full lock and held there")
 
 
-def wheel_outputs(m: Model, held: Guide, per_radian: float, per_unit: float) -> None:
+def wheel_outputs(m: Model, held: DrivingFunction, per_radian: float, per_unit: float) -> None:
     """Add torque and speed of the steering wheel.
 
-    `held`: guide of the steering wheel; `per_radian`, `per_unit`: its unit per radian of the steering wheel, and the
-    reciprocal.
+    `held`: driving function of the steering wheel; `per_radian`, `per_unit`: its unit per radian of the steering
+    wheel, and the reciprocal.
     """
     m.sense_guide("steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
     m.sense_guide("steering_wheel_speed", held, order=1, scale=per_unit, unit="rad/s", description=WHEEL_SPEED)
 
 
-def tie_ratio(b: CarBuilder, data: SteeringSection, name: str, held: Guide, turn: float, *, inverse: bool) -> None:
-    """Make the steering ratio a parameter of its guide and of the outputs of the steering wheel.
+def tie_ratio(
+    b: CarBuilder, data: SteeringSection, name: str, held: DrivingFunction, turn: float, *, inverse: bool
+) -> None:
+    """Make the steering ratio a parameter of its driving function and of the outputs of the steering wheel.
 
     A table is scaled along the angle. Full lock of rack or arm and the range of the demanded angle do not change.
 
-    `held`: guide of the travel of the rack, of the angle in the table, or of the angle of the arm; `turn`: ratio over
-    that guide per radian of the steering wheel, or of their reciprocals; `inverse`: whether the angle of the steering
-    wheel increases with the ratio.
+    `held`: driving function of the travel of the rack, of the angle in the table, or of the angle of the arm; `turn`:
+    ratio over that driving function per radian of the steering wheel, or of their reciprocals; `inverse`: whether the
+    angle of the steering wheel increases with the ratio.
     """
     value = getattr(data, name)
     if b.ports.steering is None:

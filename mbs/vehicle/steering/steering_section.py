@@ -8,7 +8,7 @@ from typing import ClassVar
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
-from mbs.model.records import Guide, Input
+from mbs.model.records import DrivingFunction, Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import TieRodEnd
@@ -75,10 +75,10 @@ class SteeringSection(Section):
         return way
 
     @abstractmethod
-    def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
-        """Owner of the inner ends of the tie rods, moved by a guide.
+    def ends(self, b: CarBuilder, guide: DrivingFunction, way: float) -> TieRodEnd:
+        """Owner of the inner ends of the tie rods, moved by a driving function.
 
-        `guide`: guide, m or rad; `way`: as in `signed`.
+        `guide`: driving function, m or rad; `way`: as in `signed`.
         """
 
     @property
@@ -102,7 +102,7 @@ class SteeringSection(Section):
         )
 
 
-def column_friction(m: Model, guide: Guide, per_radian: float, torque: float) -> None:
+def column_friction(m: Model, guide: DrivingFunction, per_radian: float, torque: float) -> None:
     """Add friction of `torque`, N m, to a steering wheel. `guide`: `per_radian` times the angle of the wheel, rad."""
     wheel = m.shaft("steering wheel")
     m.drive("steering column", wheel.affine * per_radian, guide)

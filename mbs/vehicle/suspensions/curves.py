@@ -226,10 +226,10 @@ class Curves(SuspensionSection):
             for name, link in self.bodies.links.items():
                 link.build(b, side, name, centre, rigid, variables if self.table.second_name else [travel])
             travel_length = travel.affine * -1.0 + self.spring_length, self.spring_length
-            spring = _tabled_length(b, curves, variables, "spring_length", f"length of spring {w}") or travel_length
-            damper = _tabled_length(b, curves, variables, "damper_length", f"length of damper {w}")
+            spring = _length_by_table(b, curves, variables, "spring_length", f"length of spring {w}") or travel_length
+            damper = _length_by_table(b, curves, variables, "damper_length", f"length of damper {w}")
             springs.build(b, w, line_of_length(*spring), None if damper is None else line_of_length(*damper))
-            lever = _tabled_length(b, curves, variables, "anti_roll_bar_angle", f"{LINK}{w}", "rad")
+            lever = _length_by_table(b, curves, variables, "anti_roll_bar_angle", f"{LINK}{w}", "rad")
             if self.bar is not None:
                 levers.append(lever[0] if lever is not None else travel.affine * (1.0 / (self.bar.lever or 1.0)))
             yield Corner(side, carrier, {"carrier": carrier})
@@ -265,7 +265,7 @@ class Curves(SuspensionSection):
         return curves.second, np.arctan2(-rotations[:, 0, 1], rotations[:, 1, 1])
 
 
-def _tabled_length(
+def _length_by_table(
     b: CarBuilder, curves: WheelCurves, over: Sequence[Coordinate], column: str, name: str, unit: str = "m"
 ) -> tuple[Affine, float] | None:
     """Add a column of lengths as a lookup-table number; return it with its value as drawn, None without the column."""

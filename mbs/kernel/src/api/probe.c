@@ -9,12 +9,12 @@
 #include "../instance.h"
 #include "../methods/newton.h"
 #include "../rows/constraints.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../state/road_files.h"
 
 static const double LONGEST_STEP = 1e6; /* s */
 
-/* Copies n numbers, unless they are not asked for. */
+/* Copies n numbers; nothing if `to` is NULL. */
 static void copy(double *to, const double *from, int64_t n) {
   if (to != NULL && n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
@@ -47,7 +47,7 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   copy(work->s, in->now.s, z->ng);
   copy(work->sd, in->now.sd, z->ng);
   copy(work->sdd, in->now.sdd, z->ng);
-  ali3_guides_time(in, work, t);
+  ali3_driving_time(in, work, t);
   ali3_constraints(in, work->q, work->s, in->step.Phi, in->tangent.J);
   ali3_constraint_rate(in, work->q, work, in->step.Phit);
   ali3_constraint_gamma(in, work->q, work->qd, work, in->step.gamma);

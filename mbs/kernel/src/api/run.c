@@ -151,8 +151,8 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   in->bound.call_residual = 0.0;
   for (int64_t n = 0; n < n_steps; n++) {
     const bool is_recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
-    /* the work of guides and abrupt forces need the end of each step */
-    const bool reads_sensors = is_recorded || in->system->n_guide_work > 0 || in->system->n_contact > 0;
+    /* the work of driving functions and abrupt forces need the end of each step */
+    const bool reads_sensors = is_recorded || in->system->n_driving_work > 0 || in->system->n_contact > 0;
     const ali3_reading reading = n + 1 == n_steps ? ALI3_READ_ALL
                                  : reads_sensors  ? ALI3_READ_SENSORS
                                                   : ALI3_READ_NOTHING;

@@ -18,7 +18,7 @@
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
 #include "../methods/whole_step.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../rows/turning.h"
 #include "../sensors/sensors.h"
 #include "../state/axes.h"
@@ -93,7 +93,7 @@ static bool begin_lane(ali3_lane_group *g, int32_t l, const ali3_whole_step *ste
   if (ali3_inputs_begin(in, step->asked.t, h) != ALI3_OK) return false;
   ali3_vectors_copy_unwritten(in, to, from);
   if (ali3_input_jump(in, h) != ALI3_OK) return false;
-  ali3_guides_step(in, from, to, step->asked.t, h);
+  ali3_driving_step(in, from, to, step->asked.t, h);
   memcpy(to->used, in->inputs.set, (size_t)z->nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)z->ny * sizeof(double));
   to->h_last[0] = h;
@@ -112,13 +112,13 @@ static ali3_status end_lane(ali3_lane_group *g, int32_t l, const ali3_whole_step
   ali3_lane_elements_accept(g, l);
   if (ali3_contact_event(in, &step->asked, &in->now, &in->next) || ali3_divides(in, &step->asked, false))
     return ALI3_UNRESOLVED;
-  const double *weight = in->system->n_flexible + in->system->n_tabled > 0 ? NULL : &g->weight[l];
+  const double *weight = in->system->n_flexible + in->system->n_lookup > 0 ? NULL : &g->weight[l];
   const double *square = g->squares + l;
   const ali3_status resolved =
       ali3_energy_judge(in, &step->asked, g->work[l], g->size[l], g->end[l], g->open[l], weight);
   if (resolved != ALI3_OK) return resolved;
   ali3_work_along(in, 0.5);
-  ali3_guides_work(in, &in->next, g->guides[l]);
+  ali3_driving_work(in, &in->next, g->driving_work[l]);
   const ali3_status status = ali3_accept(in);
   if (status != ALI3_OK) return status;
   in->clock.now = step->asked.t;

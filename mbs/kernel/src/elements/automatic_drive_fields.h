@@ -54,11 +54,16 @@ enum {
   ENGAGE_TIME,
 };
 enum {
-  THROTTLE, /* Index of the input. */
-  GEARS, /* Number of items with 1 real each. */
-  SELECTOR, /* Index of an input, the selector. */
-  REQUEST, /* Index of an input, the request, -1: none. */
-  CLUTCH, /* Index of an input, the clutch. */
+  /* Index of the input. */
+  THROTTLE,
+  /* Number of gears; numbers of each: total ratio. */
+  GEARS,
+  /* Index of an input, the selector. */
+  SELECTOR,
+  /* Index of an input, the request, -1: none. */
+  REQUEST,
+  /* Index of an input, the clutch. */
+  CLUTCH,
   AUTOMATIC_DRIVE_INTEGERS
 };
 enum {

@@ -6,9 +6,12 @@
 #include "element.h"
 
 enum {
-  FIRST, /* Index of an entry of the inputs, -1: none. */
-  SECOND, /* Index of an entry of the inputs, -1: none. */
-  THIRD, /* Index of an entry of the inputs, -1: none. */
+  /* Index of an entry of the inputs, -1: none. */
+  FIRST,
+  /* Index of an entry of the inputs, -1: none. */
+  SECOND,
+  /* Index of an entry of the inputs, -1: none. */
+  THIRD,
   BODY_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -6,10 +6,14 @@
 #include "element.h"
 
 enum {
-  FIRST, /* Index of an entry of the inputs, -1: none. */
-  SECOND, /* Index of an entry of the inputs, -1: none. */
-  THIRD, /* Index of an entry of the inputs, -1: none. */
-  AXES, /* The axes. */
+  /* Index of an entry of the inputs, -1: none. */
+  FIRST,
+  /* Index of an entry of the inputs, -1: none. */
+  SECOND,
+  /* Index of an entry of the inputs, -1: none. */
+  THIRD,
+  /* The axes. */
+  AXES,
   BODY_TORQUE_INTEGERS
 };
 #ifndef ALI3_WIDTH

@@ -21,9 +21,12 @@ enum {
   BRAKE_REALS
 };
 enum {
-  PEDAL, /* Index of the input. */
-  HAND, /* Index of an input, the hand brake, -1: none. */
-  BY_SIZE, /* The choice of a size as the input. */
+  /* Index of the input. */
+  PEDAL,
+  /* Index of an input, the hand brake, -1: none. */
+  HAND,
+  /* The choice of a size as the input. */
+  BY_SIZE,
   BRAKE_INTEGERS
 };
 enum {

@@ -25,8 +25,11 @@ enum {
   CONTACT_POINTS_REALS
 };
 enum {
-  ROAD, /* Index of the road. */
-  POINTS, /* Number of items with 3 reals and 4 states each. */
+  /* Index of the road. */
+  ROAD,
+  /* Number of points; numbers of each: x, m; y, m; z, m; states of each: deflection 1 of the stick spring, m;
+   * deflection 2 of the stick spring, m; rate 1 of it, m/s; rate 2 of it, m/s. */
+  POINTS,
   CONTACT_POINTS_INTEGERS
 };
 enum {

@@ -2,7 +2,7 @@
 #ifndef ALI3_CROSSING_H
 #define ALI3_CROSSING_H
 
-/* Fraction of a step: it is not divided nearer to one of its ends. */
+/* Least distance of a division of a step from its ends, as a fraction of the step. */
 #define ALI3_AT_END 0.01
 
 /* First fraction of a step of length h, s, from ALI3_AT_END to 1 - ALI3_AT_END, at which the cubic through the gaps, m,

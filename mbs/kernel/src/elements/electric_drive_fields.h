@@ -36,8 +36,10 @@ enum {
   ELECTRIC_DRIVE_REALS
 };
 enum {
-  THROTTLE, /* Index of the input. */
-  SELECTOR, /* Index of an input, the selector. */
+  /* Index of the input. */
+  THROTTLE,
+  /* Index of an input, the selector. */
+  SELECTOR,
   ELECTRIC_DRIVE_INTEGERS
 };
 enum {

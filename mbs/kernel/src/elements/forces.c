@@ -4,7 +4,7 @@
 #include "../algebra/processor.h"
 #include "../flexible/flexible_body.h"
 #include "../instance.h"
-#include "../tabled/tabled.h"
+#include "../lookup/lookup.h"
 #include "defect.h"
 #include "element.h"
 #include "element_fours.h"
@@ -89,10 +89,10 @@ static void store_work_forces(ali3_instance *in) {
 
 /* Evaluates the signals that elements use, dependents included. */
 static void evaluate_signals(ali3_instance *in, const double *q, const double *qd) {
-  if (in->system->n_tabled > 0) {
-    ali3_tabled_prepare(in, q);
-    ali3_tabled_extend(in, q, qd, NULL, false);
-    q = in->tabled.extended[0], qd = in->tabled.extended[1];
+  if (in->system->n_lookup > 0) {
+    ali3_lookup_prepare(in, q);
+    ali3_lookup_extend(in, q, qd, NULL, false);
+    q = in->lookup.extended[0], qd = in->lookup.extended[1];
   }
   if (in->system->n_active > 0) ali3_active_signals(in, q, qd);
 }
@@ -116,7 +116,7 @@ void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
 
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double *Q = S->n_tabled > 0 ? in->tabled.force : call->Q; /* followed by those on dependents */
+  double *Q = S->n_lookup > 0 ? in->lookup.force : call->Q; /* followed by those on dependents */
   evaluate_signals(in, call->q, call->qd);
   memcpy(Q, in->mass.gravity, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
@@ -125,7 +125,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     in->element.wC = call->wC;
     in->element.wK = call->wK;
   }
-  if (S->n_tabled > 0) {
+  if (S->n_lookup > 0) {
     memset(Q + S->size.nq, 0, (size_t)S->n_dependent * sizeof(double));
     in->element.wC = call->wC;
     in->element.wK = call->wK;
@@ -134,16 +134,16 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     ali3_elements_forces(in, call);
     ali3_add_forces(in, in->element.force, Q);
   }
-  if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
+  if (S->n_lookup > 0) ali3_lookup_forces(in, call->qd, call->Q);
   if (!call->iterate) store_work_forces(in);
 }
 
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->element.wC, in->element.wK, F);
   if (in->system->size.ne > 0) ali3_elements_tangent(in, F);
-  if (in->system->n_tabled > 0) {
-    ali3_tabled_tangent(in, 1.0, in->element.wK, F);
-    ali3_tabled_elements_tangent(in, F);
+  if (in->system->n_lookup > 0) {
+    ali3_lookup_tangent(in, 1.0, in->element.wK, F);
+    ali3_lookup_elements_tangent(in, F);
   }
 }
 

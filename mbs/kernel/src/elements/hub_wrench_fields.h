@@ -6,12 +6,18 @@
 #include "element.h"
 
 enum {
-  FORCE_X, /* Index of an entry of the inputs. */
-  FORCE_Y, /* Index of an entry of the inputs. */
-  FORCE_Z, /* Index of an entry of the inputs. */
-  MOMENT_X, /* Index of an entry of the inputs. */
-  MOMENT_Y, /* Index of an entry of the inputs. */
-  MOMENT_Z, /* Index of an entry of the inputs. */
+  /* Index of an entry of the inputs. */
+  FORCE_X,
+  /* Index of an entry of the inputs. */
+  FORCE_Y,
+  /* Index of an entry of the inputs. */
+  FORCE_Z,
+  /* Index of an entry of the inputs. */
+  MOMENT_X,
+  /* Index of an entry of the inputs. */
+  MOMENT_Y,
+  /* Index of an entry of the inputs. */
+  MOMENT_Z,
   HUB_WRENCH_INTEGERS
 };
 enum {

@@ -6,7 +6,8 @@
 #include "element.h"
 
 enum {
-  INPUT, /* Index of the input. */
+  /* Index of the input. */
+  INPUT,
   INPUT_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH

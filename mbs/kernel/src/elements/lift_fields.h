@@ -13,8 +13,10 @@ enum {
   LIFT_REALS
 };
 enum {
-  WIND_SPEED, /* Index of an input, the speed of the air. */
-  WIND_HEADING, /* Index of an input, the heading of the air. */
+  /* Index of an input, the speed of the air. */
+  WIND_SPEED,
+  /* Index of an input, the heading of the air. */
+  WIND_HEADING,
   LIFT_INTEGERS
 };
 enum {

@@ -54,10 +54,14 @@ enum {
   BORE = MAGIC_TYRE_REALS + 178,
 };
 enum {
-  ROAD, /* Index of the road. */
-  VERSION, /* The version. */
-  COMBINATION, /* The combination. */
-  WITH_BORE, /* The number of bore torques. */
+  /* Index of the road. */
+  ROAD,
+  /* The version. */
+  VERSION,
+  /* The combination. */
+  COMBINATION,
+  /* The number of bore torques. */
+  WITH_BORE,
   MAGIC_TYRE_INTEGERS
 };
 enum {

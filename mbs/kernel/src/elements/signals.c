@@ -141,7 +141,7 @@ ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
     const truth idle = in->element.idle[e];
     if (S->el_front[e] < 0 || !ali3_any(ali3_not(idle))) continue;
     const place p = place_of(S, e, F);
-    if (p.m == 0) continue; /* all coordinates belong to a tabled body */
+    if (p.m == 0) continue; /* all coordinates belong to a lookup-table body */
     if (p.n == WRITTEN_OUT)
       tangent_times(S, e, &p, WRITTEN_OUT, in->element.S + S->el_S_off[e], SB);
     else

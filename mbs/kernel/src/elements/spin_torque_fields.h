@@ -11,7 +11,8 @@ enum {
   SPIN_TORQUE_REALS
 };
 enum {
-  INPUT, /* Index of the input. */
+  /* Index of the input. */
+  INPUT,
   SPIN_TORQUE_INTEGERS
 };
 enum {

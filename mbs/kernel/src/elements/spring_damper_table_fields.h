@@ -6,11 +6,9 @@
 #include "element.h"
 
 enum {
-  /* Stiffness, N/m, or rows of stretch from the free length, m, and force, N, both positive in tension; the stretch
-   * rises from row to row. Shape (n, 2). */
+  /* Stiffness without a table, N/m. */
   STIFFNESS,
-  /* Damping, N s/m, or rows of rate of the length, m/s, and force, N, both positive in rebound; rates rise, forces
-   * do not fall, and one row is (0, 0). Shape (n, 2). */
+  /* Damping without a table, N s/m. */
   DAMPING,
   /* Length without stretch, m. */
   FREE_LENGTH,
@@ -23,8 +21,10 @@ enum {
   SPRING_DAMPER_TABLE_REALS = STOPS + 12
 };
 enum {
-  SPRING_POINTS, /* Number of items with 4 reals each. */
-  DAMPER_POINTS, /* Number of items with 3 reals each. */
+  /* Number of spring points; numbers of each: stretch, m; force, N; slope, N/m; energy from stretch 0, J. */
+  SPRING_POINTS,
+  /* Number of damper points; numbers of each: rate of the length, m/s; force, N; slope, N s/m. */
+  DAMPER_POINTS,
   SPRING_DAMPER_TABLE_INTEGERS
 };
 enum {

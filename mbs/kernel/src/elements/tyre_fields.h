@@ -50,8 +50,10 @@ enum {
   TYRE_BORE = TYRE_REALS,
 };
 enum {
-  TYRE_ROAD, /* Index of the road. */
-  TYRE_WITH_BORE, /* The number of bore torques. */
+  /* Index of the road. */
+  TYRE_ROAD,
+  /* The number of bore torques. */
+  TYRE_WITH_BORE,
   TYRE_INTEGERS
 };
 enum {

@@ -1,15 +1,15 @@
-/* Products M x with the constant mass matrix and the contributions of flexible and tabled bodies. */
+/* Products M x with the constant mass matrix and the contributions of flexible and lookup-table bodies. */
 #include "mass.h"
 #include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../instance.h"
-#include "../tabled/tabled.h"
+#include "../lookup/lookup.h"
 #include "flexible_body.h"
 
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
   ali3_constant_mass_times(in, x, out);
   if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
-  if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
+  if (in->system->n_lookup > 0) ali3_lookup_mass_times(in, x, out);
 }
 
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work) {

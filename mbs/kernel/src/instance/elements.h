@@ -2,9 +2,9 @@
 #ifndef ALI3_INSTANCE_ELEMENTS_H
 #define ALI3_INSTANCE_ELEMENTS_H
 
-typedef struct ali3_tabled_work ali3_tabled_work; /* tabled/tabled.h */
-typedef struct ali3_tabled_base_work ali3_tabled_base_work;
-typedef struct ali3_tabled_parameter_work ali3_tabled_parameter_work;
+typedef struct ali3_lookup_work ali3_lookup_work; /* lookup/lookup.h */
+typedef struct ali3_lookup_base_work ali3_lookup_base_work;
+typedef struct ali3_lookup_parameter_work ali3_lookup_parameter_work;
 
 /* Force elements. Signals and what is conjugate to them have the units of their type, see ../elements/element.h. */
 typedef struct {
@@ -26,12 +26,12 @@ typedef struct {
 
 /* Lookup-table bodies at the last q prepared. */
 typedef struct {
-  ali3_tabled_work *item;                /* n_tabled */
-  ali3_tabled_base_work *base;           /* n_tabled_base */
-  ali3_tabled_parameter_work *parameter; /* n_tabled_parameter */
-  double *square;                        /* tabled_square: tangent of one group of elements */
+  ali3_lookup_work *item;                /* n_lookup */
+  ali3_lookup_base_work *base;           /* n_lookup_base */
+  ali3_lookup_parameter_work *parameter; /* n_lookup_parameter */
+  double *square;                        /* lookup_square: tangent of one group of elements */
   double *extended[3], *force;           /* q, qd, qdd and forces (nq), each followed by those of the dependents */
-} ali3_tabled_memory;
+} ali3_lookup_memory;
 
 /* Elements whose work sensors read, see ../state/work.c. */
 typedef struct {

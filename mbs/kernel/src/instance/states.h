@@ -14,7 +14,7 @@ typedef struct {
   double *lam; /* nc: multipliers of the stored rows; a row puts -Phi_q' lam on q */
   double *y; /* ny: states of elements */
   double *mean, *mean_before; /* nq: mean rates of the last two steps, of Systems with flexible bodies */
-  double *s, *sd, *sdd; /* ng: guides, m or rad, and their rates */
+  double *s, *sd, *sdd; /* ng: driving functions, m or rad, and their rates */
   double *out, *potential; /* nout, units as of their type; ne, J: of the last evaluation of the elements */
   double *used; /* nu: inputs as used in the last step */
   double *y_last, *h_last; /* ny; 1, s: element states at the start of the last step, its length; 0 at a start */
@@ -23,7 +23,8 @@ typedef struct {
                       to now, s */
   double *own; /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
-  double *work, *stored; /* J: n_work and then n_guide_work, work since the start; n_work, stored energy at the start */
+  double *work,
+      *stored; /* J: n_work and then n_driving_work, work since the start; n_work, stored energy at the start */
   double *watched; /* n_work powers, W, then n_work_force generalised forces at the end of the last step */
   double *step_force, *step_displacement; /* n_work_force: mean forces of the last step, change of their signals */
   double *by_inputs; /* n_input_work, J: stored energy that jumps of inputs have added since the start */

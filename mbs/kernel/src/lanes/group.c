@@ -7,14 +7,14 @@
 #include "../elements/laws.h"
 #include "../elements/road.h"
 #include "../flexible/body_arrays.h"
+#include "../lookup/lookup.h"
 #include "../state/vectors.h"
 #include "../state/workspace.h"
 #include "../system/pool.h"
-#include "../tabled/tabled.h"
 #include "lanes.h"
 
 enum { LINE = 64 }; /* bytes of the widest vector */
-enum { BASE_NUMBERS = sizeof(ali3_tabled_base_work) / sizeof(double) };
+enum { BASE_NUMBERS = sizeof(ali3_lookup_base_work) / sizeof(double) };
 
 /* Allocates n numbers for each lane, aligned to LINE. */
 static void *lane_items(const ali3_lane_group *g, ali3_pool *pool, size_t n) {
@@ -65,9 +65,9 @@ static void allocate_step(ali3_lane_group *g, ali3_pool *pool) {
   for (size_t k = 0; k < sizeof of_coordinates / sizeof *of_coordinates; k++)
     *of_coordinates[k] = lane_items(g, pool, (size_t)z->nq);
   for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++) *of_rows[k] = lane_items(g, pool, (size_t)z->nc);
-  g->guide.mean = lane_items(g, pool, (size_t)z->ng);
-  g->guide.follows = lane_items(g, pool, (size_t)z->ng);
-  g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
+  g->driving.mean = lane_items(g, pool, (size_t)z->ng);
+  g->driving.follows = lane_items(g, pool, (size_t)z->ng);
+  g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_lookup_base * BASE_NUMBERS);
 }
 
 /* Phi_q and the tangent. */
@@ -103,16 +103,16 @@ static void allocate_flexible(ali3_lane_group *g, ali3_pool *pool) {
 }
 
 /* Lookup-table bodies. */
-static void allocate_tabled(ali3_lane_group *g, ali3_pool *pool) {
+static void allocate_lookup(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
-  const size_t extended = S->n_tabled > 0 ? (size_t)(S->size.nq + S->n_dependent) : 0;
-  g->tabled.item = lane_items(g, pool, (size_t)S->n_tabled * (sizeof *g->tabled.item / sizeof(double)));
-  g->tabled.base = lane_items(g, pool, (size_t)S->n_tabled_base * BASE_NUMBERS);
-  g->tabled.parameter =
-      lane_items(g, pool, (size_t)S->n_tabled_parameter * (sizeof *g->tabled.parameter / sizeof(double)));
-  g->tabled.square = lane_items(g, pool, (size_t)S->tabled_square);
-  for (int k = 0; k < 3; k++) g->tabled.extended[k] = lane_items(g, pool, extended);
-  g->tabled.force = lane_items(g, pool, extended);
+  const size_t extended = S->n_lookup > 0 ? (size_t)(S->size.nq + S->n_dependent) : 0;
+  g->lookup.item = lane_items(g, pool, (size_t)S->n_lookup * (sizeof *g->lookup.item / sizeof(double)));
+  g->lookup.base = lane_items(g, pool, (size_t)S->n_lookup_base * BASE_NUMBERS);
+  g->lookup.parameter =
+      lane_items(g, pool, (size_t)S->n_lookup_parameter * (sizeof *g->lookup.parameter / sizeof(double)));
+  g->lookup.square = lane_items(g, pool, (size_t)S->lookup_square);
+  for (int k = 0; k < 3; k++) g->lookup.extended[k] = lane_items(g, pool, extended);
+  g->lookup.force = lane_items(g, pool, extended);
 }
 
 /* Whether the law of an element type exists for lanes. */
@@ -153,8 +153,9 @@ static void allocate_scalars(ali3_lane_group *g, ali3_pool *pool) {
                          &g->report.factorizations,
                          &g->report.solves,
                          &g->report.negative_pivots};
-  real **numbers[] = {&g->residual, &g->reach, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end,
-                      &g->open,     &g->size,  &g->guides,    &g->mass.gravity_const, &g->weight};
+  real **numbers[] = {
+      &g->residual, &g->reach, &g->violation, &g->velocity_violation, &g->open_power,         &g->work,
+      &g->end,      &g->open,  &g->size,      &g->driving_work,       &g->mass.gravity_const, &g->weight};
   for (size_t k = 0; k < sizeof masks / sizeof *masks; k++) *masks[k] = lane_items(g, pool, 1);
   for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = lane_items(g, pool, 1);
   g->squares = lane_items(g, pool, 3);
@@ -167,7 +168,7 @@ static void allocate(ali3_lane_group *g, ali3_pool *pool) {
   allocate_step(g, pool);
   allocate_tangents(g, pool);
   allocate_flexible(g, pool);
-  allocate_tabled(g, pool);
+  allocate_lookup(g, pool);
   allocate_elements(g, pool);
   allocate_scalars(g, pool);
 }
@@ -252,7 +253,7 @@ void ali3_group_from(ali3_lane_group *g) {
   PUT(g, g->now.s, ng, in, in->now.s);
   PUT(g, g->now.sd, ng, in, in->now.sd);
   PUT(g, g->now.sdd, ng, in, in->now.sdd);
-  PUT(g, g->guide.follows, ng, in, in->guide.follows);
+  PUT(g, g->driving.follows, ng, in, in->driving.follows);
   PUT(g, g->next.s, ng, in, in->next.s);
   PUT(g, g->next.sd, ng, in, in->next.sd);
   PUT(g, g->next.sdd, ng, in, in->next.sdd);
@@ -316,8 +317,8 @@ void ali3_group_to(const ali3_lane_group *g) {
     const int32_t offset = ALI3_FLEX_COUPLING * b + ALI3_FLEX_OF_MODE * S->flex_mode_ptr[b];
     TAKE(g, in, in->flexible.prepared + offset, g->flexible.prepared + offset * g->width, ALI3_FLEX_COUPLING);
   }
-  if (S->n_tabled_base > 0) /* for the energy of gravity */
-    TAKE(g, in, (double *)in->tabled.base, (const double *)g->tabled.base, S->n_tabled_base * BASE_NUMBERS);
+  if (S->n_lookup_base > 0) /* for the energy of gravity */
+    TAKE(g, in, (double *)in->lookup.base, (const double *)g->lookup.base, S->n_lookup_base * BASE_NUMBERS);
   for (int32_t e = 0, end; e < S->size.ne; e = end) {
     end = end_of_run(g, e);
     const int32_t state = S->el_state_ptr[e], n_state = S->el_state_ptr[end] - state;

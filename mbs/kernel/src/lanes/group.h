@@ -16,7 +16,7 @@ typedef int64_t ali3_mask;
 /* Vectors of a state, as in ali3_vectors, for all lanes. */
 typedef struct {
   real *q, *qd, *qdd, *lam;
-  real *s, *sd, *sdd; /* guides */
+  real *s, *sd, *sdd; /* driving functions */
   real *mean, *mean_before; /* of `now` in Systems with flexible bodies */
   real *history, *past_a, *past_lam; /* of `now` in the others */
   real *y; /* states of elements */
@@ -65,14 +65,14 @@ struct ali3_lane_group {
     real *P, *c; /* numbers of the System, the same in all lanes */
   } flexible;
   struct {
-    ali3_tabled_work *item;
-    ali3_tabled_base_work *base;
-    ali3_tabled_parameter_work *parameter;
+    ali3_lookup_work *item;
+    ali3_lookup_base_work *base;
+    ali3_lookup_parameter_work *parameter;
     real *square, *extended[3], *force;
-  } tabled;
+  } lookup;
   struct {
     real *mean, *follows;
-  } guide;
+  } driving;
   real *ways; /* n_work_force: displacements of elements whose work is summed, see ../state/work.c */
   real *el_real, *input, *out, *potential; /* as el_real of the System; nu; nout; ne, J */
   ali3_lane_road *road; /* nr */
@@ -88,7 +88,7 @@ struct ali3_lane_group {
   real *residual, *violation, *velocity_violation, *open_power; /* as in ali3_report */
   real *reach; /* as in ali3_element_args */
   real *work, *end, *open, *size; /* error, end, open and size of ali3_energy_judge */
-  real *guides; /* J: work of guides in the step */
+  real *driving_work; /* J: work of driving functions in the step */
   real *weight; /* J: potential energy of gravity at the end of the step */
   real *squares; /* 3: speed, change and miss of ali3_balance_motion */
 };

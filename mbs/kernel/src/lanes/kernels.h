@@ -39,6 +39,10 @@ static inline real lane_cosine(real x) {
 #include "../elements/signals.c"
 #include "../flexible/constant_mass.c"
 #include "../flexible/flexible_body.c"
+#include "../lookup/lookup.c"
+#include "../lookup/lookup_functions.c"
+#include "../lookup/lookup_inertia.c"
+#include "../lookup/lookup_tangent.c"
 #include "../methods/accelerate.c"
 #include "../methods/constraint_work.c"
 #include "../methods/defect_correction.c"
@@ -49,15 +53,11 @@ static inline real lane_cosine(real x) {
 #include "../rows/row_products.c"
 #include "../rows/velocity_rows.c"
 #include "../state/signal_displacements.c"
-#include "../tabled/table.c"
-#include "../tabled/tabled.c"
-#include "../tabled/tabled_inertia.c"
-#include "../tabled/tabled_tangent.c"
 
 void ali3_mass_times(const ali3_instance *in, const real *x, real *out) {
   ali3_constant_mass_times(in, x, out);
   if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
-  if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
+  if (in->system->n_lookup > 0) ali3_lookup_mass_times(in, x, out);
 }
 
 #include "../algebra/lane_copies.h"

@@ -77,14 +77,14 @@ static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const real *q = in->next.q, *qd = in->next.qd;
-  if (S->n_tabled > 0) {
-    ali3_tabled_prepare(in, q);
-    ali3_tabled_extend(in, q, qd, NULL, false);
-    memset(in->tabled.force + nq, 0, (size_t)S->n_dependent * sizeof *q);
-    q = in->tabled.extended[0], qd = in->tabled.extended[1];
+  if (S->n_lookup > 0) {
+    ali3_lookup_prepare(in, q);
+    ali3_lookup_extend(in, q, qd, NULL, false);
+    memset(in->lookup.force + nq, 0, (size_t)S->n_dependent * sizeof *q);
+    q = in->lookup.extended[0], qd = in->lookup.extended[1];
   }
   ali3_active_signals(in, q, qd);
-  real *Q = S->n_tabled > 0 ? in->tabled.force : in->step.Q; /* followed by those on dependents */
+  real *Q = S->n_lookup > 0 ? in->lookup.force : in->step.Q; /* followed by those on dependents */
   memcpy(Q, in->mass.gravity, (size_t)nq * sizeof *Q);
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, q);
@@ -92,7 +92,7 @@ static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
   }
   evaluate_elements(in, lanes, tangent);
   ali3_add_forces(in, in->element.force, Q);
-  if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->step.Q);
+  if (S->n_lookup > 0) ali3_lookup_forces(in, in->next.qd, in->step.Q);
 }
 
 /* Positions, rates, rows, forces and residual of the iterate D. */
@@ -163,9 +163,9 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
       in->element.S_made[i] = first ? in->element.S[i] : ali3_where(lanes, in->element.S[i], in->element.S_made[i]);
   }
   ali3_elements_tangent(in, F);
-  if (S->n_tabled > 0) {
-    ali3_tabled_tangent(in, 1.0, in->rule.c, F);
-    ali3_tabled_elements_tangent(in, F);
+  if (S->n_lookup > 0) {
+    ali3_lookup_tangent(in, 1.0, in->rule.c, F);
+    ali3_lookup_elements_tangent(in, F);
   }
   ali3_factorise(in, F);
   if (first) { /* the next iterate overwrites J */
@@ -253,7 +253,7 @@ static void step(ali3_lane_group *in) {
   *in->work = e.error;
   *in->end = e.end;
   *in->open = e.open;
-  *in->guides = e.guide_work;
+  *in->driving_work = e.driving_work;
   *in->size = ali3_energy_size(in, h, e.kinetic);
   *in->weight = *in->mass.gravity_const;
   for (int32_t i = 0; i < nq; i++) *in->weight -= in->mass.gravity[i] * in->next.q[i];

@@ -9,7 +9,7 @@ size_t ali3_group_bytes(const ali3_system *s, int32_t width);
 void ali3_group_place(ali3_lane_group *g, void *block);
 /* Copies the numbers that depend on parameters but not on steps to the group. */
 void ali3_group_parameters(ali3_lane_group *g);
-/* Copies the start of a step, in->now, and the guides of in->next to the group. */
+/* Copies the start of a step, in->now, and the driving functions of in->next to the group. */
 void ali3_group_from(ali3_lane_group *g);
 /* Copies the state and the counters after a step to the instances: in->next and, for rigid Systems, the mean
  * acceleration and the multipliers of Newton's iteration, before (25). */

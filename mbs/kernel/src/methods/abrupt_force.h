@@ -17,8 +17,8 @@ bool ali3_allows_division(ali3_instance *in, const ali3_request *request, int32_
 bool ali3_divides(ali3_instance *in, const ali3_request *request, bool early);
 /* Whether `early` holds for a step that may be halved `depth` times; not counted. */
 bool ali3_is_abrupt(const ali3_instance *in, int32_t depth);
-/* Whether the limit of iterations leaves room to end a part of a step that resolves a force by table or a guide; counts
- * it if so, as an abrupt force if it ends `at_row` of a table. */
+/* Whether the limit of iterations leaves room to end a part of a step that resolves a force by table or a driving
+ * function; counts it if so, as an abrupt force if it ends `at_row` of a table. */
 bool ali3_divides_to_resolve(ali3_instance *in, const ali3_request *request, bool at_row);
 /* Fraction of the way between two lengths, m, of a spring by a table to the first row that the ends do not resolve; 1:
  * none. */

@@ -6,7 +6,7 @@
 
 #include "../instance.h"
 #include "../method.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../start/initialise.h"
 #include "../state/inputs.h"
 #include "../state/road_files.h"
@@ -29,11 +29,11 @@ static ali3_status make_part(ali3_instance *in, const ali3_request *request) {
   else if (!method->relative)
     ali3_vectors_copy(in, &in->next, &in->now);
   const bool trapezoidal_work =
-      in->system->n_guide_work > 0 && !(method->has_guides_work && method->has_guides_work(in));
-  const double power = trapezoidal_work ? ali3_guides_power(in, &in->now) : 0.0;
+      in->system->n_driving_work > 0 && !(method->has_driving_work && method->has_driving_work(in));
+  const double power = trapezoidal_work ? ali3_driving_power(in, &in->now) : 0.0;
   const ali3_status status = method->step(in, request);
   if (status == ALI3_OK && trapezoidal_work)
-    ali3_guides_work(in, &in->now, 0.5 * h * (power + ali3_guides_power(in, &in->now)));
+    ali3_driving_work(in, &in->now, 0.5 * h * (power + ali3_driving_power(in, &in->now)));
   return status;
 }
 
@@ -89,30 +89,30 @@ static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
 }
 
 static const double AT_END = 1e-6; /* of a step: a nearer jump is at its end */
-/* Distance from a jump, relative to its time, at which guides are evaluated before and after it. */
+/* Distance from a jump, relative to its time, at which driving functions are evaluated before and after it. */
 static const double ROUND_OFF = 4.0 * DBL_EPSILON;
 
-/* Computes velocities, accelerations and multipliers after a jump of a guide at `time`, as by an impulse of its rows,
- * whose work is that of the guide; clears the history. */
-static ali3_status guide_jump(ali3_instance *in, double time) {
-  const bool has_guide_work = in->system->n_guide_work > 0;
-  const double before = has_guide_work ? ali3_kinetic_energy(in) : 0.0;
+/* Computes velocities, accelerations and multipliers after a jump of a driving function at `time`, as by an impulse of
+ * its rows, whose work is that of the driving function; clears the history. */
+static ali3_status driving_jump(ali3_instance *in, double time) {
+  const bool senses_driving_work = in->system->n_driving_work > 0;
+  const double before = senses_driving_work ? ali3_kinetic_energy(in) : 0.0;
   in->clock.now = time;
-  ali3_guides_time(in, &in->now, time + ROUND_OFF * fabs(time));
+  ali3_driving_time(in, &in->now, time + ROUND_OFF * fabs(time));
   const ali3_status status = ali3_solve_rates(in, false);
   if (status != ALI3_OK) return status;
-  if (has_guide_work) ali3_guides_work(in, &in->now, ali3_kinetic_energy(in) - before);
+  if (senses_driving_work) ali3_driving_work(in, &in->now, ali3_kinetic_energy(in) - before);
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
   return ALI3_OK;
 }
 
-/* Time of the next jump of an input or a guide in a step of h to time t, otherwise t. `*guide`: that of a guide, also
- * at t, otherwise infinity. */
-static double next_jump(const ali3_instance *in, double t, double h, double *guide) {
+/* Time of the next jump of an input or a driving function in a step of h to time t, otherwise t. `*driving`: that of a
+ * driving function, also at t, otherwise infinity. */
+static double next_jump(const ali3_instance *in, double t, double h, double *driving) {
   const double near = AT_END * h, inputs = ali3_inputs_until(in, t);
   const double jump =
-      in->system->size.ng > 0 ? ali3_guides_break(in, in->clock.now + near, inputs + near) : inputs + near;
-  *guide = jump < inputs + near ? jump : HUGE_VAL;
+      in->system->size.ng > 0 ? ali3_driving_break(in, in->clock.now + near, inputs + near) : inputs + near;
+  *driving = jump < inputs + near ? jump : HUGE_VAL;
   return jump < t - near ? fmin(jump, inputs) : fmin(inputs, t);
 }
 
@@ -126,36 +126,36 @@ static double next_row(const ali3_instance *in, double h, double end) {
  * its halves would not show in their difference. */
 static double next_quarter(const ali3_instance *in, double h, double end, bool controlled) {
   if (controlled || in->system->size.ng == 0) return end;
-  return ali3_guides_resolved(in, in->clock.now, end, AT_END * h, ali3_method_order(in) <= 2);
+  return ali3_driving_resolved(in, in->clock.now, end, AT_END * h, ali3_method_order(in) <= 2);
 }
 
 bool ali3_is_divided(const ali3_instance *in, double t, double h) {
-  double guide;
-  const double jump = next_jump(in, t, h, &guide);
-  return jump < t || guide < HUGE_VAL || next_quarter(in, h, next_row(in, h, t), false) < t;
+  double driving;
+  const double jump = next_jump(in, t, h, &driving);
+  return jump < t || driving < HUGE_VAL || next_quarter(in, h, next_row(in, h, t), false) < t;
 }
 
 /* Makes a step, or the rest of one, in parts. Parts that resolve tables or driving functions share the limit of
  * iterations with those after them, others have one each. */
 static ali3_status advance_from(ali3_instance *in, const ali3_request *request) {
   const double t = request->t, h = request->h;
-  double guide;
+  double driving;
   ali3_request part = *request, rest = *request;
   ali3_events_begin(in, request->depth);
-  const double jump = next_jump(in, t, h, &guide), row = next_row(in, h, jump),
+  const double jump = next_jump(in, t, h, &driving), row = next_row(in, h, jump),
                quarter = next_quarter(in, h, row, request->controlled);
   const bool resolves = quarter < jump && ali3_divides_to_resolve(in, request, quarter == row);
   const double piece_end = resolves ? quarter : jump;
-  if (resolves) guide = HUGE_VAL;
-  if (piece_end == t && guide == HUGE_VAL) return advance_part(in, &part);
+  if (resolves) driving = HUGE_VAL;
+  if (piece_end == t && driving == HUGE_VAL) return advance_part(in, &part);
   ali3_back_up(in);
   if (piece_end < t && !resolves) in->report.divisions++;
-  part.t = fmin(piece_end, guide - ROUND_OFF * fabs(guide));
+  part.t = fmin(piece_end, driving - ROUND_OFF * fabs(driving));
   if (piece_end < t) part.h = piece_end - in->clock.now;
   if (resolves) part.iterations_end -= (request->iterations_end - in->report.iterations) / 2;
-  if (guide < HUGE_VAL) part.reading = ALI3_READ_ALL; /* guide_jump needs all of the state before it */
+  if (driving < HUGE_VAL) part.reading = ALI3_READ_ALL; /* driving_jump needs all of the state before it */
   ali3_status status = advance_part(in, &part);
-  if (status == ALI3_OK) status = guide < HUGE_VAL ? guide_jump(in, fmax(piece_end, guide)) : ALI3_OK;
+  if (status == ALI3_OK) status = driving < HUGE_VAL ? driving_jump(in, fmax(piece_end, driving)) : ALI3_OK;
   in->bound.iterations_before = in->report.iterations;
   rest.h = t - piece_end;
   if (!resolves) rest.iterations_end = in->report.iterations + in->settings.step_iterations;

@@ -123,7 +123,7 @@ ALI3_INLINED void find_accelerations(ali3_instance *in) {
 /* Energy of a step, J, and the power, W, of the forces that its last projection leaves unbalanced. */
 typedef struct {
   real error, kinetic, end; /* kinetic, end: as ali3_projection_work writes them */
-  real open, guide_work;
+  real open, driving_work;
 } step_energy;
 
 /* Projections (24), (25) of velocities and accelerations of some lanes; in->step.Phit holds the rates of the rows.
@@ -133,7 +133,7 @@ ALI3_INLINED step_energy project_rates(ali3_instance *in, double h, double alpha
   const double c = in->rule.c, limit = ali3_allowed_round_off(in->system, c);
   ali3_vectors *to = &in->next;
   step_energy e;
-  e.error = ali3_constraint_work(in, h, &e.guide_work);
+  e.error = ali3_constraint_work(in, h, &e.driving_work);
   turning_rates(in, in->step.mu, in->step.Phit);
   ALI3_AT_WORK(in, lanes);
   *violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, VELOCITY_TOLERANCE, limit * in->rule.rate,
@@ -141,7 +141,7 @@ ALI3_INLINED step_energy project_rates(ali3_instance *in, double h, double alpha
   ali3_constraint_gamma(in, to->q, to->qd, to, in->step.gamma);
   ALI3_AT_WORK(in, lanes);
   ali3_project(in, c * alpha, in->step.gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, limit / c, MAX_SWEEPS, false);
-  e.error += ali3_projection_work(in, &e.kinetic, &e.end, &e.open, &e.guide_work) + 0.5 * h * open_power;
+  e.error += ali3_projection_work(in, &e.kinetic, &e.end, &e.open, &e.driving_work) + 0.5 * h * open_power;
   return e;
 }
 #endif

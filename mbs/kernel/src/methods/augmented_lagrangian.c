@@ -10,7 +10,7 @@
 #include "../instance.h"
 #include "../method.h"
 #include "../rows/constraints.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../rows/violation.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
@@ -180,17 +180,17 @@ ALI3_INLINED ali3_status check_turn(ali3_instance *in, double h) {
   return ALI3_OK;
 }
 
-/* Projections and the energy error of the step; *guide_work: J. */
-ALI3_INLINED ali3_status end_rates(ali3_instance *in, const ali3_request *request, double alpha, double *guide_work) {
+/* Projections and the energy error of the step; *driving_work: J. */
+ALI3_INLINED ali3_status end_rates(ali3_instance *in, const ali3_request *request, double alpha, double *driving_work) {
   const double h = request->h;
   if (!in->settings.project) {
-    if (in->system->n_guide_work > 0) ali3_constraint_work(in, h, guide_work);
+    if (in->system->n_driving_work > 0) ali3_constraint_work(in, h, driving_work);
     in->report.velocity_violation =
         ali3_project(in, in->rule.c * alpha, in->step.Phit, in->next.qd, NULL, 0.0, 0.0, 0, false);
     return ALI3_OK;
   }
   const step_energy e = project_rates(in, h, alpha, true, in->report.open_power, &in->report.velocity_violation);
-  *guide_work = e.guide_work;
+  *driving_work = e.driving_work;
   return ali3_energy_watch(in, request, e.error, e.kinetic, e.end, e.open);
 }
 
@@ -204,7 +204,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   ali3_status status = check_turn(in, h);
   if (status == ALI3_OK) status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
-  ali3_guides_step(in, from, to, request->t, h);
+  ali3_driving_step(in, from, to, request->t, h);
   const bool from_past = ali3_predict_step(in, request, true);
   if (generalised_alpha)
     ali3_alpha_rule(in, h);
@@ -241,10 +241,10 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: the next step needs the multipliers of the balance (20) */
   ali3_constraint_rate(in, to->q, to, in->step.Phit);
-  double guide_work = 0.0;
-  status = end_rates(in, request, alpha, &guide_work);
+  double driving_work = 0.0;
+  status = end_rates(in, request, alpha, &driving_work);
   if (status != ALI3_OK) return status;
-  ali3_guides_work(in, to, guide_work);
+  ali3_driving_work(in, to, driving_work);
   ali3_work_step(in, 0.5);
   return ali3_accept(in);
 }
@@ -258,7 +258,7 @@ const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
                                        .balance_decides = true,
-                                       .has_guides_work = ali3_always,
+                                       .has_driving_work = ali3_always,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .fills = true,
                                        .locates_events = true,
@@ -268,7 +268,7 @@ const ali3_method ali3_method_generalised_alpha = {.step = ali3_augmented_lagran
                                                    .motion = ali3_balance_step,
                                                    .has_balance = projects,
                                                    .balance_decides = true,
-                                                   .has_guides_work = projects,
+                                                   .has_driving_work = projects,
                                                    .owner = ALI3_METHOD_GENERALISED_ALPHA,
                                                    .locates_events = true,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

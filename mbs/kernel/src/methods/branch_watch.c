@@ -1,7 +1,7 @@
 /* Checks the assembly modes of closed loops after each step and reports changes.
  *
  * Left: a loop has left all its modes, for example after a dead centre.
- * Jump: where all arms of a ring are nearly aligned, branches of the solution are close to each other. A step there in
+ * Jump: where all arms of a cycle are nearly aligned, branches of the solution are close to each other. A step there in
  * which a triad changes its sign is repeated in 4 parts, up to the part in which it has changed, and, if they do not
  * change it, in 8: if both agree with each other but not with the step, the step has jumped to another branch. On a
  * smooth branch all three agree. The state and the work arrays after the check belong to the undivided step. */
@@ -19,13 +19,13 @@
 #include "error_control.h"
 #include "steps.h"
 
-static const double ALIGNED_SINE = 0.25; /* squared sine of the angles of a ring below which branches may be close */
+static const double ALIGNED_SINE = 0.25; /* squared sine of the angles of a cycle below which branches may be close */
 static const double DIFFERENT = 0.5; /* a larger fraction of the change of a sine is a difference between branches */
 static const double MAX_TURN = 0.2; /* largest change of a sine in a controlled step near other branches */
 static const double SAFETY = 0.65, AFTER_JUMP = 0.25; /* factors of the step after a large turn, after a jump */
 enum { FEW = 4, MANY = 8, SAMPLES = 8 };
 
-enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
+enum { CYCLE = 10, ITEMS = ALI3_TRIAD_ITEMS };
 
 /* Root of |x| with the sign of x. */
 static double signed_root(double signed_square) {
@@ -34,18 +34,18 @@ static double signed_root(double signed_square) {
 
 static bool has_modes(const ali3_instance *in) { return in->system->n_mode_triad > 0; }
 
-/* Whether triads j and k belong to the same ring. */
-static bool same_ring(const ali3_instance *in, int32_t j, int32_t k) {
-  const int32_t *ring = in->system->mode_triad + RING;
-  return ring[ITEMS * j] == ring[ITEMS * k];
+/* Whether triads j and k belong to the same cycle. */
+static bool same_cycle(const ali3_instance *in, int32_t j, int32_t k) {
+  const int32_t *cycle = in->system->mode_triad + CYCLE;
+  return cycle[ITEMS * j] == cycle[ITEMS * k];
 }
 
-/* Whether triad k and all others of its ring, at least one, are nearly aligned. */
+/* Whether triad k and all others of its cycle, at least one, are nearly aligned. */
 static bool is_aligned(const ali3_instance *in, const double *sine, int32_t k, int32_t first, int32_t end) {
   int32_t n = 0;
   if (!(fabs(sine[k]) < ALIGNED_SINE)) return false;
   for (int32_t j = first; j < end; j++) {
-    if (!same_ring(in, j, k)) continue;
+    if (!same_cycle(in, j, k)) continue;
     if (!(fabs(sine[j]) < ALIGNED_SINE)) return false;
     n++;
   }
@@ -94,7 +94,7 @@ static void restore_start(ali3_instance *in) {
   in->clock.now = ali3_time(in); /* time of the last complete step */
 }
 
-/* Whether triad k of a loop with the triads first to end - 1 has changed its sign in the step while its ring was
+/* Whether triad k of a loop with the triads first to end - 1 has changed its sign in the step while its cycle was
  * aligned. */
 static bool crossed(const ali3_instance *in, int32_t k, int32_t first, int32_t end) {
   return in->branch.sine_before[k] * in->branch.sine_after[k] < 0.0 &&
@@ -188,10 +188,10 @@ static void report_left_modes(ali3_instance *in, double t) {
   }
 }
 
-/* Largest change of a sine in an aligned ring of which a triad changes its sign in the controlled step, 0: there is
+/* Largest change of a sine in an aligned cycle of which a triad changes its sign in the controlled step, 0: there is
  * none. Signs at samples within the step are interpolated, as folded arms may turn little while another joint of the
- * ring changes its branch. *sample: number of the sample, the first is 1, at which the sign changes. */
-static double ring_turn(ali3_instance *in, double h, int *sample) {
+ * cycle changes its branch. *sample: number of the sample, the first is 1, at which the sign changes. */
+static double cycle_turn(ali3_instance *in, double h, int *sample) {
   const ali3_system *S = in->system;
   const size_t size = (size_t)ali3_triad_count(S) * sizeof(double);
   int32_t triad = -1, first = 0, end = 0;
@@ -215,19 +215,19 @@ static double ring_turn(ali3_instance *in, double h, int *sample) {
   ali3_mode_angles(in, in->now.q);
   double turn = 1e-300;
   for (int32_t k = first; k < end; k++)
-    if (same_ring(in, k, triad))
+    if (same_cycle(in, k, triad))
       turn = fmax(turn, fabs(signed_root(in->branch.sine[k]) - signed_root(in->branch.sine_few[k])));
   return turn;
 }
 
 /* Checks the accepted controlled step of in->stored.origin, in->stored.centre and in->now for a jump between close
- * branches: it turns a ring too far, or MANY shorter steps end elsewhere; the step and its halves may have jumped in
+ * branches: it turns a cycle too far, or MANY shorter steps end elsewhere; the step and its halves may have jumped in
  * the same way. Returns the fraction of the step that may be made, 1: all. */
 double ali3_branch_fraction(ali3_instance *in, const ali3_measure *measure, double t, double h) {
   const int32_t nq = in->system->size.nq;
   int sample = 0;
   if (!has_modes(in)) return 1.0;
-  const double turn = ring_turn(in, h, &sample);
+  const double turn = cycle_turn(in, h, &sample);
   if (turn == 0.0) return 1.0;
   if (turn > MAX_TURN) {
     const double fraction = SAFETY * MAX_TURN / turn;

@@ -3,7 +3,7 @@
 #define ALI3_CHECK_METHOD_H
 #include "../instance.h"
 
-#define ALI3_STATES_IN_WORDS "element states or filtered guides"
+#define ALI3_STATES_IN_WORDS "element states or filtered driving functions"
 /* ALI3_WRONG_METHOD if forces at stages within a step depend on more than q, qd and time. */
 ali3_status ali3_needs_no_states(const ali3_instance *in);
 /* Whether neither elements nor flexible bodies dissipate energy. */

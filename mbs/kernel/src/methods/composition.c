@@ -41,16 +41,16 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
 static ali3_status check_system(const ali3_instance *in) {
   const ali3_status status = ali3_needs_no_states(in);
   if (status != ALI3_OK) return status;
-  return ali3_conservative(in) && in->system->n_tabled == 0 ? ALI3_OK : ALI3_WRONG_METHOD;
+  return ali3_conservative(in) && in->system->n_lookup == 0 ? ALI3_OK : ALI3_WRONG_METHOD;
 }
 
 const ali3_method ali3_method_energy_momentum_4 = {.step = step,
                                                    .before = before,
                                                    .motion = ali3_energy_momentum_motion,
-                                                   .has_guides_work = ali3_always,
+                                                   .has_driving_work = ali3_always,
                                                    .check_system = check_system,
                                                    .excludes =
-                                                       ALI3_STATES_IN_WORDS ", no tabled bodies, and no damping",
+                                                       ALI3_STATES_IN_WORDS ", no lookup-table bodies, and no damping",
                                                    .after_unobserved = ali3_energy_momentum_report,
                                                    .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

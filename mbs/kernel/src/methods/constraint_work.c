@@ -8,12 +8,12 @@
  *   work of drives: w'(lam0 + lam) + h (lam - lam0)'(Phi_t1 - Phi_t0)/12, w = h R/2
  *
  * The work of drives is not an error: it is the integral of lam' Phi_t for linear lam and quadratic Phi_t. There lam is
- * that after (25), as in sensors: it differs from lam1 by a term of order h where the rate of a guide has a kink, and
- * (24) changes the energy by another; each alone is an error of first order, their sum is not.
+ * that after (25), as in sensors: it differs from lam1 by a term of order h where the rate of a driving function has a
+ * kink, and (24) changes the energy by another; each alone is an error of first order, their sum is not.
  *
- * A guide that follows an input starts to move within a step, with a large change of acceleration; lam0 then lacks the
- * jump, which Newton's iteration compensates. In that case, and without projection, the work of drives is that of their
- * rows, the force of the step times its displacement, plus the work of (24). */
+ * A driving function that follows an input starts to move within a step, with a large change of acceleration; lam0
+ * then lacks the jump, which Newton's iteration compensates. In that case, and without projection, the work of drives
+ * is that of their rows, the force of the step times its displacement, plus the work of (24). */
 #include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../flexible/mass.h"
@@ -26,7 +26,7 @@
 static void drive_weights(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   ali3_vectors mean = in->next;
-  mean.sd = in->guide.mean;
+  mean.sd = in->driving.mean;
   for (int32_t g = 0; g < S->size.ng; g++) mean.sd[g] = (in->next.s[g] - in->now.s[g]) / h;
   ali3_constraint_rate(in, in->next.q, &mean, in->step.mu);
   ali3_constraint_rate(in, in->now.q, &in->now, in->step.drive);
@@ -36,18 +36,18 @@ static void drive_weights(ali3_instance *in, double h) {
   }
 }
 
-/* Whether the work of drives is the work of their rows: filtered guides move, or there is no projection. */
+/* Whether the work of drives is the work of their rows: filtered driving functions move, or there is no projection. */
 static truth work_by_rows(const ali3_instance *in) {
   truth uses_rows = {0};
-  for (int32_t g = 0; g < in->system->size.ng; g++) uses_rows |= in->guide.follows[g] != 0.0;
+  for (int32_t g = 0; g < in->system->size.ng; g++) uses_rows |= in->driving.follows[g] != 0.0;
   if (!in->settings.project) uses_rows |= ali3_not(uses_rows);
   return uses_rows;
 }
 
 /* Energy error before the projections: in->tangent.J and in->step.Phit are those at the end of the step, in->next.lam
- * is that of Newton's iteration. projection_work adds the terms of lam after (25), also to *guide_work, the work of
+ * is that of Newton's iteration. projection_work adds the terms of lam after (25), also to *driving_work, the work of
  * drives. Writes Phi_q v to in->step.mu for (24). */
-real ali3_constraint_work(ali3_instance *in, double h, real *guide_work) {
+real ali3_constraint_work(ali3_instance *in, double h, real *driving_work) {
   const ali3_system *S = in->system;
   real work = {0}, rate_work = {0}, drive_work = {0}, newton_term = {0};
   truth use_rows = {0};
@@ -68,15 +68,15 @@ real ali3_constraint_work(ali3_instance *in, double h, real *guide_work) {
     const int32_t k = S->driven_row[i];
     newton_term -= 0.5 * in->step.gamma[k] * (in->next.lam[k] - in->now.lam[k]);
   }
-  *guide_work = rate_work + ali3_where(use_rows, drive_work + newton_term, ali3_same(0.0));
+  *driving_work = rate_work + ali3_where(use_rows, drive_work + newton_term, ali3_same(0.0));
   return work + ali3_where(use_rows, -newton_term, drive_work);
 }
 
 /* Energy error of the projections: the kinetic energy that (24) adds to the velocity rate D + hat, which is work of
- * drives where filtered guides move, minus the work of drives by the multipliers after (25). *kinetic: kinetic energy
- * of the mean of the velocities before and after (24), *end: that after (24) without the square of its change, *open:
- * power of the forces that (25) leaves unbalanced. */
-ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guide_work) {
+ * drives where filtered driving functions move, minus the work of drives by the multipliers after (25). *kinetic:
+ * kinetic energy of the mean of the velocities before and after (24), *end: that after (24) without the square of its
+ * change, *open: power of the forces that (25) leaves unbalanced. */
+ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *driving_work) {
   const ali3_vectors *v = &in->next;
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -100,13 +100,13 @@ ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, r
   *open = power;
   if (S->n_driven == 0) return added;
   const truth use_rows = work_by_rows(in);
-  *guide_work += ali3_where(use_rows, added, drive);
+  *driving_work += ali3_where(use_rows, added, drive);
   return ali3_where(use_rows, ali3_same(0.0), added - drive);
 }
 
 ALI3_BY_PROCESSOR(in->system, real, projection_work,
-                  (ali3_instance * in, real *kinetic, real *end, real *open, real *guide_work),
-                  (in, kinetic, end, open, guide_work))
+                  (ali3_instance * in, real *kinetic, real *end, real *open, real *driving_work),
+                  (in, kinetic, end, open, driving_work))
 
 /* Reference for energy errors: the kinetic energy, the energy that the forces in in->step.Q can add in a step, and that
  * of the residual's tolerance. */

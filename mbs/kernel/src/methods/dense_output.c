@@ -1,13 +1,14 @@
 /* Dense output: the state at any time within a controlled step. Positions, velocities and accelerations at its start,
  * centre and end give a polynomial of degree eight (Hermite interpolation); accelerations, multipliers and outputs of
  * elements follow from the equations of index one. If these accelerations show an error above the tolerance, or with
- * element states, filtered guides or sensed work, a step of the method is made to that time and discarded. */
+ * element states, filtered driving functions or sensed work, a step of the method is made to that time and
+ * discarded. */
 #include <math.h>
 #include <string.h>
 
 #include "../instance.h"
 #include "../method.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../sensors/sensors.h"
 #include "../start/index_one.h"
 #include "../state/inputs.h"
@@ -76,7 +77,7 @@ static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, 
   ali3_interpolate(in, h, x, state);
   /* scratch: D interpolated accelerations, w and r errors of positions and velocities */
   memcpy(in->step.D, state->qdd, (size_t)nq * sizeof(double));
-  ali3_guides_time(in, state, time);
+  ali3_driving_time(in, state, time);
   in->clock.now = time;
   ali3_status status = ali3_inputs_begin(in, time, 0.0);
   if (status == ALI3_OK) status = ali3_index_one(in, state);
@@ -91,12 +92,12 @@ static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, 
          measure->control->tolerance;
 }
 
-/* Only with element states, filtered guides or sensed work: computes in->next close to the start from the polynomial, with the
- * forces and states of the start. */
+/* Only with element states, filtered driving functions or sensed work: computes in->next close to the start from the
+ * polynomial, with the forces and states of the start. */
 static void evaluate_near_start(ali3_instance *in, double t, double h, double time) {
   ali3_vectors_copy(in, &in->next, &in->stored.origin);
   ali3_interpolate(in, h, 2.0 * (time - t) / h - 1.0, &in->next);
-  ali3_guides_time(in, &in->next, time);
+  ali3_driving_time(in, &in->next, time);
   ali3_work_extrapolated(in, time - t);
 }
 
@@ -126,7 +127,7 @@ ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, do
                               double *out, double *positions) {
   const bool relative = ali3_method_of(in)->relative;
   const bool at_end = time >= t + h - END_FRACTION * h;
-  const bool has_work = in->system->n_work + in->system->n_guide_work > 0; /* work is known at the ends of steps */
+  const bool has_work = in->system->n_work + in->system->n_driving_work > 0; /* work is known at the ends of steps */
   const bool smooth = ali3_states_are_coordinates(in->system) && (at_end || !has_work);
   if (at_end && !relative) {
     write_outputs(in, out, positions);

@@ -4,7 +4,7 @@
 #define ALI3_METHODS_ENERGY_BALANCE_H
 #include "../instance.h"
 
-/* Kinetic energy of in->now, J; prepares flexible and tabled bodies at in->now.q. */
+/* Kinetic energy of in->now, J; prepares flexible and lookup-table bodies at in->now.q. */
 double ali3_kinetic_energy(ali3_instance *in);
 /* Kinetic and potential energy of in->now, J; updates report.kinetic_peak. */
 double ali3_energy(ali3_instance *in);

@@ -17,7 +17,7 @@
 #include "../method.h"
 #include "../rows/constraints.h"
 #include "../rows/discrete_rows.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../rows/velocity_rows.h"
 #include "../rows/violation.h"
 #include "../state/inputs.h"
@@ -64,8 +64,8 @@ static double raised_penalty(const ali3_instance *in, double h) {
     }
     if (square > turn) turn = square;
   }
-  const double most_refinements = MAX_RAISE * 0.5 / (in->settings.eps_rel * EPS_FACTOR);
-  return fmax(weight, fmin(most_refinements, SIGN_CHANGE / turn));
+  const double largest = MAX_RAISE * 0.5 / (in->settings.eps_rel * EPS_FACTOR);
+  return fmax(weight, fmin(largest, SIGN_CHANGE / turn));
 }
 
 /* Rows and residual r = M (D - h v) + inertia - h^2/2 (Q - A' lam) of the iterate D, with the forces of the middle. */
@@ -224,7 +224,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
   const bool is_composed = settings->method != ALI3_METHOD_ENERGY_MOMENTUM;
   const double alpha = 2.0 * weight / (h * h), refine = fmin(1.0, REFINE_COMPOSED * fabs(h));
   const double least_r = is_composed ? refine : REFINE_R * fabs(h), least_v = is_composed ? refine : REFINE_PHI;
-  const int32_t most_refinements = is_composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
+  const int32_t largest = is_composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
   double r, v, last = relative_error(in, &r, &v), limit = is_composed ? correction_limit(in, h) : 0.0;
   int32_t refinements = 0, diverging = 0;
   bool new_tangent = true;
@@ -241,7 +241,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
     if (last <= 1.0 && size > last) return undo_correction(in, h);
     if (!patient && new_tangent && size > last && ++diverging == MAX_DIVERGING) return ALI3_NOT_CONVERGED;
     const bool slow = k > 0 && ratio > SLOW_RATIO;
-    if (size <= 1.0 && (refinements++ == most_refinements || slow)) return ALI3_OK;
+    if (size <= 1.0 && (refinements++ == largest || slow)) return ALI3_OK;
     new_tangent = slow || (size > 1.0 && size * ratio * ratio > REFACTORISE_ERROR);
     last = size;
   }
@@ -294,7 +294,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double m
   ali3_vectors *from = &in->now, *to = &in->next;
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
-  ali3_guides_step(in, from, to, t, h);
+  ali3_driving_step(in, from, to, t, h);
   ali3_status status = ali3_inputs_at(in, middle);
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
@@ -312,7 +312,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double m
   ALI3_EACH(0, nq, ALI3_AT(own) = two_rates * ALI3_AT(D) - ALI3_AT(before);
             ALI3_AT(d0) = 2.0 * (ALI3_AT(D) - h * ALI3_AT(before)) / square)
   ali3_work_step(in, 1.0);
-  if (S->n_guide_work > 0) to->work[S->n_work] = from->work[S->n_work] + work_of_drives(in);
+  if (S->n_driving_work > 0) to->work[S->n_work] = from->work[S->n_work] + work_of_drives(in);
   ali3_predict_rates(in, h);
   remove_redundant(in, weight, to->lam);
   ali3_history_append(in, h, in->step.d0);
@@ -355,17 +355,17 @@ void ali3_energy_momentum_motion(ali3_instance *in, double h) {
   ali3_balance_change(in, h, n_past ? from->own : from->qd, n_past ? from->past_a : from->qdd, in->now.own);
 }
 
-/* Tabled bodies have no discrete derivatives. */
+/* Lookup-table bodies have no discrete derivatives. */
 static ali3_status check_system(const ali3_instance *in) {
-  return in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ALI3_OK;
+  return in->system->n_lookup > 0 ? ALI3_WRONG_METHOD : ALI3_OK;
 }
 
 const ali3_method ali3_method_energy_momentum = {.step = step,
                                                  .check_system = check_system,
-                                                 .excludes = "no tabled bodies",
+                                                 .excludes = "no lookup-table bodies",
                                                  .before = before,
                                                  .motion = ali3_energy_momentum_motion,
-                                                 .has_guides_work = ali3_always,
+                                                 .has_driving_work = ali3_always,
                                                  .after_unobserved = ali3_energy_momentum_report,
                                                  .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                  .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -22,7 +22,7 @@ ali3_status ali3_energy_judge(ali3_instance *in, const ali3_request *request, do
   const double predicted = fabs(error + 0.5 * request->h * (open - in->report.open_power)),
                worse = fmax(fabs(error), predicted);
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
-  const bool driven = in->system->n_gterm_row > 0; /* a jump of the rate of a guide adds energy */
+  const bool driven = in->system->n_gterm_row > 0; /* a jump of the rate of a driving function adds energy */
   const bool resolved = driven || worse <= (halves_left(in, request) ? MAX_RATIO_OF_PART : MAX_RATIO) * size;
   if (!resolved && in->settings.step_iterations == 0) return ALI3_UNRESOLVED;
   in->bound.capped |= !resolved; /* not halved: the balance and the count of capped steps report it */

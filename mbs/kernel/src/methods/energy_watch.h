@@ -5,14 +5,14 @@
 #include "../instance.h"
 #include "../request.h"
 
-/* Energy error of a step h, s, before the projections; adds the work of drives to *guide_work and writes Phi_q v to
+/* Energy error of a step h, s, before the projections; adds the work of drives to *driving_work and writes Phi_q v to
  * in->step.mu. Needs in->tangent.J and in->step.Phit at the end of the step, and the multipliers of Newton's
  * iteration. */
-ALI3_PER_WIDTH real ali3_constraint_work(ali3_instance *in, double h, real *guide_work);
+ALI3_PER_WIDTH real ali3_constraint_work(ali3_instance *in, double h, real *driving_work);
 /* Energy error of the projections. *kinetic: kinetic energy of the mean of the velocities before and after (24), *end:
  * that after (24) without the square of its change, both J; *open: power of the forces that (25) leaves unbalanced, W;
- * adds the work of drives to *guide_work. */
-ALI3_PER_WIDTH real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guide_work);
+ * adds the work of drives to *driving_work. */
+ALI3_PER_WIDTH real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *driving_work);
 /* Reference for energy errors, J: the kinetic energy, the energy that the forces in in->step.Q can add in a step, and
  * that of the residual's tolerance. */
 ALI3_PER_WIDTH real ali3_energy_size(const ali3_instance *in, double h, real kinetic);

@@ -9,7 +9,7 @@
 #include "../algebra/elementary.h"
 #include "../instance.h"
 #include "../method.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../start/initialise.h"
 #include "../state/inputs.h"
 #include "../state/road_files.h"
@@ -54,13 +54,13 @@ static void set_time(ali3_instance *in, double t) {
   in->clock.now = t;
 }
 
-/* Computes accelerations and multipliers after a jump of inputs or guides and clears the history. */
+/* Computes accelerations and multipliers after a jump of inputs or driving functions and clears the history. */
 ali3_status ali3_refresh(ali3_instance *in) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   in->clock.now = ali3_time(in);
   ali3_vectors_copy(in, &in->stored.start, &in->now);
-  ali3_guides_time(in, &in->now, in->clock.now);
+  ali3_driving_time(in, &in->now, in->clock.now);
   ali3_status status = in->inputs.function != NULL ? ali3_inputs_begin(in, in->clock.now, 0.0) : ALI3_OK;
   if (in->inputs.function != NULL)
     memcpy(in->inputs.set, in->inputs.begin, (size_t)in->system->size.nu * sizeof(double));
@@ -250,7 +250,7 @@ static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_
   ali3_status status = ALI3_OK;
   double t = ali3_time(in);
   for (int64_t n = 0; n < most_steps && t < t_end && status == ALI3_OK; n++) {
-    const double piece_end = ali3_guides_until(in, t, t_end);
+    const double piece_end = ali3_driving_until(in, t, t_end);
     const double end_before = fmax(t, piece_end - 4.0 * 2.3e-16 * fabs(piece_end)); /* still in this piece */
     double h = 0.0;
     status = controlled_step(in, measure, t, piece_end < t_end ? end_before : t_end, &h);

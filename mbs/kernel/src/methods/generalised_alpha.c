@@ -52,7 +52,7 @@ void ali3_alpha_rule(ali3_instance *in, double h) {
   const ali3_rule rule = {.c = c, .rate = rate, .wC = c * rate};
   const ali3_vectors *from = &in->now;
   in->rule = rule;
-  for (int32_t g = 0; g < in->system->size.ng; g++) in->guide.follows[g] = 0.0; /* multipliers are not averaged */
+  for (int32_t g = 0; g < in->system->size.ng; g++) in->driving.follows[g] = 0.0; /* multipliers are not averaged */
   ali3_history_own(in, ALI3_METHOD_GENERALISED_ALPHA, from->qdd);
   if (is_first_damped(in, h)) {
     const ali3_rule first = {.c = 0.5 * h * h, .rate = 2.0 / h, .wC = h};

@@ -1,6 +1,6 @@
 /* Accelerations and multipliers at the start of a step where inputs jump: the trapezoidal rule uses them, and those
- * before the jump would delay every force by half a step. A guide that follows an input has a continuous rate and needs
- * no change. */
+ * before the jump would delay every force by half a step. A driving function that follows an input has a continuous
+ * rate and needs no change. */
 #include <string.h>
 
 #include "../algebra/fronts.h"
@@ -49,7 +49,7 @@ static ali3_status input_change(ali3_instance *in, double h, const double *befor
   ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
   ali3_mass_to_fronts(in, in->tangent.F);
   ali3_rows_square(in, in->tangent.J, ALI3_INDEX_ONE_PENALTY, in->tangent.F);
-  if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.5 * h, 0.25 * h * h, in->tangent.F);
+  if (S->n_flexible + S->n_lookup > 0) ali3_bodies_tangent(in, 1.0, 0.5 * h, 0.25 * h * h, in->tangent.F);
   const ali3_status status = ali3_factorise(in, in->tangent.F);
   if (status != ALI3_OK) return status;
   ali3_solve(in, in->tangent.F, in->step.x);

@@ -12,7 +12,7 @@
 #include "../instance.h"
 #include "../method.h"
 #include "../rows/constraints.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
@@ -127,7 +127,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
-  if (S->n_guide_work > 0) ali3_guides_work(in, to, work_of_drives(in, t, h));
+  if (S->n_driving_work > 0) ali3_driving_work(in, to, work_of_drives(in, t, h));
   memcpy(to->qdd, stage_acceleration(in, LAST), nq * sizeof(double));
   memcpy(to->lam, stage_rows(in, in->radau.lam, LAST), (size_t)S->size.nc * sizeof(double));
   for (int i = 0; i < STAGES; i++) ali3_work_stage(in, h * A[LAST][i], stage_power(in, i), to->work);
@@ -144,14 +144,14 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
 
 /* The tangent of the stages does not include rates of rows. */
 static ali3_status check_system(const ali3_instance *in) {
-  return in->system->n_velocity_row + in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_states(in);
+  return in->system->n_velocity_row + in->system->n_lookup > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_states(in);
 }
 
 const ali3_method ali3_method_radau_5 = {.step = step,
                                          .motion = ali3_balance_long_step,
-                                         .has_guides_work = ali3_always,
+                                         .has_driving_work = ali3_always,
                                          .check_system = check_system,
-                                         .excludes =
-                                             ALI3_STATES_IN_WORDS ", no tabled bodies, and no rolling without slip",
+                                         .excludes = ALI3_STATES_IN_WORDS
+                                         ", no lookup-table bodies, and no rolling without slip",
                                          .owner = ALI3_METHOD_RADAU_5,
                                          .round_off = ALI3_ROUND_OFF_COLLOCATION};

@@ -33,7 +33,7 @@ static inline double *stage_entries(const ali3_instance *in, double *v, int i) {
   return v + i * in->system->size.nnz_rows;
 }
 
-/* Sets position, velocity, guides and inputs of stage i. */
+/* Sets position, velocity, driving functions and inputs of stage i. */
 void ali3_radau_set_stage(ali3_instance *in, double t, double h, int i);
 
 /* Newton's iteration until the tolerances hold and the remaining error, estimated from the last correction and the

@@ -12,7 +12,7 @@
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../rows/violation.h"
 #include "newton.h"
 #include "radau.h"
@@ -37,7 +37,7 @@ void ali3_radau_set_stage(ali3_instance *in, double t, double h, int i) {
     to->q[k] = from->q[k] + h * (node[i] * from->qd[k] + h * (A2[i][0] * a0[k] + A2[i][1] * a1[k] + A2[i][2] * a2[k]));
   }
   in->inputs.forces = in->inputs.stage + (int64_t)i * in->system->size.nu;
-  ali3_guides_time(in, to, t - (1.0 - node[i]) * h);
+  ali3_driving_time(in, to, t - (1.0 - node[i]) * h);
 }
 
 /* Forces at in->next; tangents of elements for weights above 0. */

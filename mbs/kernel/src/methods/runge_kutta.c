@@ -11,7 +11,7 @@
 #include "../instance.h"
 #include "../method.h"
 #include "../rows/constraints.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../rows/violation.h"
 #include "../start/index_one.h"
 #include "../state/inputs.h"
@@ -109,28 +109,28 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   ali3_status status = accelerations_after_jump(in);
   memcpy(in->step.stage, to->qdd, (size_t)nq * sizeof(double));
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
-  const bool has_energy_check = S->n_flexible + S->n_tabled == 0; /* else in->step.Q has inertia forces too */
+  const bool has_energy_check = S->n_flexible + S->n_lookup == 0; /* else in->step.Q has inertia forces too */
   const double kinetic = has_energy_check ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->step.r) : 0.0;
   double work =
       has_energy_check ? h * ali3_tableau_8.b[0] * ali3_mass_product(in, from->qd, in->step.stage, in->step.r) : 0.0;
   ali3_work_stage(in, h * ali3_tableau_8.b[0], to->watched, to->work);
-  const bool guides = S->n_guide_work > 0;
-  double guide_work = guides ? h * ali3_tableau_8.b[0] * ali3_guides_power(in, to) : 0.0;
+  const bool driving = S->n_driving_work > 0;
+  double driving_work = driving ? h * ali3_tableau_8.b[0] * ali3_driving_power(in, to) : 0.0;
   for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
     combine(in, h, ali3_tableau_8.c[stage], ali3_tableau_8.a[stage], stage);
-    ali3_guides_time(in, to, t - (1.0 - ali3_tableau_8.c[stage]) * h);
+    ali3_driving_time(in, to, t - (1.0 - ali3_tableau_8.c[stage]) * h);
     status = ali3_inputs_at(in, ali3_tableau_8.c[stage]);
     if (status != ALI3_OK) break;
     status = ali3_index_one(in, to);
     ali3_work_stage(in, h * ali3_tableau_8.b[stage], in->watch.now, to->work);
-    if (guides) guide_work += h * ali3_tableau_8.b[stage] * ali3_guides_power(in, to);
+    if (driving) driving_work += h * ali3_tableau_8.b[stage] * ali3_driving_power(in, to);
     if (has_energy_check) work += h * ali3_tableau_8.b[stage] * force_power(in, to);
     memcpy(in->step.stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
   }
   in->inputs.forces = in->inputs.set;
   if (status == ALI3_OK) {
     combine(in, h, 1.0, ali3_tableau_8.b, STAGES);
-    ali3_guides_time(in, to, t);
+    ali3_driving_time(in, to, t);
     status = project(in);
   }
   if (status == ALI3_OK) status = ali3_index_one(in, to);
@@ -142,7 +142,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   }
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
-  ali3_guides_work(in, to, guide_work);
+  ali3_driving_work(in, to, driving_work);
   to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
   for (int32_t i = 0; i < nq; i++) in->step.D[i] = to->q[i] - from->q[i];
   ali3_predict_rates(in, h);
@@ -151,12 +151,12 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
 }
 
 /* The energy balance needs a constant mass matrix. */
-static bool has_balance(const ali3_instance *in) { return in->system->n_flexible + in->system->n_tabled == 0; }
+static bool has_balance(const ali3_instance *in) { return in->system->n_flexible + in->system->n_lookup == 0; }
 
 const ali3_method ali3_method_runge_kutta_8 = {.step = step,
                                                .motion = ali3_balance_long_step,
                                                .has_balance = has_balance,
-                                               .has_guides_work = ali3_always,
+                                               .has_driving_work = ali3_always,
                                                .check_system = ali3_needs_no_states,
                                                .excludes = ALI3_STATES_IN_WORDS,
                                                .owner = ALI3_METHOD_RUNGE_KUTTA_8,

@@ -4,11 +4,11 @@
 #include "../instance.h"
 #include "../request.h"
 
-/* Whether a step of h to time t is divided where inputs or guides jump, or to resolve a guide or a force by table, or
- * ends at a jump of a guide. */
+/* Whether a step of h to time t is divided where inputs or driving functions jump, or to resolve a driving function or
+ * a force by table, or ends at a jump of a driving function. */
 bool ali3_is_divided(const ali3_instance *in, double t, double h);
-/* Makes a step in parts that end where inputs or guides jump or that resolve guides and forces by table; returns its
- * status, after a failure with in->now unchanged. */
+/* Makes a step in parts that end where inputs or driving functions jump or that resolve driving functions and forces
+ * by table; returns its status, after a failure with in->now unchanged. */
 ali3_status ali3_advance(ali3_instance *in, const ali3_request *request);
 /* Makes a step of energy-momentum from in->now to in->next; in->now changes only if it succeeds. t: time at its end; h
  * may be negative; `middle`: its middle as a fraction of the step of ali3_inputs_begin; `reported`: the end is read. */

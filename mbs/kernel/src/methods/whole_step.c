@@ -4,12 +4,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "../lookup/lookup.h"
 #include "../method.h"
 #include "../start/initialise.h"
 #include "../state/inputs.h"
 #include "../state/road_files.h"
 #include "../state/vectors.h"
-#include "../tabled/tabled.h"
 #include "branch_watch.h"
 #include "energy_balance.h"
 #include "energy_watch.h"

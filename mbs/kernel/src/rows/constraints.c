@@ -7,7 +7,7 @@
 #include "../algebra/real.h"
 #include "../instance.h"
 #include "constraints.h"
-#include "guide_terms.h"
+#include "driving_terms.h"
 #include "switch_rows.h"
 #include "velocity_rows.h"
 
@@ -38,8 +38,8 @@ static inline int32_t add_points(const ali3_system *S, int32_t t, int32_t end, c
   return t;
 }
 
-/* Entries i to i + n - 1 of Phi_q, a stretch, go to `out`: their constants and their terms, of which three are added while
- * an entry is in hand. */
+/* Entries i to i + n - 1 of Phi_q, a stretch, go to `out`: their constants and their terms, of which three are added
+ * while an entry is in hand. */
 static inline void put_stretch(const ali3_system *S, int32_t i, int32_t n, const real *q, real *restrict out) {
   const int32_t terms = S->hess_ptr[i + 1] - S->hess_ptr[i], *col = S->hess_col + S->hess_ptr[i];
   const double *restrict hess = S->hess_val + S->hess_ptr[i], *restrict lin = S->row_lin + i;
@@ -78,7 +78,8 @@ static inline real stretch_gamma(const ali3_system *S, int32_t i, int32_t n, con
   return sum;
 }
 
-/* Phi_q = row_lin + hess q and Phi = row_const + (row_lin + Phi_q) q / 2, then what guides, angles and rates add. */
+/* Phi_q = row_lin + hess q and Phi = row_const + (row_lin + Phi_q) q / 2, then what driving functions, angles and
+ * rates add. */
 ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
@@ -110,7 +111,7 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
     if (i > first) value += ali3_sum_product_backward(J + first, row_lin + first, q + col[first], i - first);
     Phi[k] = S->row_const[k] + 0.5 * value;
   }
-  guide_values(S, q, s, Phi, J);
+  driving_values(S, q, s, Phi, J);
   for (int64_t i = 0; i < S->n_angle_row; i++) {
     const real theta = q[S->angle_theta_col[i]], cosine = ali3_cos(theta), sine = ali3_sin(theta);
     real along = {0}, across = {0}; /* C and S */
@@ -137,17 +138,17 @@ const real *ali3_near_origin(ali3_instance *in, const real *q) {
   return in->system->size.has_pose ? near_origin(in, q) : q;
 }
 
-void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit) {
+void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *driving, real *Phit) {
   const ali3_system *S = in->system;
   memset(Phit, 0, (size_t)S->size.nc * sizeof *Phit);
   if (S->n_gterm_row == 0) return;
   if (S->size.has_pose) q = near_origin(in, q);
-  guide_rates(S, q, guides, Phit);
+  driving_rates(S, q, driving, Phit);
   if (S->size.n_switch > 0) ali3_switch_values(in, Phit);
 }
 
 /* gamma = d(Phi_q)/dt qd + d(Phi_t)/dt, so that Phi'' = Phi_q qdd + gamma. */
-ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides,
+ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *driving,
                                    real *gamma) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
@@ -166,7 +167,7 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
     if (i < ptr[k + 1]) value += stretch_gamma(S, i, ptr[k + 1] - i, qd);
     gamma[k] = value;
   }
-  guide_gamma(S, q, qd, guides, gamma);
+  driving_gamma(S, q, qd, driving, gamma);
   for (int64_t i = 0; i < S->n_angle_row; i++) {
     const real theta = q[S->angle_theta_col[i]], rate = qd[S->angle_theta_col[i]], cosine = ali3_cos(theta),
                sine = ali3_sin(theta);
@@ -187,8 +188,8 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
 }
 
 ALI3_BY_PROCESSOR(in->system, void, constraint_gamma,
-                  (ali3_instance * in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma),
-                  (in, q, qd, guides, gamma))
+                  (ali3_instance * in, const real *q, const real *qd, const ali3_vectors *driving, real *gamma),
+                  (in, q, qd, driving, gamma))
 
 /* The terms of the stretch of row k, which are columns of its front. */
 static inline void stretch_geometric(const ali3_system *S, int32_t k, real factor, real *F) {
@@ -212,7 +213,7 @@ ALI3_INLINED void geometric(ali3_instance *in, const real *q, const real *s, con
     if (S->quad_end[k] < ptr[k + 1]) stretch_geometric(S, k, factor, F);
     for (int32_t t = ptr[k]; t < S->quad_end[k]; t++) F[pos[t]] += factor * second[t];
   }
-  guide_geometric(S, s, lam, weight, F);
+  driving_geometric(S, s, lam, weight, F);
   for (int64_t i = 0; i < S->n_angle_row; i++) {
     const real theta = q[S->angle_theta_col[i]], factor = weight * lam[S->angle_row[i]];
     const real cosine = factor * ali3_cos(theta), sine = factor * ali3_sin(theta);

@@ -1,6 +1,7 @@
-/* Discrete derivative A of the rows over a step: A (q1 - q0) = Phi(q1, s) - Phi(q0, s) at mean guide factors, exactly.
- * For quadratic rows it is the mean of Phi_q at both ends; guided and angle rows are products of three factors, for
- * which the mean of the derivatives differs from the derivative of the means by products of two increments. */
+/* Discrete derivative A of the rows over a step: A (q1 - q0) = Phi(q1, s) - Phi(q0, s) at mean driving function
+ * factors, exactly. For quadratic rows it is the mean of Phi_q at both ends; guided and angle rows are products of
+ * three factors, for which the mean of the derivatives differs from the derivative of the means by products of two
+ * increments. */
 #include <string.h>
 
 #include "../algebra/elementary.h"
@@ -9,13 +10,13 @@
 #include "discrete_rows.h"
 #include "switch_rows.h"
 
-/* Corrects A for terms with guides that change from s0 to s1. */
+/* Corrects A for terms with driving functions that change from s0 to s1. */
 static void correct_guided(const ali3_instance *in, const double *D, const double *s0, const double *s1) {
   const ali3_system *S = in->system;
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
-    const ali3_guide_term *g = &S->gterm[t];
+    const ali3_driving_term *g = &S->gterm[t];
     if (ali3_row_is_off(in, g->row)) continue;
-    const double a = s0[g->guide], b = s1[g->guide];
+    const double a = s0[g->driving], b = s1[g->driving];
     const double quarter = 0.25 * g->term.h * (g->power == 1 ? b - a : (b - a) * (b + a));
     if (g->term.a >= 0 && g->term.b >= 0) {
       in->discrete.A[g->term.ja] -= quarter * D[g->term.b];

@@ -6,7 +6,7 @@
 #ifndef ALI3_TURNING_H
 #define ALI3_TURNING_H
 #include "../algebra/elementary.h"
-#include "guide_terms.h"
+#include "driving_terms.h"
 
 /* Phi_q qd of an angle's row. */
 static inline real angle_rate(const ali3_system *S, int32_t i, const real *q, const real *qd) {

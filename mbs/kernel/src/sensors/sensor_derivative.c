@@ -7,8 +7,8 @@
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../lookup/lookup.h"
 #include "../system/sensor_types.h"
-#include "../tabled/tabled.h"
 #include "sensors.h"
 
 typedef struct {
@@ -19,7 +19,7 @@ typedef struct {
 static double evaluate_signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const double *column = order == 0 ? x->q : (order == 1 ? x->qd : x->qdd);
-  if (S->n_tabled > 0) column = in->tabled.extended[order + (x == &in->stored.direction)]; /* a direction is a rate */
+  if (S->n_lookup > 0) column = in->lookup.extended[order + (x == &in->stored.direction)]; /* a direction is a rate */
   double sum = 0.0;
   for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * column[S->sig_col[k]];
   return sum;
@@ -146,7 +146,7 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
     kinetic += in->step.x[i] * in->stored.direction.qd[i];
     gravity -= in->mass.gravity[i] * in->stored.direction.q[i];
   }
-  if (S->n_tabled > 0) ali3_tabled_power(in, in->now.qd, &kinetic, &gravity);
+  if (S->n_lookup > 0) ali3_lookup_power(in, in->now.qd, &kinetic, &gravity);
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->stored.direction.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
@@ -189,8 +189,8 @@ static double change_angle_about(const ali3_instance *in, const int32_t *v, cons
   return angle_change(dot(turn.v, c.v), dot(a.v, b.v), dot_change(&turn, &c), dot_change(&a, &b));
 }
 
-/* v: guide, order; real: scale. */
-static double change_guide(const ali3_instance *in, const int32_t *v, const double *real) {
+/* v: driving function, order; real: scale. */
+static double change_driving(const ali3_instance *in, const int32_t *v, const double *real) {
   const double *of_order[3] = {in->stored.direction.s, in->stored.direction.sd, in->stored.direction.sdd};
   return real[0] * of_order[v[1]][v[0]];
 }
@@ -236,9 +236,9 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
     memcpy(d->s, now->sd, ng);
     memcpy(d->sd, now->sdd, ng);
   }
-  if (S->n_tabled > 0) {
-    ali3_tabled_prepare(in, now->q);
-    ali3_tabled_extend(in, now->q, now->qd, now->qdd, true);
+  if (S->n_lookup > 0) {
+    ali3_lookup_prepare(in, now->q);
+    ali3_lookup_extend(in, now->q, now->qd, now->qdd, true);
   }
   for (int32_t i = 0; i < S->size.ns; i++) {
     const int32_t type = S->sen_type[i], *v = S->sen_int + S->sen_int_ptr[i];

@@ -1,5 +1,5 @@
-/* Values of sensors in the present state: one function for each type of sensor_types.h, called with the integers v and the
- * reals of the sensor. */
+/* Values of sensors in the present state: one function for each type of sensor_types.h, called with the integers v and
+ * the reals of the sensor. */
 #include <math.h>
 #include <string.h>
 
@@ -8,16 +8,16 @@
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
-#include "../rows/guides.h"
+#include "../lookup/lookup.h"
+#include "../rows/driving_functions.h"
 #include "../state/work.h"
 #include "../system/sensor_types.h"
-#include "../tabled/tabled.h"
 #include "sensors.h"
 
 /* Value of signal i (order 0), its rate (1) or its second rate (2). */
 static double evaluate_signal(const ali3_instance *in, int32_t i, int32_t order) {
   const double *own = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
-  const double *x = in->system->n_tabled > 0 ? in->tabled.extended[order] : own;
+  const double *x = in->system->n_lookup > 0 ? in->lookup.extended[order] : own;
   return ali3_signal_at(in->system, i, x, order > 0);
 }
 
@@ -61,12 +61,13 @@ static double value_component(const ali3_instance *in, const int32_t *v, const d
 static double signal_of_modes(const ali3_instance *in, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const int32_t first = S->sig_ptr[i], n = S->sig_ptr[i + 1] - first, *col = S->sig_col + first;
-  if (!ali3_consecutive(col, n) || S->n_tabled > 0) return evaluate_signal(in, i, order);
+  if (!ali3_consecutive(col, n) || S->n_lookup > 0) return evaluate_signal(in, i, order);
   const double *x = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
   return (order == 0 ? S->sig_const[i] : 0.0) + ali3_product_backward(S->sig_val + first, x + col[0], n);
 }
 
-/* Position of a point of a flexible body or its rates, by Leibniz' rule: r + sum of axis_i times signal_i of its modes. */
+/* Position of a point of a flexible body or its rates, by Leibniz' rule: r + sum of axis_i times signal_i of its
+ * modes. */
 void ali3_carried(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]) {
   static const double binomial[3][3] = {{1.0}, {1.0, 1.0}, {1.0, 2.0, 1.0}};
   evaluate_vector(in, v, order, out);
@@ -200,7 +201,7 @@ static double value_reaction(const ali3_instance *in, const int32_t *v, const do
   return sum;
 }
 
-/* A multiplier times a constant weight, up to three signals and the value of a guide. */
+/* A multiplier times a constant weight, up to three signals and the value of a driving function. */
 static double reaction_product(const ali3_instance *in, const int32_t *term, double weight) {
   double value = weight * in->system->row_scale[term[0]] * in->now.lam[term[0]];
   for (int i = 1; i < 4; i++)
@@ -215,12 +216,12 @@ static double value_reaction_products(const ali3_instance *in, const int32_t *v,
   return sum;
 }
 
-/* Sum of such products, where some are multiplied by the slope of a guide given by a table. */
+/* Sum of such products, where some are multiplied by the slope of a driving function given by a table. */
 static double value_reaction_by_table(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
   for (int32_t k = 0; k < v[0]; k++) {
     const int32_t *term = v + 1 + 6 * k;
-    const double slope = term[5] >= 0 ? ali3_guide_slope(in, term[5], in->now.s) : 1.0;
+    const double slope = term[5] >= 0 ? ali3_driving_slope(in, term[5], in->now.s) : 1.0;
     sum += slope * reaction_product(in, term, weight[k]);
   }
   return sum;
@@ -255,7 +256,8 @@ static double value_angle_about(const ali3_instance *in, const int32_t *v, const
   return ali3_atan2(dot(cross, c), dot(a, b));
 }
 
-/* Weighted sum of forces at the ports, specific acceleration of the origin and second rates of the axes, in body axes. */
+/* Weighted sum of forces at the ports, specific acceleration of the origin and second rates of the axes, in body
+ * axes. */
 static double value_quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
   const int32_t n = v[0], *row = v + 13;
   const double *gravity = real, *weight = real + 3;
@@ -287,17 +289,17 @@ static double value_scaled_input(const ali3_instance *in, const int32_t *v, cons
   return real[0] * in->now.used[v[0]];
 }
 
-/* v: guide, order; real: scale. */
-static double value_guide(const ali3_instance *in, const int32_t *v, const double *real) {
+/* v: driving function, order; real: scale. */
+static double value_driving(const ali3_instance *in, const int32_t *v, const double *real) {
   const double *of_order[3] = {in->now.s, in->now.sd, in->now.sdd};
   return real[0] * of_order[v[1]][v[0]];
 }
 
-/* What the inputs demand of a filtered guide minus what its limits allow; 0 without a filter. */
-static double value_guide_excess(const ali3_instance *in, const int32_t *v, const double *real) {
-  if (!ali3_guide_filters(in->system->guide_type[v[0]])) return 0.0;
-  const double demand = ali3_guide_demand(in, v[0], in->now.used);
-  return real[0] * (demand - ali3_guide_clamped(in, v[0], demand));
+/* What the inputs demand of a filtered driving function minus what its limits allow; 0 without a filter. */
+static double value_driving_excess(const ali3_instance *in, const int32_t *v, const double *real) {
+  if (!ali3_driving_filters(in->system->guide_type[v[0]])) return 0.0;
+  const double demand = ali3_driving_demand(in, v[0], in->now.used);
+  return real[0] * (demand - ali3_driving_clamped(in, v[0], demand));
 }
 
 static double value_solver(const ali3_instance *in, const int32_t *v, const double *real) {
@@ -310,8 +312,8 @@ static double value_work(const ali3_instance *in, const int32_t *v, const double
   return ali3_work_sum(in, v[0], v[1], v + 2);
 }
 
-/* J: work of all guides and nonconservative work of v[0] elements. */
-static double value_guided_work(const ali3_instance *in, const int32_t *v, const double *real) {
+/* J: work of all driving functions and nonconservative work of v[0] elements. */
+static double value_driving_work(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   return ali3_work_sum(in, 1, v[0], v + 1) + in->now.work[in->system->n_work];
 }
@@ -331,9 +333,9 @@ static double evaluate_sensor(const ali3_instance *in, int32_t i) {
 
 /* Evaluates lookup-table bodies in the present state, if there are any. */
 static void prepare(const ali3_instance *in) {
-  if (in->system->n_tabled == 0) return;
-  ali3_tabled_prepare(in, in->now.q);
-  ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd, true);
+  if (in->system->n_lookup == 0) return;
+  ali3_lookup_prepare(in, in->now.q);
+  ali3_lookup_extend(in, in->now.q, in->now.qd, in->now.qdd, true);
 }
 
 /* Values of n sensors, by their numbers or, with `number` NULL, of the first n. The energies are computed once for all

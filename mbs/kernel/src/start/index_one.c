@@ -30,7 +30,7 @@ ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
                                 .potential = v->potential};
   ali3_forces(in, &call);
   ali3_mass_to_fronts(in, in->tangent.F);
-  if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
+  if (S->n_flexible + S->n_lookup > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
   ali3_rows_square(in, in->tangent.J, ALPHA, in->tangent.F);
   const ali3_status status = ali3_factorise(in, in->tangent.F);
   if (status != ALI3_OK) return status;

@@ -6,7 +6,8 @@
 
 #define ALI3_INDEX_ONE_PENALTY 1e8 /* alpha: penalty of mass-normalised rows relative to M */
 
-/* Computes v->qdd (nq) and v->lam (nc) at v->q, v->qd and the guides of v, iterated from their present values. */
+/* Computes v->qdd (nq) and v->lam (nc) at v->q, v->qd and the driving functions of v, iterated from their present
+ * values. */
 ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v);
 /* Factorises in->tangent.F = M(q) + alpha Phi_q' Phi_q, with Phi_q in in->tangent.J. */
 ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q);

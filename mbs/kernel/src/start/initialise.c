@@ -12,7 +12,7 @@
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../rows/velocity_rows.h"
 #include "../rows/violation.h"
 #include "../state/road_files.h"
@@ -139,7 +139,7 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
 }
 
 ali3_status ali3_solve_initial(ali3_instance *in, double t) {
-  ali3_guides_start(in, &in->now, t);
+  ali3_driving_start(in, &in->now, t);
   const ali3_status status = close_position(in);
   return status == ALI3_OK ? ali3_solve_rates(in, true) : status;
 }

@@ -5,8 +5,8 @@
 #include "../elements/element.h"
 #include "../instance.h"
 
-/* Makes positions and velocities of in->now consistent, starts guides and elements, and computes accelerations and
- * multipliers. */
+/* Makes positions and velocities of in->now consistent, starts driving functions and elements, and computes
+ * accelerations and multipliers. */
 ali3_status ali3_solve_initial(ali3_instance *in, double t);
 /* The same for given positions; `start` false: discrete states of elements, such as a gear, and their work are kept. */
 ali3_status ali3_solve_rates(ali3_instance *in, bool start);

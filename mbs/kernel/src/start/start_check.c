@@ -5,7 +5,7 @@
 #include "../elements/tyre_contact.h"
 #include "../elements/tyre_fields.h"
 #include "../instance.h"
-#include "../tabled/tabled.h"
+#include "../lookup/lookup.h"
 #include "initialise.h"
 
 enum { MAX_RISES = 100 }; /* an element may report its rise in parts */
@@ -23,10 +23,10 @@ ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road 
       .integer = S->el_int + S->el_int_ptr[e],
       .roads = roads,
   };
-  if (S->n_tabled > 0) {
-    ali3_tabled_prepare(in, q);
-    ali3_tabled_extend(in, q, q, NULL, true);
-    q = in->tabled.extended[0];
+  if (S->n_lookup > 0) {
+    ali3_lookup_prepare(in, q);
+    ali3_lookup_extend(in, q, q, NULL, true);
+    q = in->lookup.extended[0];
   }
   for (int32_t i = 0; i < a.nsig; i++) {
     const int32_t signal = S->el_sig[first + i];

@@ -5,25 +5,25 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
+#include "../lookup/lookup.h"
 #include "../system/check.h"
-#include "../tabled/tabled.h"
 #include "axes.h"
 
 enum { X, Y, Z, AXES, REALS = ALI3_AXIS_REALS, SIGNALS = ALI3_AXIS_SIGNALS };
 enum { AZIMUTH, ELEVATION }; /* rad: indices of the numbers of an axis in axis_real */
-enum { MOMENTS = 4 }; /* first of the second moments xx, yy, zz, yz, zx, xy in ali3_tabled.mass */
+enum { MOMENTS = 4 }; /* first of the second moments xx, yy, zz, yz, zx, xy in ali3_lookup.mass */
 
 void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool) {
   const ali3_system *T = s->turned;
-  const size_t tabled = T != NULL ? (size_t)T->n_tabled : 0;
+  const size_t lookup = T != NULL ? (size_t)T->n_lookup : 0;
   in->parameters.axis_real = ali3_pool_array(pool, (size_t)s->n_axis_real);
   in->axes.system = T != NULL ? ali3_pool_items(pool, 1, sizeof *in->axes.system) : NULL;
   in->axes.val = ali3_pool_array(pool, T != NULL ? (size_t)T->n_sig_val : 0);
   in->axes.constant = ali3_pool_array(pool, T != NULL ? (size_t)T->n_sig_const : 0);
   in->axes.entry = ali3_pool_array(pool, T != NULL ? (size_t)T->el_entry_ptr[T->size.ne] : 0);
   in->axes.speed = ali3_pool_array(pool, T != NULL ? (size_t)T->n_pose_speed : 0);
-  in->axes.tabled = ali3_pool_items(pool, tabled, sizeof *in->axes.tabled);
-  in->axes.mass = ali3_pool_array(pool, tabled * ALI3_TABLED_MOMENTS);
+  in->axes.lookup = ali3_pool_items(pool, lookup, sizeof *in->axes.lookup);
+  in->axes.mass = ali3_pool_array(pool, lookup * ALI3_LOOKUP_MOMENTS);
 }
 
 /* Rotation matrix; columns: horizontal forward, along the axis, up in the plane of the wheel. */
@@ -114,7 +114,7 @@ static void write_moments(ali3_instance *in, int64_t k) {
   if (table < 0) return;
   ali3_axis_moments(in, k, change);
   for (int i = 0; i < 6; i++)
-    in->axes.mass[ALI3_TABLED_MOMENTS * table + MOMENTS + i] += change[entry[i][0]][entry[i][1]];
+    in->axes.mass[ALI3_LOOKUP_MOMENTS * table + MOMENTS + i] += change[entry[i][0]][entry[i][1]];
 }
 
 /* Writes the spin of wheel k for a start with a speed: it rolls, and its loaded radius increases with its
@@ -136,11 +136,11 @@ void ali3_axes_apply(ali3_instance *in) {
   memcpy(in->axes.val, T->sig_val, (size_t)T->n_sig_val * sizeof(double));
   memcpy(in->axes.constant, T->sig_const, (size_t)T->n_sig_const * sizeof(double));
   if (T->n_pose_speed > 0) memcpy(in->axes.speed, T->pose_speed, (size_t)T->n_pose_speed * sizeof(double));
-  for (int32_t i = 0; i < T->n_tabled; i++) {
-    double *mass = in->axes.mass + ALI3_TABLED_MOMENTS * i;
-    memcpy(mass, T->tabled[i].mass, ALI3_TABLED_MOMENTS * sizeof(double));
-    in->axes.tabled[i] = T->tabled[i];
-    in->axes.tabled[i].mass = mass;
+  for (int32_t i = 0; i < T->n_lookup; i++) {
+    double *mass = in->axes.mass + ALI3_LOOKUP_MOMENTS * i;
+    memcpy(mass, T->lookup[i].mass, ALI3_LOOKUP_MOMENTS * sizeof(double));
+    in->axes.lookup[i] = T->lookup[i];
+    in->axes.lookup[i].mass = mass;
   }
   for (int64_t k = 0; k < S->n_axis_inertia; k++) {
     if (ali3_axis_as_drawn(in, k)) continue;
@@ -153,7 +153,7 @@ void ali3_axes_apply(ali3_instance *in) {
   in->axes.system->sig_val = in->axes.val;
   in->axes.system->sig_const = in->axes.constant;
   in->axes.system->el_entry_value = in->axes.entry;
-  in->axes.system->tabled = in->axes.tabled;
+  in->axes.system->lookup = in->axes.lookup;
   in->axes.system->pose_speed = in->axes.speed;
   in->system = in->axes.system;
 }

@@ -6,7 +6,7 @@
 #include "../algebra/finite.h"
 #include "../elements/road.h"
 #include "../instance.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../tree/tree.h"
 #include "masses.h"
 #include "parameters.h"
@@ -120,7 +120,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->parameters.value, S->par_value, S->size.np);
   copy(in->parameters.el_real, S->el_real, S->n_el_real);
   copy(in->parameters.guide_real, S->guide_real, S->n_guide_real);
-  ali3_guides_measure(in);
+  ali3_driving_measure(in);
   copy(in->parameters.road_real, S->road_real, S->n_road_real);
   copy(in->parameters.payload_mass, S->payload_mass, S->n_payload_mass);
   copy(in->parameters.armature_ratio, S->armature_ratio, S->n_armature_ratio);
@@ -128,7 +128,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->parameters.axis_real, S->axis_real, S->n_axis_real);
   copy(in->parameters.sen_real, S->sen_real, S->n_sen_real);
   for (int32_t g = 0; g < S->size.ng; g++)
-    if (ali3_guide_filters(S->guide_type[g])) in->now.s[g] = in->parameters.guide_real[S->guide_real_ptr[g] + 2];
+    if (ali3_driving_filters(S->guide_type[g])) in->now.s[g] = in->parameters.guide_real[S->guide_real_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {
     const ali3_road road = {.type = S->road_type[r],
                             .nreal = S->road_real_ptr[r + 1] - S->road_real_ptr[r],

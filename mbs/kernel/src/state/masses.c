@@ -71,17 +71,17 @@ static void add_moment(ali3_instance *in, int32_t one, int32_t other, double mom
   }
 }
 
-/* Moments of a body over (1, position from `origin`): mass, first moments, and second moments tr(I)/2 - I of its
+/* Moments of a body (an item of inertia_real) over (1, position from `origin`): mass, first moments, and second moments tr(I)/2 - I of its
  * inertia about the centre of mass, transferred to the origin. */
-static void moments(const double *real, const double *origin, double out[4][4]) {
-  static const int product[3][3] = {{4, 7, 8}, {7, 5, 9}, {8, 9, 6}};
-  const double half = 0.5 * (real[4] + real[5] + real[6]);
-  out[0][0] = real[0];
+static void moments(const double *inertia, const double *origin, double out[4][4]) {
+  static const int product[3][3] = {{4, 7, 8}, {7, 5, 9}, {8, 9, 6}}; /* indices of the entries of the tensor */
+  const double mass = inertia[0], half = 0.5 * (inertia[4] + inertia[5] + inertia[6]);
+  out[0][0] = mass;
   for (int i = 0; i < 3; i++) {
-    const double arm = real[1 + i] - origin[i];
-    out[0][1 + i] = out[1 + i][0] = real[0] * arm;
+    const double arm = inertia[1 + i] - origin[i];
+    out[0][1 + i] = out[1 + i][0] = mass * arm;
     for (int j = 0; j < 3; j++)
-      out[1 + i][1 + j] = (i == j ? half : 0.0) - real[product[i][j]] + real[0] * arm * (real[1 + j] - origin[j]);
+      out[1 + i][1 + j] = (i == j ? half : 0.0) - inertia[product[i][j]] + mass * arm * (inertia[1 + j] - origin[j]);
   }
 }
 
@@ -116,7 +116,7 @@ static void apply_armature(ali3_instance *in, int64_t k) {
 }
 
 /* Adds the change by the axis of wheel k on its carrier to the mass matrix, if it differs from the drawing and the
- * carrier is not tabled. */
+ * carrier is no lookup-table body. */
 static void apply_axis(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->base;
   const int32_t *frame = S->axis_frame + k * ALI3_AXIS_SIGNALS;

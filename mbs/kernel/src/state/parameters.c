@@ -1,12 +1,12 @@
-/* Parameters of an instance, written to its copies of the data of elements, guides, roads, payloads, armatures, bodies,
- * axes and sensors, and to the start states of switches. */
+/* Parameters of an instance, written to its copies of the data of elements, driving functions, roads, payloads,
+ * armatures, bodies, axes and sensors, and to the start states of switches. */
 #include "parameters.h"
 
 #include <string.h>
 
 #include "../algebra/real.h"
 #include "../instance.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../system/loading.h"
 #include "axes.h"
 #include "masses.h"
@@ -27,7 +27,7 @@ typedef struct {
 /* Arrays that parameters write. */
 static targets targets_of(const ali3_instance *in) {
   return (targets){{[ALI3_TARGET_ELEMENT] = in->parameters.el_real,
-                    [ALI3_TARGET_GUIDE] = in->parameters.guide_real,
+                    [ALI3_TARGET_DRIVING] = in->parameters.guide_real,
                     [ALI3_TARGET_ROAD] = in->parameters.road_real,
                     [ALI3_TARGET_PAYLOAD] = in->parameters.payload_mass,
                     [ALI3_TARGET_SWITCH] = in->parameters.switch_on,
@@ -67,7 +67,7 @@ void ali3_parameters_switch(ali3_instance *in) {
 
 ali3_status ali3_parameters_apply(ali3_instance *in) {
   for (int32_t p = 0; p < in->system->size.np; p++) write(in, p);
-  ali3_guides_measure(in);
+  ali3_driving_measure(in);
   ali3_axes_apply(in);
   ali3_masses_apply(in);
   if (!in->start.initialised) ali3_parameters_switch(in);
@@ -89,7 +89,7 @@ static ali3_status write_checked(ali3_instance *in, int32_t p, double value) {
   const ali3_system *S = in->system;
   in->parameters.value[p] = value;
   write(in, p);
-  if (has_target(S, p, ALI3_TARGET_GUIDE)) ali3_guides_measure(in);
+  if (has_target(S, p, ALI3_TARGET_DRIVING)) ali3_driving_measure(in);
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
     if (check(in, k) != NULL) return ALI3_BAD_ARGUMENT;
   return ALI3_OK;

@@ -5,7 +5,8 @@
 
 /* Number that a parameter with a value writes to target k of the System. */
 double ali3_parameter_writes(const ali3_system *S, int64_t k, double value);
-/* Applies in->parameters.value (np); ALI3_BAD_ARGUMENT if the data of an element, guide or road become invalid. */
+/* Applies in->parameters.value (np); ALI3_BAD_ARGUMENT if the data of an element, driving function or road become
+ * invalid. */
 ali3_status ali3_parameters_apply(ali3_instance *in);
 /* Sets all values (np doubles at any address) and returns true if the data they write are valid; otherwise keeps the
  * present ones. In both cases the previous values are in in->parameters.work afterwards. */

@@ -1,14 +1,14 @@
 /* Displacements over a step of the signals of elements whose work is sensed. */
 #include "../algebra/number_pairs.h"
-#include "../tabled/tabled.h"
+#include "../lookup/lookup.h"
 #include "work.h"
 
 void ali3_signal_displacements(const ali3_instance *in, real *displacement) {
   const ali3_system *S = in->system;
   const real *D = in->step.D;
-  if (S->n_tabled > 0) {
-    ali3_tabled_displacements(in, D);
-    D = in->tabled.extended[0];
+  if (S->n_lookup > 0) {
+    ali3_lookup_displacements(in, D);
+    D = in->lookup.extended[0];
   }
   for (int32_t k = 0; k < S->n_work; k++) {
     const int32_t *signal = S->el_sig + S->el_sig_ptr[S->work_element[k]];

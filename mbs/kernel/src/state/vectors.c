@@ -31,7 +31,7 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, ali3_pool *pool) 
   v->past_lam = ali3_pool_numbers(pool, ALI3_PAST * (size_t)z->nc);
   v->mean = ali3_pool_numbers(pool, n_mean);
   v->mean_before = ali3_pool_numbers(pool, n_mean);
-  v->work = ali3_pool_numbers(pool, (size_t)s->n_work + (size_t)s->n_guide_work);
+  v->work = ali3_pool_numbers(pool, (size_t)s->n_work + (size_t)s->n_driving_work);
   v->stored = ali3_pool_numbers(pool, (size_t)s->n_work);
   v->watched = ali3_pool_numbers(pool, (size_t)s->n_work + (size_t)s->n_work_force);
   v->step_force = ali3_pool_numbers(pool, (size_t)s->n_work_force);

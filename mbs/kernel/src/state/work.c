@@ -4,10 +4,10 @@
  * Trapezoidal rule: D'(f0 + f1)/2 with the forces of the converged Newton iteration. Energy-momentum: D'f of the
  * middle, where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages.
  *
- * The work of guides is stored after the work of the elements: with ALi3-P and generalised-alpha from the energy
- * balance (../methods/constraint_work.c), with energy-momentum and Radau from the forces of driven rows along their
- * guides, with Runge-Kutta from the powers of the stages, and in relative coordinates as the mean of the powers at both
- * ends. */
+ * The work of driving functions is stored after the work of the elements: with ALi3-P and generalised-alpha from the
+ * energy balance (../methods/constraint_work.c), with energy-momentum and Radau from the forces of driven rows along
+ * their driving functions, with Runge-Kutta from the powers of the stages, and in relative coordinates as the mean of
+ * the powers at both ends. */
 #include <string.h>
 
 #include "../algebra/number_pairs.h"
@@ -24,20 +24,20 @@ void ali3_work_store(const ali3_instance *in, ali3_vectors *v) {
   copy(v->watched, in->watch.now, in->system->n_work + in->system->n_work_force);
 }
 
-double ali3_guides_power(ali3_instance *in, const ali3_vectors *v) {
+double ali3_driving_power(ali3_instance *in, const ali3_vectors *v) {
   double power = 0.0;
   ali3_constraint_rate(in, v->q, v, in->step.mu);
   for (int32_t k = 0; k < in->system->size.nc; k++) power += v->lam[k] * in->step.mu[k];
   return power;
 }
 
-void ali3_guides_work(const ali3_instance *in, ali3_vectors *v, double work) {
-  if (in->system->n_guide_work > 0) v->work[in->system->n_work] += work;
+void ali3_driving_work(const ali3_instance *in, ali3_vectors *v, double work) {
+  if (in->system->n_driving_work > 0) v->work[in->system->n_work] += work;
 }
 
 void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
-  if (S->n_guide_work > 0) v->work[S->n_work] = 0.0;
+  if (S->n_driving_work > 0) v->work[S->n_work] = 0.0;
   for (int32_t k = 0; k < S->n_work; k++) {
     v->work[k] = 0.0;
     v->stored[k] = v->potential[S->work_element[k]];
@@ -99,7 +99,7 @@ void ali3_work_first(ali3_instance *in, double weight) {
 
 void ali3_work_extrapolated(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
-  if (in->system->n_guide_work > 0) ali3_guides_work(in, v, dt * ali3_guides_power(in, v));
+  if (in->system->n_driving_work > 0) ali3_driving_work(in, v, dt * ali3_driving_power(in, v));
   if (in->system->n_work == 0) return;
   evaluate_forces(in, v, v->potential);
   ali3_work_stage(in, dt, in->watch.now, v->work);

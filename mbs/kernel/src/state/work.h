@@ -1,14 +1,14 @@
-/* Work of force elements and of guides for sensors, J, by the quadrature of the method. Sensed elements: n_work; their
- * signals: n_work_force. */
+/* Work of force elements and of driving functions for sensors, J, by the quadrature of the method. Sensed elements:
+ * n_work; their signals: n_work_force. */
 #ifndef ALI3_WORK_H
 #define ALI3_WORK_H
 #include "../algebra/real.h"
 #include "../instance.h"
 
-/* Power of the guides at a state, W. */
-double ali3_guides_power(ali3_instance *in, const ali3_vectors *v);
-/* Adds work to that of the guides, if it is sensed. */
-void ali3_guides_work(const ali3_instance *in, ali3_vectors *v, double work);
+/* Power of the driving functions at a state, W. */
+double ali3_driving_power(ali3_instance *in, const ali3_vectors *v);
+/* Adds work to that of the driving functions, if it is sensed. */
+void ali3_driving_work(const ali3_instance *in, ali3_vectors *v, double work);
 
 /* Resets the work at a start; the last ali3_forces was at v. */
 void ali3_work_start(const ali3_instance *in, ali3_vectors *v);

@@ -3,9 +3,9 @@
 
 #include "../elements/road.h"
 #include "../flexible/body_arrays.h"
+#include "../lookup/lookup.h"
 #include "../rows/assembly_mode.h"
 #include "../system/state_coordinates.h"
-#include "../tabled/tabled.h"
 #include "../tree/tree.h"
 #include "axes.h"
 #include "masses.h"
@@ -52,7 +52,7 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->parameters.el_real = ali3_pool_array(p, (size_t)s->n_el_real);
   in->parameters.sen_real = ali3_pool_array(p, (size_t)s->n_sen_real);
   in->parameters.guide_real = ali3_pool_array(p, (size_t)s->n_guide_real);
-  in->guide.abrupt = ali3_pool_array(p, 3 * (size_t)s->size.ng);
+  in->driving.least = ali3_pool_array(p, 3 * (size_t)s->size.ng);
   in->parameters.switch_on = ali3_pool_array(p, (size_t)s->size.n_switch);
   in->parameters.road_real = ali3_pool_array(p, (size_t)s->n_road_real);
   ali3_masses_place(s, in, p);
@@ -78,8 +78,8 @@ static void place_step(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->step.gamma = ali3_pool_array(p, nc);
   in->step.mu = ali3_pool_array(p, nc);
   in->step.drive = ali3_pool_array(p, nc);
-  in->guide.mean = ali3_pool_array(p, (size_t)s->size.ng);
-  in->guide.follows = ali3_pool_array(p, (size_t)s->size.ng);
+  in->driving.mean = ali3_pool_array(p, (size_t)s->size.ng);
+  in->driving.follows = ali3_pool_array(p, (size_t)s->size.ng);
   in->step.lam = ali3_pool_array(p, nc);
   in->mixing.correction_q = ali3_pool_padded(p, nq);
   in->mixing.step_q = ali3_pool_padded(p, nq);
@@ -122,19 +122,19 @@ static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) 
   in->radau.F_K = ali3_pool_array(p, stages > 0 ? (size_t)z->front_size : 0);
 }
 
-/* Places the arrays of flexible bodies, tabled bodies and elements. */
+/* Places the arrays of flexible bodies, lookup-table bodies and elements. */
 static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
   in->flexible.prepared =
       ali3_pool_array(p, ALI3_FLEX_COUPLING * (size_t)s->n_flexible + ALI3_FLEX_OF_MODE * (size_t)s->n_flex_mode);
   in->flexible.work = ali3_pool_array(p, 3 * (size_t)s->max_modes);
-  const size_t extended = s->n_tabled > 0 ? (size_t)(z->nq + s->n_dependent) : 0;
-  in->tabled.item = ali3_pool_items(p, (size_t)s->n_tabled, sizeof *in->tabled.item);
-  in->tabled.base = ali3_pool_items(p, (size_t)s->n_tabled_base, sizeof *in->tabled.base);
-  in->tabled.parameter = ali3_pool_items(p, (size_t)s->n_tabled_parameter, sizeof *in->tabled.parameter);
-  in->tabled.square = ali3_pool_array(p, (size_t)s->tabled_square);
-  for (int k = 0; k < 3; k++) in->tabled.extended[k] = ali3_pool_padded(p, extended);
-  in->tabled.force = ali3_pool_array(p, extended);
+  const size_t extended = s->n_lookup > 0 ? (size_t)(z->nq + s->n_dependent) : 0;
+  in->lookup.item = ali3_pool_items(p, (size_t)s->n_lookup, sizeof *in->lookup.item);
+  in->lookup.base = ali3_pool_items(p, (size_t)s->n_lookup_base, sizeof *in->lookup.base);
+  in->lookup.parameter = ali3_pool_items(p, (size_t)s->n_lookup_parameter, sizeof *in->lookup.parameter);
+  in->lookup.square = ali3_pool_array(p, (size_t)s->lookup_square);
+  for (int k = 0; k < 3; k++) in->lookup.extended[k] = ali3_pool_padded(p, extended);
+  in->lookup.force = ali3_pool_array(p, extended);
   in->element.y = ali3_pool_array(p, (size_t)z->ny);
   in->element.out = ali3_pool_array(p, (size_t)z->nout);
   in->element.potential = ali3_pool_array(p, (size_t)z->ne);

@@ -25,7 +25,7 @@ static uint32_t hash_zeros(uint32_t hash, const double *x, int64_t n) {
 /* Hash of the arrays whose pattern is fixed in generated code. */
 static uint32_t structure_of(const ali3_system *s) {
   const int32_t nq = s->size.nq, nc = s->size.nc,
-                counts[] = {nq, nc, s->size.nf, s->size.ne, s->n_tabled, s->n_flexible};
+                counts[] = {nq, nc, s->size.nf, s->size.ne, s->n_lookup, s->n_flexible};
   uint32_t hash = hash_bytes(ALI3_GENERATED_VERSION, counts, sizeof counts);
 #define HASH(name) hash = hash_bytes(hash, s->name, s->n_##name * (int64_t)sizeof *s->name);
   HASH(row_ptr)

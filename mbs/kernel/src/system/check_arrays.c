@@ -1,8 +1,8 @@
 /* Checks the lengths and values of all arrays of a System against their list, ALI3_SYSTEM_ARRAYS. */
+#include "../lookup/lookup.h"
 #include "../rows/assembly_mode.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../system.h"
-#include "../tabled/tabled.h"
 #include "check.h"
 #include "loading.h"
 #include "message.h"
@@ -10,7 +10,7 @@
 
 _Static_assert(ALI3_INERTIA_REALS == 10 && ALI3_INERTIA_SIGNALS == 12, "as the list has them");
 _Static_assert(ALI3_AXIS_REALS == 2 && ALI3_AXIS_SIGNALS == 9, "as the list has them");
-_Static_assert(ALI3_TABLED_MOMENTS == 10 && ALI3_TRIAD_ITEMS == 11, "as the list has them");
+_Static_assert(ALI3_LOOKUP_MOMENTS == 10 && ALI3_TRIAD_ITEMS == 11, "as the list has them");
 
 typedef enum { IN_RANGE, OFFSETS_TO, OFFSETS_ALONE, NUMBERS, NUMBERS_OR_INFINITE, UNCHECKED } values_rule;
 

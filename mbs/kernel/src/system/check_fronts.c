@@ -103,7 +103,7 @@ static ali3_status check_switches(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* A condition on velocities has no constant, no products of positions, no angle and no guide. */
+/* A condition on velocities has no constant, no products of positions, no angle and no driving function. */
 static ali3_status check_velocities(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_velocity_row;
   for (int64_t i = 0; i < n; i++) {

@@ -1,7 +1,7 @@
 /* Checks the sensors of a System file against the list of their types; sensor_types.h explains the letters. */
 #include <string.h>
 
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../system.h"
 #include "check.h"
 #include "loading.h"
@@ -69,8 +69,8 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
   for (int32_t k = 0; k < n && (k < head || k < head + items * each); k++) {
     const char letter = type->integers[k < head ? k : head + 1 + (k - head) % each];
     CHECK(ali3_check_indices(m, "sen_int", v + k, 1, least(letter), limit(s, letter, v + k)));
-    if (letter == 'T' && v[k] >= 0 && s->guide_type[v[k]] != ALI3_GUIDE_BY_TABLE)
-      return ali3_bad(m, "sensor %d reads the slope of guide %d, which is by no table", (int)i, (int)v[k]);
+    if (letter == 'T' && v[k] >= 0 && s->guide_type[v[k]] != ALI3_DRIVING_BY_TABLE)
+      return ali3_bad(m, "sensor %d reads the slope of driving function %d, which is by no table", (int)i, (int)v[k]);
     if (k < head && strchr("nNP", letter) != NULL) items = v[k];
   }
   if (n < head || n != head + items * each)

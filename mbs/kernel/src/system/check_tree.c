@@ -58,7 +58,8 @@ ali3_status ali3_check_tree(const ali3_system *s, ali3_message m) {
   for (int64_t b = 0; b < n; b++) CHECK(ali3_check_indices(m, "tree_parent", s->tree_parent + b, 1, 0, b + 1));
   if (n == 0) return ALI3_OK;
   if (s->size.ng > 0 || s->size.n_switch > 0 || s->n_flex_front > 0 || s->n_velocity_row > 0)
-    return ali3_bad(m, "a tree is combined with guides, switches, conditions on velocities or flexible bodies");
+    return ali3_bad(m,
+                    "a tree is combined with driving functions, switches, conditions on velocities or flexible bodies");
   CHECK(check_angles(s, m));
   CHECK(check_cuts(s, n, m));
   return check_coordinates(s, m);

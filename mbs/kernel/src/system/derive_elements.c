@@ -8,7 +8,7 @@
 #include "../elements/road.h"
 #include "../elements/tyre_contact.h"
 #include "check.h"
-#include "derive_tabled.h"
+#include "derive_lookup.h"
 #include "loading.h"
 #include "sensor_types.h"
 
@@ -43,7 +43,7 @@ static void derive_element(ali3_system *s, int32_t e) {
       s->el_entry_local[first + n] = 0;
     }
   }
-  if (s->el_front[e] >= 0 && !ali3_on_tabled(s, e)) {
+  if (s->el_front[e] >= 0 && !ali3_on_lookup(s, e)) {
     memcpy(coordinate, loc, (size_t)n * sizeof *loc);
     ali3_sort(coordinate, n);
     for (int32_t i = 0; i < n; i++)
@@ -109,11 +109,11 @@ void ali3_work_derive(ali3_system *s) {
   for (int32_t e = 0; e < s->size.ne; e++) s->work_of[e] = -1;
   for (int32_t i = 0; i < s->size.ns; i++) {
     const int32_t *v = s->sen_int + s->sen_int_ptr[i];
-    const bool guide_work = s->sen_type[i] == ALI3_SENSOR_GUIDED_WORK;
-    if (guide_work) s->n_guide_work = 1;
+    const bool driving_work = s->sen_type[i] == ALI3_SENSOR_DRIVING_WORK;
+    if (driving_work) s->n_driving_work = 1;
     if (s->sen_type[i] == ALI3_SENSOR_WORK)
       v++; /* after the kind */
-    else if (!guide_work)
+    else if (!driving_work)
       continue;
     for (int32_t k = 1; k <= v[0]; k++) s->work_of[v[k]] = 0;
   }

@@ -59,17 +59,17 @@ static ali3_term make_term(const ali3_system *s, int32_t k, int32_t a, int32_t b
   return t;
 }
 
-/* Terms of rows, guides, angles and rows on velocities. */
+/* Terms of rows, driving functions, angles and rows on velocities. */
 static void derive_rows(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++)
     for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
       s->quad[t] = make_term(s, k, s->quad_a[t], s->quad_b[t], s->quad_h[t]);
   for (int64_t t = 0; t < s->n_gterm_row; t++) {
     const int32_t k = s->gterm_row[t];
-    const ali3_guide_term g = {.term = make_term(s, k, s->gterm_a[t], s->gterm_b[t], s->gterm_h[t]),
-                               .row = k,
-                               .guide = s->gterm_guide[t],
-                               .power = s->gterm_power[t]};
+    const ali3_driving_term g = {.term = make_term(s, k, s->gterm_a[t], s->gterm_b[t], s->gterm_h[t]),
+                                 .row = k,
+                                 .driving = s->gterm_guide[t],
+                                 .power = s->gterm_power[t]};
     s->gterm[t] = g;
   }
   for (int32_t k = 0; k < s->size.nc; k++) {

@@ -18,8 +18,8 @@ ali3_status ali3_check_rows(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_elements(const ali3_system *s, ali3_message m);
 /* Sensors: integers by sensor_types.h. */
 ali3_status ali3_check_sensors(const ali3_system *s, ali3_message m);
-/* Lengths of the arrays of lookup-table bodies and numbers; sets n_tabled and n_dependent. */
-ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m);
+/* Lengths of the arrays of lookup-table bodies and numbers; sets n_lookup and n_dependent. */
+ali3_status ali3_check_lookup_sizes(ali3_system *s, ali3_message m);
 /* Refuses a signal of dependent coordinates for a purpose, `what`, that reads coordinates directly. */
 ali3_status ali3_check_independent(const ali3_system *s, int32_t signal, const char *what, ali3_message m);
 /* Flexible bodies. */

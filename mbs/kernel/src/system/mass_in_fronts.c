@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "../lookup/lookup.h"
 #include "../system.h"
-#include "../tabled/tabled.h"
 #include "loading.h"
 
 bool ali3_same_values(const int32_t *ptr, const double *val, int32_t i) {
@@ -21,10 +21,10 @@ bool ali3_mass_isotropic(const ali3_system *s, const double *val) {
   return true;
 }
 
-/* Raises the floor to the masses of tabled bodies on a base, which may be lighter itself. */
+/* Raises the floor to the masses of lookup-table bodies on a base, which may be lighter itself. */
 static void raise_floor(const ali3_system *s, double *floor) {
-  for (int32_t i = 0; i < s->n_tabled; i++) {
-    const double *m = s->tabled_mass + ALI3_TABLED_MOMENTS * (int64_t)i;
+  for (int32_t i = 0; i < s->n_lookup; i++) {
+    const double *m = s->tabled_mass + ALI3_LOOKUP_MOMENTS * (int64_t)i;
     const int32_t *frame = s->tabled_frame + 12 * (int64_t)i;
     for (int k = 0; frame[0] >= 0 && k < 12; k++) {
       const double value = k < 3 ? m[0] : m[3 + k / 3]; /* the mass, then second moments */

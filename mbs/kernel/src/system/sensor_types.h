@@ -7,11 +7,11 @@
 
 /* X(number, NAME, name, integers, reals, reals of each item, rate, reads, integers and reals in words, value in words)
  *
- * Each integer is one letter: s signal, S signal or -1, e element, o output of the element before, u input, g guide,
- * G guide or -1, T guide by a table or -1, r row, d order 0 to 2, b 0 or 1, k energy 0 to 3, q component of a
- * quaternion 0 to 3, h ALI3_SOLVER_*; n number of items, N at least one, P two or three: as many times come the
- * integers in brackets. `rate`: whether ali3_sensor_rates knows the first time derivative, ALI3_RATE_*; `reads`:
- * ALI3_READS_*. */
+ * Each integer is one letter: s signal, S signal or -1, e element, o output of the element before, u input, g driving
+ * function, G driving function or -1, T driving function by a table or -1, r row, d order 0 to 2, b 0 or 1, k energy 0
+ * to 3, q component of a quaternion 0 to 3, h ALI3_SOLVER_*; n number of items, N at least one, P two or three: as
+ * many times come the integers in brackets. `rate`: whether ali3_sensor_rates knows the first time derivative,
+ * ALI3_RATE_*; `reads`: ALI3_READS_*. */
 /* clang-format off */
 #define ALI3_SENSOR_TYPES(X) \
   X(0, SIGNAL, signal, "s", 1, 0, ALWAYS, MOTION, \
@@ -41,8 +41,8 @@
     "kind: 0 kinetic, 1 gravity potential, 2 elastic potential, 3 total", "-", "energies, J") \
   X(11, INPUT, input, "u", 0, 0, NEVER, INPUTS, \
     "input", "-", "input as used") \
-  X(12, GUIDE, guide, "gd", 1, 0, BY_SECOND, INPUTS, \
-    "guide, order (0, 1, 2)", "scale", "scale * guide value or rate") \
+  X(12, DRIVING, driving, "gd", 1, 0, BY_SECOND, INPUTS, \
+    "driving function, order (0, 1, 2)", "scale", "scale * driving function value or rate") \
   X(13, SOLVER, solver, "h", 0, 0, NEVER, SOLVER, \
     "kind: 0 iterations of the last step, 1 max violation m, 2 residual, 3 factorizations since start, 4 halvings since " \
     "start, 5 status of the last step, once a closed loop has changed its assembly mode that of `ALI3_BRANCH_CHANGED` " \
@@ -58,20 +58,22 @@
     "n, 3 signals r, 9 signals a, b, c, 3 n row numbers", "3 gravity g, 3 n weights f, 3 weights s, 9 weights W", \
     "quasi-static output of a structure, A = [a b c]: sum f . A' lam_user + s . A'(r'' - g) + W : A' A''") \
   X(18, REACTION_PRODUCTS, reaction_products, "n(rSSSG)", 0, 1, NEVER, ROWS, \
-    "n, then n times: row, 3 signals, guide (-1: none)", "n weights", \
+    "n, then n times: row, 3 signals, driving function (-1: none)", "n weights", \
     "sum weight * lam_user * u * u * u * s: forces along turning lines, of driven distances, moments of joints") \
   X(19, WORK, work, "dN(e)", 0, 0, NEVER, FORCES, \
     "kind: 0 work, 1 nonconservative (with the change of the potentials), 2 of jumps of inputs on these, n, then n elements", "-", \
     "sum of the work of elements since the start, J") \
   X(20, MASS, mass, "", 1, 0, ALWAYS, MOTION, \
     "-", "mass without payloads, kg", "total mass, kg") \
-  X(21, GUIDE_EXCESS, guide_excess, "g", 1, 0, NEVER, INPUTS, \
-    "guide", "scale", "scale * (what the inputs ask of a filtered guide, less what its limits leave of it)") \
+  X(21, DRIVING_EXCESS, driving_excess, "g", 1, 0, NEVER, INPUTS, \
+    "driving function", "scale", \
+    "scale * (demand of the inputs of a filtered driving function minus what its limits leave of it)") \
   X(22, REACTION_BY_TABLE, reaction_by_table, "n(rSSSGT)", 0, 1, NEVER, ROWS, \
-    "n, then n times: row, 3 signals, guide, guide by a table (-1: none)", "n weights", \
-    "sum weight * lam_user * u * u * u * s * ds/du: the force of a guide that others follow by a table") \
-  X(23, GUIDED_WORK, guided_work, "n(e)", 0, 0, NEVER, FORCES, \
-    "n, then n elements", "-", "work of all guides and nonconservative work of elements since the start, J") \
+    "n, then n times: row, 3 signals, driving function, driving function by a table (-1: none)", "n weights", \
+    "sum weight * lam_user * u * u * u * s * ds/du: the force of a driving function that others follow by a table") \
+  X(23, DRIVING_WORK, driving_work, "n(e)", 0, 0, NEVER, FORCES, \
+    "n, then n elements", "-", \
+    "work of all driving functions and nonconservative work of elements since the start, J") \
   X(24, SCALED_INPUT, scaled_input, "u", 1, 0, NEVER, INPUTS, \
     "input", "scale", "scale * input as used") \
   X(25, CARRIED, carried, "dssssssssssssssssss", 0, 0, BY_FIRST, MOTION, \

@@ -3,7 +3,7 @@
 #define ALI3_STATE_COORDINATES_H
 #include "../system.h"
 
-/* True without element states and filtered guides: forces at stages inside a step then depend only on q, qd and
- * time. */
+/* True without element states and filtered driving functions: forces at stages inside a step then depend only on q, qd
+ * and time. */
 bool ali3_states_are_coordinates(const ali3_system *S);
 #endif

@@ -1,10 +1,10 @@
-/* Checks the content of a System: mass, signals, inputs, guides, roads, parameters. Indices are used only after their
- * check. */
+/* Checks the content of a System: mass, signals, inputs, driving functions, roads, parameters. Indices are used only
+ * after their check. */
 #include <math.h>
 
 #include "../elements/element.h"
 #include "../elements/road.h"
-#include "../rows/guides.h"
+#include "../rows/driving_functions.h"
 #include "../system.h"
 #include "check.h"
 #include "loading.h"
@@ -62,19 +62,20 @@ static ali3_status check_signals(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* Inputs and tabulated guides that guides refer to. */
-static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) {
+/* Inputs and tabulated driving functions that driving functions refer to. */
+static ali3_status check_driving_functions_and_roads(const ali3_system *s, ali3_message m) {
   const int32_t ng = s->size.ng;
   for (int32_t g = 0; g < ng; g++) {
-    if (s->guide_type[g] == ALI3_GUIDE_BY_TABLE) {
+    if (s->guide_type[g] == ALI3_DRIVING_BY_TABLE) {
       CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, g));
-      if (s->guide_type[s->guide_input[g]] == ALI3_GUIDE_BY_TABLE)
-        return ali3_bad(m, "guide %d is by a table over a guide that is by a table too", (int)g);
+      if (s->guide_type[s->guide_input[g]] == ALI3_DRIVING_BY_TABLE)
+        return ali3_bad(m, "driving function %d is by a table over a driving function that is by a table too", (int)g);
     }
-    if (!ali3_guide_filters(s->guide_type[g])) continue;
+    if (!ali3_driving_filters(s->guide_type[g])) continue;
     CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
-    if (s->guide_type[g] != ALI3_GUIDE_OF_TWO_INPUTS) continue;
-    if (s->n_guide_second == 0) return ali3_bad(m, "guide %d has two inputs and guide_second is missing", (int)g);
+    if (s->guide_type[g] != ALI3_DRIVING_OF_TWO_INPUTS) continue;
+    if (s->n_guide_second == 0)
+      return ali3_bad(m, "driving function %d has two inputs and guide_second is missing", (int)g);
     CHECK(ali3_check_indices(m, "guide_second", s->guide_second + g, 1, 0, s->size.nu));
   }
   return ALI3_OK;
@@ -100,7 +101,7 @@ static ali3_status check_fixed_parameters(const ali3_system *s, ali3_message m) 
 static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int32_t np = s->size.np;
   const int64_t length[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = s->n_el_real,      [ALI3_TARGET_GUIDE] = s->n_guide_real,
+      [ALI3_TARGET_ELEMENT] = s->n_el_real,      [ALI3_TARGET_DRIVING] = s->n_guide_real,
       [ALI3_TARGET_ROAD] = s->n_road_real,       [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
       [ALI3_TARGET_SWITCH] = s->n_switch_start,  [ALI3_TARGET_ARMATURE] = s->n_armature_ratio,
       [ALI3_TARGET_INERTIA] = s->n_inertia_real, [ALI3_TARGET_SENSOR] = s->n_sen_real,
@@ -125,10 +126,10 @@ static const char *check_element(const ali3_system *s, int32_t e, const double *
                             s->el_int + integer, s->el_int_ptr[e + 1] - integer, s->size.nu, s->nr);
 }
 
-/* NULL, or what is wrong with the numbers of guide g. */
-static const char *check_guide(const ali3_system *s, int32_t g, const double *guide_real) {
+/* NULL, or what is wrong with the numbers of driving function g. */
+static const char *check_driving_function(const ali3_system *s, int32_t g, const double *guide_real) {
   const int32_t real = s->guide_real_ptr[g];
-  return ali3_guide_check(s->guide_type[g], guide_real + real, s->guide_real_ptr[g + 1] - real);
+  return ali3_driving_check(s->guide_type[g], guide_real + real, s->guide_real_ptr[g + 1] - real);
 }
 
 /* NULL, or what is wrong with the numbers of road k. */
@@ -177,7 +178,8 @@ static const char *check_switch(double on) {
 const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_TARGET_COUNT]) {
   const char *text = NULL;
   for (int32_t e = 0; text == NULL && e < s->size.ne; e++) text = check_element(s, e, data[ALI3_TARGET_ELEMENT]);
-  for (int32_t g = 0; text == NULL && g < s->size.ng; g++) text = check_guide(s, g, data[ALI3_TARGET_GUIDE]);
+  for (int32_t g = 0; text == NULL && g < s->size.ng; g++)
+    text = check_driving_function(s, g, data[ALI3_TARGET_DRIVING]);
   for (int32_t k = 0; text == NULL && k < s->nr; k++) text = check_road(s, k, data[ALI3_TARGET_ROAD]);
   for (int64_t k = 0; text == NULL && k < s->n_payload_mass; k++) text = check_payload(data[ALI3_TARGET_PAYLOAD][k]);
   for (int64_t k = 0; text == NULL && k < s->n_armature_ratio; k++) text = check_ratio(data[ALI3_TARGET_ARMATURE][k]);
@@ -207,8 +209,8 @@ const char *ali3_check_target(const ali3_system *s, int64_t k, const double *con
   const int32_t index = s->par_index[k], family = s->par_target[k];
   if (family == ALI3_TARGET_ELEMENT)
     return check_element(s, find_owner(s->el_real_ptr, s->size.ne, index), data[family]);
-  if (family == ALI3_TARGET_GUIDE)
-    return check_guide(s, find_owner(s->guide_real_ptr, s->size.ng, index), data[family]);
+  if (family == ALI3_TARGET_DRIVING)
+    return check_driving_function(s, find_owner(s->guide_real_ptr, s->size.ng, index), data[family]);
   if (family == ALI3_TARGET_ROAD) return check_road(s, find_owner(s->road_real_ptr, s->nr, index), data[family]);
   if (family == ALI3_TARGET_PAYLOAD) return check_payload(data[family][index]);
   if (family == ALI3_TARGET_SENSOR) return NULL;
@@ -222,13 +224,13 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(check_sizes(s, m));
   CHECK(ali3_check_arrays(s, m));
   CHECK(check_mass(s, m));
-  CHECK(ali3_check_tabled_sizes(s, m));
+  CHECK(ali3_check_lookup_sizes(s, m));
   CHECK(check_signals(s, m));
   CHECK(ali3_check_payloads(s, m));
   CHECK(ali3_check_armatures(s, m));
   CHECK(ali3_check_inertias(s, m));
   CHECK(ali3_check_axes(s, m));
-  CHECK(check_guides_and_roads(s, m));
+  CHECK(check_driving_functions_and_roads(s, m));
   CHECK(check_parameters(s, m));
   CHECK(ali3_check_fronts(s, m));
   CHECK(ali3_check_rows(s, m));
@@ -242,7 +244,7 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(ali3_check_start(s, m));
   CHECK(ali3_check_ported(s, m));
   const double *const data[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = s->el_real,         [ALI3_TARGET_GUIDE] = s->guide_real,
+      [ALI3_TARGET_ELEMENT] = s->el_real,         [ALI3_TARGET_DRIVING] = s->guide_real,
       [ALI3_TARGET_ROAD] = s->road_real,          [ALI3_TARGET_PAYLOAD] = s->payload_mass,
       [ALI3_TARGET_ARMATURE] = s->armature_ratio, [ALI3_TARGET_INERTIA] = s->inertia_real,
       [ALI3_TARGET_AXIS] = s->axis_real};

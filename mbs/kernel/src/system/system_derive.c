@@ -10,8 +10,8 @@
 #include "../tree/tree.h"
 #include "check.h"
 #include "derive_elements.h"
+#include "derive_lookup.h"
 #include "derive_rows.h"
-#include "derive_tabled.h"
 #include "loading.h"
 #include "message.h"
 #include "pool.h"
@@ -52,7 +52,7 @@ static void place_arrays(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_in_four = ali3_pool_items(p, ne, 1);
   s->el_beside = ali3_pool_items(p, ne, sizeof(int32_t));
   s->flex_square = ali3_pool_items(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
-  ali3_tabled_place(s, p, n_entry);
+  ali3_lookup_place(s, p, n_entry);
   s->tree = s->n_tree_parent > 0 ? ali3_pool_items(p, 1, sizeof *s->tree) : NULL;
 }
 
@@ -144,8 +144,8 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   ali3_elements_derive(s);
   ali3_fours_derive(s);
   derive_flexible(s);
-  const ali3_status tabled = ali3_tabled_derive(s, m);
-  if (tabled != ALI3_OK) return tabled;
+  const ali3_status lookup = ali3_lookup_derive(s, m);
+  if (lookup != ALI3_OK) return lookup;
   ali3_work_derive(s);
   if (s->tree != NULL) ali3_tree_derive(s, s->tree);
   for (int32_t i = 0; i < s->size.ns; i++) {

@@ -32,7 +32,7 @@ class Structure:
     joints: Mapping[str, np.ndarray]
     """Each of shape (3,): nodes where suspension, drive and payloads may be fixed, m."""
     riding: Mapping[str, float] = field(default_factory=dict)
-    """Masses that balance payloads, by joint, kg: like these they ride on the frame, and `model` does not have them."""
+    """Masses that balance payloads, by joint, kg; added to the frame as these are, and not part of `model`."""
 
 
 class DampingSection(Section):
@@ -54,8 +54,8 @@ class FrameSection(Section):
     loads: str | None = None
     """Table of the load paths: interface, axis, load_1, load_2, ...; without it there is no fidelity 2."""
     or_rigid: bool = False
-    """A frame that does not fit the hard points or the mass of the car leaves it rigid, with a warning, and is not
-    refused."""
+    """Whether a frame that does not fit the hard points or the mass of the car is replaced by a rigid one, with a
+    warning; otherwise it is refused."""
     reference: Reference | None = None
     """Joint at chassis.reference that carries the floating frame, by default the one that is there; of a model without
     rotations three nodes that span a triangle, the first of them there."""
@@ -68,11 +68,11 @@ class FrameSection(Section):
 
     @abstractmethod
     def structure(self, folder: Path) -> Structure:
-        """Read it. Raises `ModelError` if a file is missing or does not describe a frame."""
+        """Read the frame. Raises `ModelError` if a file is missing or does not describe a frame."""
 
     @abstractmethod
     def check(self, folder: Path) -> None:
-        """Refuse at once what can be seen without reading large files.
+        """Check what needs no large files.
 
         Raises `ModelError` if a file is missing, or a table is not right.
         """

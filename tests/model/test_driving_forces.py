@@ -1,4 +1,4 @@
-"""Guides of two inputs, forces of guides and rods, shafts, and drives that let go."""
+"""Driving functions of two inputs, forces of driving functions and rods, shafts, and drives that let go."""
 
 import numpy as np
 import pytest
@@ -59,16 +59,16 @@ def test_exchanged_limits_are_refused_and_a_guide_of_one_input_has_no_limits():
         rack(limits=(1.0, -1.0))
     m, _, _ = rack()
     guide = m.guide_input("other", input=m.inputs[0], frequency=1.0)
-    with pytest.raises(ModelError, match="guide 'other' of sensor 'x' has no limits"):
+    with pytest.raises(ModelError, match="driving function 'other' of sensor 'x' has no limits"):
         m.sense_guide("x", guide, "excess")
-    with pytest.raises(ModelError, match="force of guide 'other', which none of its joints follows"):
+    with pytest.raises(ModelError, match="force of driving function 'other', which none of its joints follows"):
         m.sense_guide("x", guide, "force")
-    with pytest.raises(ModelError, match="reads the motion of a guide; joints are for its force"):
+    with pytest.raises(ModelError, match="reads the motion of a driving function; joints are for its force"):
         m.sense_guide("x", guide, joints=m.joints)
 
 
 def test_the_force_of_a_guide_does_the_work_that_the_rest_receives():
-    """Power of the guide = rate of the energy; and at rest virtual work with the springs."""
+    """Power of the driving function = rate of the energy; and at rest virtual work with the springs."""
     m, guide, rods = rack()
     m.sense_guide("force", guide, "force")
     m.sense_guide("of rods", guide, "force", joints=rods, scale=-1.0)
@@ -89,7 +89,7 @@ def test_the_force_of_a_guide_does_the_work_that_the_rest_receives():
 
 
 def test_a_drive_and_a_shaft_count_in_the_force_of_a_guide():
-    """Shaft on the guide through a ratio, with inertia and torsional spring: F = (I a + k x) / r."""
+    """Shaft on the driving function through a ratio, with inertia and torsional spring: F = (I a + k x) / r."""
     m, guide, rods = rack()
     shaft, r = m.shaft("shaft", inertia=0.03), 0.007
     m.drive("column", shaft.affine * r, guide)
@@ -130,7 +130,7 @@ def test_the_force_of_rods_on_a_body_is_that_of_their_tensions_along_the_axis():
 
 
 def wheel_and_hands():
-    """A wheel on a spring with hands that a guide may hold."""
+    """A wheel on a spring with hands that a driving function may hold."""
     m = Model("wheel", gravity=(0, 0, 0))
     m.point_mass("bob", mass=1.0, position=(0, 0, 0))
     wheel, hands = m.shaft("wheel", inertia=0.03), m.shaft("hands")

@@ -1,6 +1,6 @@
 """Axle whose parts are lookup-table bodies, with tables computed from its links.
 
-The templates of suspensions build it as an axle with links, with `TabledParts` instead of the model: each part becomes
+The templates of suspensions build it as an axle with links, with `TableParts` instead of the model: each part becomes
 a lookup-table body, each angle a lookup-table number, and joints are dropped since the tables contain the links.
 """
 
@@ -29,7 +29,7 @@ JOINTS = frozenset({"spherical", "distance", "point_on_line", "cylindrical", "re
 """Joints by which templates of suspensions connect their parts."""
 
 
-class TabledParts:
+class TableParts:
     """Substitute for the model in templates of suspensions, which adds parts as lookup-table bodies and no joints.
 
     `m`: the model, which receives the bodies and all other calls; `base`: the chassis; `grid`: poses of the parts;
@@ -94,7 +94,7 @@ class TabledParts:
         return [compression], [grid.compression], values[:, middle]
 
 
-def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | None, brakes: Brakes) -> dict[str, Spin]:
+def table_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | None, brakes: Brakes) -> dict[str, Spin]:
     """Add an axle of lookup-table bodies and return the spins of its wheels by the wheels' names.
 
     Parameters
@@ -126,7 +126,7 @@ def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | No
             f"{data.suspension.key('kind')} '{data.suspension.kind}' steers and joins its sides; it has no table."
         )
     compressions = {s.wheel: b.m.travel(f"spring compression {s.wheel}") for s in sides(axle)}
-    parts: Any = TabledParts(b.m, b.chassis.frame, grid, compressions, rack)
+    parts: Any = TableParts(b.m, b.chassis.frame, grid, compressions, rack)
     # without joints a tie rod needs no inner end
     spins: dict[str, Spin] = data.build(replace(b, m=parts), axle, lambda side, point: None, brakes)
     return spins

@@ -1,4 +1,4 @@
-"""A guide that follows another one by a curve: values, rates, power, and what is refused."""
+"""A driving function that follows another one by a curve: values, rates, power, and what is refused."""
 
 import numpy as np
 import pytest
@@ -105,7 +105,7 @@ def test_a_table_over_a_table_is_refused():
 
 
 def test_the_kernel_refuses_a_guide_that_has_no_table():
-    """Fewer numbers, columns that do not rise, a guide over itself, a slope of a guide without one: each a reason."""
+    """Too few numbers, columns that do not rise, a function of itself, the slope of one without a table."""
     system = compile(lever())
     arrays = dict(system.arrays)
     real, ptr = arrays["guide_real"], arrays["guide_real_ptr"]
@@ -120,7 +120,7 @@ def test_the_kernel_refuses_a_guide_that_has_no_table():
 
 
 def _slope_of(arrays, guide: int):
-    """The integers of the sensors with another guide for the slope in that of the torque, the last but one."""
+    """The integers of the sensors; the last but one, of the slope in the torque, names another driving function."""
     ints, ptr = np.array(arrays["sen_int"]), arrays["sen_int_ptr"]
     ints[ptr[-2] - 1] = guide
     return ints

@@ -118,7 +118,7 @@ def two_by_table(damping: float = 0.0, *, beside: bool = False) -> System:
 
 
 def coupled(whole: bool) -> Model:
-    """Elements that couple vectors of tabled bodies on two bases, tabled numbers and the spin of a wheel.
+    """Elements that couple vectors of lookup-table bodies on two bases, lookup-table numbers and the spin of a wheel.
 
     `whole`: beside each of them a spring without stiffness on one component, or on so many numbers, that their tangents
     are not summed by vectors and numbers.

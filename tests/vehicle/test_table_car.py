@@ -10,7 +10,7 @@ from fmu_src.geometry.geometry import geometry, lost_frames
 from fmu_src.variables.variables import variable_table
 from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
-from mbs.model.table_bodies import TabledBody
+from mbs.model.table_bodies import LookupTableBody
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle.rigid_car import column_car
@@ -55,7 +55,7 @@ def _off(name: str, axle: str) -> tuple[float, float]:
         q = linkage.at_springs(linkage.drawn.q, (left, right), rack)
         values = {f"spring compression {axle[0].upper()}L": left, f"spring compression {axle[0].upper()}R": right}
         for part in linkage.model.bodies:
-            (tabled,) = (t for t in m.tabled if isinstance(t, TabledBody) and t.name == part.name)
+            (tabled,) = (t for t in m.lookup_tables if isinstance(t, LookupTableBody) and t.name == part.name)
             result = tabled.table.value(*(values.get(c.name, rack) for c in tabled.parameters))
             rows = [linkage.full(part.start + k) for k in range(12)]
             exact = np.array([row @ q + constant for row, constant in rows])

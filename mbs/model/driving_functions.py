@@ -1,4 +1,4 @@
-"""Guides: motions s(t) with two continuous rates, from an input through a filter or by a table from another guide."""
+"""Driving functions s(t), prescribed motions with two continuous rates: of inputs through a filter."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,12 +9,12 @@ from scipy.interpolate import CubicHermiteSpline
 
 from mbs.common.checks import array, number, positive, shown, text
 from mbs.common.errors import ModelError
-from mbs.kernel.header.enumerations import GuideType
+from mbs.kernel.header.enumerations import DrivingFunctionType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried_parts import SlidingPoint
 from mbs.model.inputs import owned_input
-from mbs.model.records import Guide, Input
+from mbs.model.records import DrivingFunction, Input
 from mbs.model.register import Register
 
 
@@ -25,8 +25,8 @@ def pair(value: object, subject: str) -> tuple[Any, Any]:
     return value[0], value[1]
 
 
-def table_value(guide: Guide, u: float) -> tuple[float, float]:
-    """Value and slope of a guide by a table, at the value `u` of the guide that it follows."""
+def table_value(guide: DrivingFunction, u: float) -> tuple[float, float]:
+    """Value and slope of a driving function by a table, at the value `u` of the driving function that it follows."""
     x, y, m = np.reshape(guide.reals, (3, -1))
     if u < x[0] or u >= x[-1]:
         k = 0 if u < x[0] else -1
@@ -44,32 +44,36 @@ def perpendicular_rows(directions: object, count: int, dimension: int, subject: 
     return rows
 
 
-def owned_guide(model: Register, guide: Guide, subject: str) -> Guide:
-    """The guide; raises `ModelError` if it is not of this model."""
-    if not isinstance(guide, Guide) or guide.index >= len(model.guides) or model.guides[guide.index] is not guide:
-        raise ModelError(f"{subject} needs a guide made by model '{model.name}', got {shown(guide)}.")
+def owned_driving_function(model: Register, guide: DrivingFunction, subject: str) -> DrivingFunction:
+    """The driving function; raises `ModelError` if it is not of this model."""
+    if (
+        not isinstance(guide, DrivingFunction)
+        or guide.index >= len(model.guides)
+        or model.guides[guide.index] is not guide
+    ):
+        raise ModelError(f"{subject} needs a driving function made by model '{model.name}', got {shown(guide)}.")
     return guide
 
 
-def new_guide(
+def new_driving_function(
     model: Register,
     name: str,
-    type: GuideType,
+    type: DrivingFunctionType,
     input: int,
     reals: list[float],
     start: float,
     unit: str,
     second: int = -1,
-) -> Guide:
-    """Register a guide; `reals` as in the System file."""
-    text(unit, f"The unit of guide {shown(name)}")
-    checked = tuple(number(r, f"A number of guide {shown(name)}") for r in reals)
-    guide = Guide(name, len(model.guides), type, input, checked, start, unit, second)
-    return model.enter("guide", model.guides, guide)
+) -> DrivingFunction:
+    """Register a driving function; `reals` as in the System file."""
+    text(unit, f"The unit of driving function {shown(name)}")
+    checked = tuple(number(r, f"A number of driving function {shown(name)}") for r in reals)
+    guide = DrivingFunction(name, len(model.guides), type, input, checked, start, unit, second)
+    return model.enter("driving function", model.guides, guide)
 
 
-class GuideVocabulary(BodyVocabulary):
-    """Vocabulary of guides and of the points that they slide."""
+class DrivingFunctionVocabulary(BodyVocabulary):
+    """Vocabulary of driving functions and of the points that they slide."""
 
     def guide_inputs(
         self,
@@ -80,27 +84,27 @@ class GuideVocabulary(BodyVocabulary):
         limits: tuple[float, float],
         frequency: float,
         unit: str = "1",
-    ) -> Guide:
+    ) -> DrivingFunction:
         """A prescribed motion that follows the sum of two inputs, held between two limits, through the filter of
         `guide_input`.
 
         Parameters
         ----------
         gains : tuple of float
-            Of each input, in units of the guide per unit of the input.
+            Of each input, in units of the driving function per unit of the input.
         limits : tuple of float
-            Between which the sum is held, in units of the guide; `sense_guide` reads its "excess" over them.
+            Between which the sum is held, in units of the driving function; `sense_guide` reads its "excess" over them.
         frequency : float
             Of the filter, Hz.
         unit : str
-            Of the guide, rad or m.
+            Of the driving function, rad or m.
 
         Raises
         ------
         ModelError
             The limits are the wrong way round, or the frequency is not positive.
         """
-        subject = f"guide '{name}'"
+        subject = f"driving function '{name}'"
         first, second = (owned_input(self, u, f"The {subject}") for u in pair(inputs, f"The inputs of {subject}"))
         w = 2.0 * np.pi * positive(frequency, f"The frequency of {subject}")
         k_1, k_2 = (number(k, f"A gain of {subject}") for k in pair(gains, f"The gains of {subject}"))
@@ -112,7 +116,9 @@ class GuideVocabulary(BodyVocabulary):
         unlimited = k_1 * first.start + k_2 * second.start
         start = min(max(unlimited, low), high)
         reals = [w, k_1, start, k_2, low, high]
-        return new_guide(self, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
+        return new_driving_function(
+            self, name, DrivingFunctionType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index
+        )
 
     def slide(
         self,
@@ -121,19 +127,19 @@ class GuideVocabulary(BodyVocabulary):
         *,
         point: ArrayLike,
         direction: ArrayLike | Sequence[ArrayLike],
-        guide: Guide | Sequence[Guide],
+        guide: DrivingFunction | Sequence[DrivingFunction],
     ) -> SlidingPoint:
-        """A point that a guide slides along a direction fixed in a body, such as the rack of a car.
+        """A point that a driving function slides along a direction fixed in a body, such as the rack of a car.
 
         Parameters
         ----------
         body : Body
             Of a flexible one its floating frame is meant.
         point : array_like, shape (dimension,)
-            Its position when the guide is 0, m, earth axes in the reference configuration.
+            Its position when the driving function is 0, m, earth axes in the reference configuration.
         direction : array_like, shape (dimension,) or (n, dimension)
             Direction in which it slides, of any length, in the same axes; several are at right angles to each other.
-        guide : Guide or sequence of Guide
+        guide : DrivingFunction or sequence of DrivingFunction
             m; one for each direction.
 
         Returns
@@ -144,17 +150,17 @@ class GuideVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            Directions are not at right angles, or there are not as many as guides.
+            Directions are not at right angles, or there are not as many as driving functions.
         """
         subject = f"slide '{name}'"
         requested: Any = guide if isinstance(guide, (list, tuple)) else [guide]
-        guides = [owned_guide(self, g, f"The {subject}") for g in requested]
+        guides = [owned_driving_function(self, g, f"The {subject}") for g in requested]
         start = self.anchor(body, point, subject)
         frame_body = body.frame
         rows = (
             perpendicular_rows(direction, len(guides), self.dimension, subject) if requested is guide else [direction]
         )
-        axes_and_guides = tuple(
+        axes_and_driving_functions = tuple(
             (self.anchor_axis(frame_body, row, subject), g.index) for row, g in zip(rows, guides, strict=True)
         )
-        return SlidingPoint(self.unique("slide", name), body, start, axes_and_guides)
+        return SlidingPoint(self.unique("slide", name), body, start, axes_and_driving_functions)

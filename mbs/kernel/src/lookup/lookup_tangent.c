@@ -1,20 +1,20 @@
-/* Tangents of tabled bodies and of the elements on them, added to fronts. Indices K and L are 0 for r and 1 to 3 for
- * the axes of Y; x is a component along the axes of the earth, k along those of Y. Tangents of elements are B' S B with
- * B = d(signals)/dq: of groups with parts (ali3_tabled_parts) by the parts, of others signal by signal. */
+/* Tangents of lookup-table bodies and of the elements on them, added to fronts. Indices K and L are 0 for r and 1 to 3
+ * for the axes of Y; x is a component along the axes of the earth, k along those of Y. Tangents of elements are B' S B
+ * with B = d(signals)/dq: of groups with parts (ali3_lookup_parts) by the parts, of others signal by signal. */
 #include <string.h>
 
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
 #include "../algebra/small_vectors.h"
-#include "tabled.h"
+#include "lookup.h"
 
-enum { FIRST_PARAMETER = 12 }; /* index of the parameters in ali3_tabled.loc, after r and Y */
+enum { FIRST_PARAMETER = 12 }; /* index of the parameters in ali3_lookup.loc, after r and Y */
 
 /* Adds wM M of all bodies of a base, and the geometric stiffness of gravity: -wK d2(g . X)/dY dp. */
 ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double wK, real *F) {
   const ali3_system *S = in->system;
-  const ali3_tabled_base *base = S->tabled_base + b;
-  ali3_tabled_base_work *w = in->tabled.base + b;
+  const ali3_lookup_base *base = S->lookup_base + b;
+  ali3_lookup_base_work *w = in->lookup.base + b;
   for (int k = 0; k < 3; k++)
     w->weight[k] = base->gravity[0] * w->axes[3 * k] + base->gravity[1] * w->axes[3 * k + 1] +
                    base->gravity[2] * w->axes[3 * k + 2];
@@ -23,8 +23,8 @@ ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double
     for (int L = 0; L <= K; L++)
       for (int x = 0; x < 3; x++) F[base->at[3 * K + x][3 * L + x]] += wM * w->mass[K][L];
   for (int32_t p = base->first; p < base->end; p++) {
-    const ali3_tabled_parameter_work *of = in->tabled.parameter + p;
-    const int32_t *at = S->tabled_parameter[p].at;
+    const ali3_lookup_parameter_work *of = in->lookup.parameter + p;
+    const int32_t *at = S->lookup_parameter[p].at;
     for (int i = 0; i < 12; i++) {
       real value = wM * of->turned[i];
       if (i >= 3) value -= wK * base->gravity[i % 3] * of->own[i / 3 - 1];
@@ -36,14 +36,14 @@ ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double
 /* Adds the tangent of one item: wM M between its parameters, -wK f d2X/dq2 with the forces of elements and gravity. */
 static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, real *F) {
   const ali3_system *S = in->system;
-  const ali3_tabled *c = S->tabled + i;
-  const ali3_tabled_work *w = in->tabled.item + i;
+  const ali3_lookup *c = S->lookup + i;
+  const ali3_lookup_work *w = in->lookup.item + i;
   const int32_t size = S->front_ptr[c->front + 1] - S->front_ptr[c->front];
   const int n_par = c->count[1] > 1 ? 2 : 1;
-  const bool body = c->n == ALI3_TABLED_BODY, heavy = ali3_tabled_heavy(c);
-  const real *weight = body ? in->tabled.base[c->base].weight : NULL;
+  const bool body = c->n == ALI3_LOOKUP_BODY, heavy = ali3_lookup_heavy(c);
+  const real *weight = body ? in->lookup.base[c->base].weight : NULL;
   real *block = F + S->front_off[c->front], f[12]; /* along Y */
-  const real *axes = body ? in->tabled.base[c->base].axes : NULL;
+  const real *axes = body ? in->lookup.base[c->base].axes : NULL;
   for (int i = 0; i < 12; i++) f[i] = heavy ? c->mass[i / 3] * weight[i % 3] : ali3_same(0.0);
   for (int32_t n = 0; body && n < c->n_seen; n++)
     for (int k = 0; k < 3; k++) f[3 * c->seen[n] + k] += ali3_dot(axes + 3 * k, w->force + 3 * c->seen[n]);
@@ -69,24 +69,24 @@ static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, r
   }
 }
 
-void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F) {
-  for (int32_t b = 0; b < in->system->n_tabled_base; b++) add_base(in, b, wM, wK, F);
-  for (int32_t i = 0; i < in->system->n_tabled; i++) add_item(in, i, wM, wK, F);
+void ali3_lookup_tangent(const ali3_instance *in, double wM, double wK, real *F) {
+  for (int32_t b = 0; b < in->system->n_lookup_base; b++) add_base(in, b, wM, wK, F);
+  for (int32_t i = 0; i < in->system->n_lookup; i++) add_item(in, i, wM, wK, F);
 }
 
 /* Adds to the row of B of a signal its coefficient `value` of dependent d of an item, over the coordinates of the
  * group. */
-ALI3_INLINED void add_dependent(const ali3_tabled *c, const ali3_tabled_work *w, const int32_t *slot, int32_t d,
+ALI3_INLINED void add_dependent(const ali3_lookup *c, const ali3_lookup_work *w, const int32_t *slot, int32_t d,
                                 double value, real *row) {
   row[slot[FIRST_PARAMETER]] += value * w->by[0][d];
   if (c->count[1] > 1) row[slot[FIRST_PARAMETER + 1]] += value * w->by[1][d];
-  if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
+  if (c->n != ALI3_LOOKUP_BODY || c->frame[0] < 0) return;
   const int32_t v = d / 3, x = d % 3;
   for (int k = 0; k < 3; k++) row[slot[3 + 3 * k + x]] += value * w->value[0][3 * v + k];
 }
 
 /* B (n x m) of the signals of a group by its coordinates. */
-ALI3_INLINED void compute_B(const ali3_instance *in, const ali3_tabled_group *of, int32_t m, real *B) {
+ALI3_INLINED void compute_B(const ali3_instance *in, const ali3_lookup_group *of, int32_t m, real *B) {
   const ali3_system *S = in->system;
   memset(B, 0, (size_t)(of->n_signal * m) * sizeof *B);
   for (int32_t i = 0; i < of->n_signal; i++)
@@ -96,19 +96,19 @@ ALI3_INLINED void compute_B(const ali3_instance *in, const ali3_tabled_group *of
       if (d < 0)
         row[local] += S->el_entry_value[k];
       else
-        add_dependent(S->tabled + of->item[local], in->tabled.item + of->item[local], of->slot[local], d,
+        add_dependent(S->lookup + of->item[local], in->lookup.item + of->item[local], of->slot[local], d,
                       S->el_entry_value[k], row);
     }
 }
 
 /* Sum of the tangents of a group's elements by its signals, n x n; returns the lanes in which all elements are idle. */
-ALI3_INLINED truth sum_tangents(const ali3_instance *in, const ali3_tabled_group *of, real *sum) {
+ALI3_INLINED truth sum_tangents(const ali3_instance *in, const ali3_lookup_group *of, real *sum) {
   const ali3_system *S = in->system;
   truth idle = ali3_same(0.0) == 0.0;
   memset(sum, 0, (size_t)(of->n_signal * of->n_signal) * sizeof *sum);
   for (int32_t o = of->first; o < of->end; o++) {
-    const int32_t e = S->tabled_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-    const int32_t *place = S->tabled_signal + S->el_sig_ptr[e];
+    const int32_t e = S->lookup_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+    const int32_t *place = S->lookup_signal + S->el_sig_ptr[e];
     const real *from = in->element.S + S->el_S_off[e];
     const truth idle_lanes = in->element.idle[e];
     if (!ali3_any(ali3_not(idle_lanes))) continue;
@@ -122,11 +122,11 @@ ALI3_INLINED truth sum_tangents(const ali3_instance *in, const ali3_tabled_group
 }
 
 /* Adds B' S B of the elements of a group without parts. */
-ALI3_INLINED void add_undivided(ali3_instance *in, const ali3_tabled_group *of, real *F) {
+ALI3_INLINED void add_undivided(ali3_instance *in, const ali3_lookup_group *of, real *F) {
   const ali3_system *S = in->system;
   const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
   const int32_t n = of->n_signal, m = of->m;
-  real *block = F + S->front_off[of->front], *sum = in->tabled.square, *B = sum + n * n, *SB = B + n * m;
+  real *block = F + S->front_off[of->front], *sum = in->lookup.square, *B = sum + n * n, *SB = B + n * m;
   const truth idle = sum_tangents(in, of, sum);
   if (!ali3_any(ali3_not(idle))) return;
   compute_B(in, of, m, B);
@@ -143,7 +143,7 @@ ALI3_INLINED void add_undivided(ali3_instance *in, const ali3_tabled_group *of, 
 }
 
 /* B of the parts of a group. */
-ALI3_INLINED void compute_part_B(const ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p) {
+ALI3_INLINED void compute_part_B(const ali3_instance *in, const ali3_lookup_group *of, ali3_lookup_parts *p) {
   const ali3_system *S = in->system;
   memset(p->share, 0, (size_t)of->n_vector * sizeof *p->share);
   memset(p->along, 0, (size_t)of->n_vector * sizeof *p->along);
@@ -156,7 +156,7 @@ ALI3_INLINED void compute_part_B(const ali3_instance *in, const ali3_tabled_grou
         p->share[i][of->axis[local]] += value;
         continue;
       }
-      const ali3_tabled_work *w = in->tabled.item + of->item[local];
+      const ali3_lookup_work *w = in->lookup.item + of->item[local];
       for (int K = 0; K < 3; K++) p->share[i][1 + K] += value * w->value[0][d + K];
       for (int q = 0; q < 2 && of->along[local][q] >= 0; q++)
         for (int x = 0; x < 3; x++) p->along[i][of->along[local][q]][x] += value * w->by[q][d + x];
@@ -169,7 +169,7 @@ ALI3_INLINED void compute_part_B(const ali3_instance *in, const ali3_tabled_grou
         p->slope[i][of->axis[local]] += value;
         continue;
       }
-      const ali3_tabled_work *w = in->tabled.item + of->item[local];
+      const ali3_lookup_work *w = in->lookup.item + of->item[local];
       for (int q = 0; q < 2 && of->along[local][q] >= 0; q++) p->slope[i][of->along[local][q]] += value * w->by[q][0];
     }
 }
@@ -183,7 +183,7 @@ ALI3_INLINED void add_numbers(real *restrict to, const real *restrict from, trut
 }
 
 /* Sum of the tangents of a group's elements by its parts, of numbers with vectors once; returns as `sum_tangents`. */
-ALI3_INLINED truth sum_part_tangents(const ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p) {
+ALI3_INLINED truth sum_part_tangents(const ali3_instance *in, const ali3_lookup_group *of, ali3_lookup_parts *p) {
   const ali3_system *S = in->system;
   truth idle = ali3_same(0.0) == 0.0;
   for (int32_t i = 0; i < of->n_vector; i++)
@@ -191,8 +191,8 @@ ALI3_INLINED truth sum_part_tangents(const ali3_instance *in, const ali3_tabled_
   memset(p->mixed, 0, (size_t)of->n_number * sizeof *p->mixed);
   memset(p->numbers, 0, (size_t)of->n_number * sizeof *p->numbers);
   for (int32_t o = of->first; o < of->end; o++) {
-    const int32_t e = S->tabled_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-    const int32_t *place = S->tabled_signal + S->el_sig_ptr[e];
+    const int32_t e = S->lookup_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+    const int32_t *place = S->lookup_signal + S->el_sig_ptr[e];
     const real *from = in->element.S + S->el_S_off[e];
     const truth idle_lanes = in->element.idle[e];
     const bool some = ali3_any(idle_lanes);
@@ -218,9 +218,9 @@ ALI3_INLINED truth sum_part_tangents(const ali3_instance *in, const ali3_tabled_
 }
 
 /* S B of the parts of a group. */
-ALI3_INLINED void multiply_parts(const ali3_tabled_group *of, ali3_tabled_parts *p) {
+ALI3_INLINED void multiply_parts(const ali3_lookup_group *of, ali3_lookup_parts *p) {
   for (int32_t i = 0; i < of->n_vector; i++) {
-    const ali3_tabled_list *beside = of->beside + i;
+    const ali3_lookup_list *beside = of->beside + i;
     for (int K = 0; of->base >= 0 && K < 4; K++) {
       real sum[9] = {0};
       for (int32_t n = 0; n < beside->n; n++) {
@@ -251,7 +251,7 @@ ALI3_INLINED void multiply_parts(const ali3_tabled_group *of, ali3_tabled_parts 
 }
 
 /* Adds B' S B of the elements of a group with parts, except between the axes of its base, which is added to p->base. */
-ALI3_INLINED void add_by_parts(ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p, real *F) {
+ALI3_INLINED void add_by_parts(ali3_instance *in, const ali3_lookup_group *of, ali3_lookup_parts *p, real *F) {
   const truth idle = sum_part_tangents(in, of, p);
   const bool some = ali3_any(idle);
   if (!ali3_any(ali3_not(idle))) return;
@@ -283,26 +283,26 @@ ALI3_INLINED void add_by_parts(ali3_instance *in, const ali3_tabled_group *of, a
 }
 
 /* Adds the entries between r and Y of a base, from the diagonal on. */
-ALI3_INLINED void add_axes(const ali3_tabled_base *base, const ali3_tabled_parts *p, real *F) {
+ALI3_INLINED void add_axes(const ali3_lookup_base *base, const ali3_lookup_parts *p, real *F) {
   for (int i = 0; i < 12; i++)
     for (int j = 0; j <= i; j++) F[base->at[i][j]] += p->base[i / 3][j / 3][3 * (i % 3) + j % 3];
 }
 
-ALI3_INLINED void tabled_elements_tangent(ali3_instance *in, real *F) {
+ALI3_INLINED void lookup_elements_tangent(ali3_instance *in, real *F) {
   const ali3_system *S = in->system;
-  ali3_tabled_parts *p = (ali3_tabled_parts *)in->tabled.square;
+  ali3_lookup_parts *p = (ali3_lookup_parts *)in->lookup.square;
   int32_t base = -1; /* of p->base */
-  for (int32_t g = 0; g < S->n_tabled_group; g++) {
-    const ali3_tabled_group *of = S->tabled_group + g;
+  for (int32_t g = 0; g < S->n_lookup_group; g++) {
+    const ali3_lookup_group *of = S->lookup_group + g;
     const bool new_base = of->parted && of->base >= 0 && of->base != base;
-    if (base >= 0 && (new_base || !of->parted)) add_axes(S->tabled_base + base, p, F), base = -1;
+    if (base >= 0 && (new_base || !of->parted)) add_axes(S->lookup_base + base, p, F), base = -1;
     if (new_base) memset(p->base, 0, sizeof p->base), base = of->base;
     if (of->parted)
       add_by_parts(in, of, p, F);
     else
       add_undivided(in, of, F);
   }
-  if (base >= 0) add_axes(S->tabled_base + base, p, F);
+  if (base >= 0) add_axes(S->lookup_base + base, p, F);
 }
 
-ALI3_BY_PROCESSOR(in->system, void, tabled_elements_tangent, (ali3_instance * in, real *F), (in, F))
+ALI3_BY_PROCESSOR(in->system, void, lookup_elements_tangent, (ali3_instance * in, real *F), (in, F))

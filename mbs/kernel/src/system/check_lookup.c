@@ -1,20 +1,20 @@
-/* Checks tabled bodies and numbers of a System: their sizes here, before signals refer to them; the rest with the
+/* Checks lookup-table bodies and numbers of a System: their sizes here, before signals refer to them; the rest with the
  * fronts. */
-#include "../tabled/tabled.h"
+#include "../lookup/lookup.h"
 #include "check.h"
 #include "loading.h"
 #include "message.h"
 
-enum { MAX_TABLED = 4096, MIN_POINTS = 4, MAX_POINTS = 4096 }; /* control points along a parameter */
+enum { MAX_LOOKUPS = 4096, MIN_POINTS = 4, MAX_POINTS = 4096 }; /* control points along a parameter */
 
-ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
+ali3_status ali3_check_lookup_sizes(ali3_system *s, ali3_message m) {
   const int64_t n = s->n_tabled_size / 3;
   int64_t coefficients = 0;
-  if (n > MAX_TABLED) return ali3_bad(m, "%lld lookup-table bodies and numbers", (long long)n);
+  if (n > MAX_LOOKUPS) return ali3_bad(m, "%lld lookup-table bodies and numbers", (long long)n);
   for (int64_t i = 0; i < n; i++) {
     const int32_t *size = s->tabled_size + 3 * i;
     const bool single = size[2] == 1;
-    if ((size[0] != 1 && size[0] != ALI3_TABLED_BODY) || size[1] < MIN_POINTS || size[1] > MAX_POINTS ||
+    if ((size[0] != 1 && size[0] != ALI3_LOOKUP_BODY) || size[1] < MIN_POINTS || size[1] > MAX_POINTS ||
         (!single && (size[2] < MIN_POINTS || size[2] > MAX_POINTS)))
       return ali3_bad(m, "table %lld has %d functions at %d by %d points", (long long)i, (int)size[0], (int)size[1],
                       (int)size[2]);
@@ -31,10 +31,10 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
       return ali3_bad(m, "table %lld lacks a parameter", (long long)i);
     if (!(s->tabled_axis[4 * i + 1] > 0.0 && s->tabled_axis[4 * i + 3] > 0.0))
       return ali3_bad(m, "the points of table %lld do not ascend", (long long)i);
-    if (!(s->tabled_mass[ALI3_TABLED_MOMENTS * i] >= 0.0))
+    if (!(s->tabled_mass[ALI3_LOOKUP_MOMENTS * i] >= 0.0))
       return ali3_bad(m, "the mass of table %lld is negative", (long long)i);
   }
-  s->n_tabled = (int32_t)n;
+  s->n_lookup = (int32_t)n;
   if (n > 0 && (s->n_tree_parent > 0 || s->n_flex_front > 0))
     return ali3_bad(m, "lookup-table bodies are combined with a tree or flexible bodies");
   return ALI3_OK;

@@ -2,7 +2,7 @@
  * function continues along its tangent. */
 #include "../algebra/lane_copies.h"
 #include "../algebra/processor.h"
-#include "tabled.h"
+#include "lookup.h"
 
 enum { WINDOW = 4 }; /* number of control points with influence at a position */
 #ifdef ALI3_WIDTH
@@ -70,8 +70,8 @@ ALI3_INLINED real weighted_sum(const real w[WINDOW], const real *x, int32_t n) {
 
 /* Value and derivatives by one parameter of n functions. */
 ALI3_INLINED void evaluate_one_parameter(int32_t n, const window *x, const double *const point[LANES],
-                                         real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
-  real buffer[WINDOW * ALI3_TABLED_BODY];
+                                         real value[restrict ALI3_LOOKUP_VALUES][ALI3_LOOKUP_BODY]) {
+  real buffer[WINDOW * ALI3_LOOKUP_BODY];
   const real *v = gather_points(point, 0, WINDOW * n, buffer);
   for (int32_t i = 0; i < n; i++) {
     value[0][i] = weighted_sum(x->w[0], v + i, n);
@@ -83,10 +83,10 @@ ALI3_INLINED void evaluate_one_parameter(int32_t n, const window *x, const doubl
 /* The same by two parameters. `row`: stride between control points along the first one. */
 ALI3_INLINED void evaluate_two_parameters(int32_t n, int64_t row, const window *x, const window *y,
                                           const double *const point[LANES],
-                                          real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
-  real v[WINDOW * ALI3_TABLED_BODY], d[WINDOW * ALI3_TABLED_BODY], b[WINDOW * ALI3_TABLED_BODY];
+                                          real value[restrict ALI3_LOOKUP_VALUES][ALI3_LOOKUP_BODY]) {
+  real v[WINDOW * ALI3_LOOKUP_BODY], d[WINDOW * ALI3_LOOKUP_BODY], b[WINDOW * ALI3_LOOKUP_BODY];
   for (int k = 0; k < WINDOW; k++) {
-    real buffer[WINDOW * ALI3_TABLED_BODY];
+    real buffer[WINDOW * ALI3_LOOKUP_BODY];
     const real *p = gather_points(point, k * row, WINDOW * n, buffer);
     for (int32_t i = 0; i < n; i++) {
       v[k * n + i] = weighted_sum(y->w[0], p + i, n);
@@ -105,17 +105,17 @@ ALI3_INLINED void evaluate_two_parameters(int32_t n, int64_t row, const window *
 }
 
 /* The loops of a body have a length known to the compiler. */
-ALI3_INLINED void tabled_table(const ali3_system *S, const ali3_tabled *c, real a, real b,
-                               real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+ALI3_INLINED void lookup_table(const ali3_system *S, const ali3_lookup *c, real a, real b,
+                               real value[ALI3_LOOKUP_VALUES][ALI3_LOOKUP_BODY]) {
   (void)S;
   const window x = find_window(c->axis, c->count[0], a);
-  const bool body = c->n == ALI3_TABLED_BODY;
+  const bool body = c->n == ALI3_LOOKUP_BODY;
   const int64_t row = (int64_t)c->count[1] * c->n;
   const double *point[LANES];
   for (int l = 0; l < LANES; l++) point[l] = c->coef + x.cell[l] * row;
   if (c->count[1] == 1) {
     if (body)
-      evaluate_one_parameter(ALI3_TABLED_BODY, &x, point, value);
+      evaluate_one_parameter(ALI3_LOOKUP_BODY, &x, point, value);
     else
       evaluate_one_parameter(1, &x, point, value);
     return;
@@ -123,12 +123,12 @@ ALI3_INLINED void tabled_table(const ali3_system *S, const ali3_tabled *c, real 
   const window y = find_window(c->axis + 2, c->count[1], b);
   for (int l = 0; l < LANES; l++) point[l] += (int64_t)y.cell[l] * c->n;
   if (body)
-    evaluate_two_parameters(ALI3_TABLED_BODY, row, &x, &y, point, value);
+    evaluate_two_parameters(ALI3_LOOKUP_BODY, row, &x, &y, point, value);
   else
     evaluate_two_parameters(1, row, &x, &y, point, value);
 }
 
-ALI3_BY_PROCESSOR(S, void, tabled_table,
-                  (const ali3_system *S, const ali3_tabled *c, real a, real b,
-                   real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]),
+ALI3_BY_PROCESSOR(S, void, lookup_table,
+                  (const ali3_system *S, const ali3_lookup *c, real a, real b,
+                   real value[ALI3_LOOKUP_VALUES][ALI3_LOOKUP_BODY]),
                   (S, c, a, b, value))
