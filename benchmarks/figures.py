@@ -183,9 +183,7 @@ def readme_sentences() -> list[RemadeTable]:
 def finite_element_tables(whole: bool) -> list[RemadeTable]:
     """Mass models and modes of the prototype's frame; if `whole`, also CalculiX beside two beam theories."""
     page, frame = "docs/finite_elements.md", frame_tables
-    remade_tables = [
-        RemadeTable(page, frame.modes_table(), "modes", ("modes",)),
-    ]
+    remade_tables = [RemadeTable(page, frame.modes_table(), "modes", ("modes",))]
     return (
         [*remade_tables, RemadeTable(page, frame.calculix_table(), "calculix", ("quantity",))]
         if whole

@@ -238,7 +238,7 @@ LOGGED: dict[str, tuple[Any, str]] = {
     "aliases": (Path, "aliases of the log, for the car; by default the Ferrari's"),
 }
 FITTED_PARAMETERS: dict[str, tuple[Any, str]] = {
-    "bounds": (Path, "sought parameters and their bounds; by default the Ferrari's"),
+    "bounds": (Path, "sought parameters and their bounds; by default the Ferrari's")
 }
 PARTS = {
     "drive": Part(

@@ -11,15 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.validation.commonroad_reference import (
-    BEGIN,
-    BRAKING,
-    FOLDER,
-    MANOEUVRES,
-    SECONDS,
-    STEER,
-    STEER_SPEED,
-)
+from benchmarks.validation.commonroad_reference import BEGIN, BRAKING, FOLDER, MANOEUVRES, SECONDS, STEER, STEER_SPEED
 from hosts.common.wheels import WHEELS
 from mbs import Pose, compile, simulate
 from mbs.vehicle import Car, load

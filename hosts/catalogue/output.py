@@ -50,13 +50,7 @@ def measures_record(
     """Cars, settings, measures and notes of all tests for JSON; missing numbers are null."""
     return {
         "cars": [
-            {
-                "label": car.label,
-                "fmu": str(car.path),
-                "step_s": car.facts.step,
-                "set": dict(car.start),
-            }
-            for car in cars
+            {"label": car.label, "fmu": str(car.path), "step_s": car.facts.step, "set": dict(car.start)} for car in cars
         ],
         "tests": [
             {

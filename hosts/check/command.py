@@ -75,10 +75,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(table, "--show-parameters")
     table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all of them to this file, as set")
     table.add_argument(
-        "--diff",
-        type=Path,
-        metavar="SSV",
-        help="print only where this set differs from the FMU and the given values",
+        "--diff", type=Path, metavar="SSV", help="print only where this set differs from the FMU and the given values"
     )
     reference = parser.add_argument_group(
         "against a reference, instead of the check",

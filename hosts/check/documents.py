@@ -62,7 +62,7 @@ def check_functions(subject: Subject) -> Finding:
     if hasattr(loaded_library, f"{model}_{missing[0]}"):
         return bad_finding(
             f"they begin with the prefix {model}_, which those of sources and static libraries have, not those of a "
-            f"shared library {subject.clause('2.1.1', '2.2.2')}",
+            f"shared library {subject.clause('2.1.1', '2.2.2')}"
         )
     return bad_finding(f"{len(missing)} of {len(names)} are missing: {some_of(missing)} {subject.clause('2.3', '2.5')}")
 

@@ -169,14 +169,7 @@ class Instance(instance.Instance):
         if subject.present_instance is not None:
             subject.present_instance.free()
         try:
-            super().__init__(
-                subject.by_elements,
-                subject.folder,
-                name,
-                self._collect_message,
-                token,
-                resources,
-            )
+            super().__init__(subject.by_elements, subject.folder, name, self._collect_message, token, resources)
         except (ModuleNotFoundError, MemoryError):
             raise
         except Exception as error:

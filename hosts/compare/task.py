@@ -25,14 +25,7 @@ from hosts.compare.log_selection import (
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.road_wheels import ANGLES
 from hosts.compare.segment_maker import SegmentMaker, is_invertible
-from hosts.compare.segments import (
-    Segment,
-    Spans,
-    concatenated_signals,
-    parse_spans,
-    window_begins,
-    within_spans,
-)
+from hosts.compare.segments import Segment, Spans, concatenated_signals, parse_spans, window_begins, within_spans
 from hosts.compare.start_values import starting_pedals
 from hosts.compare.steering_input import WHEEL_ANGLE, add_steering_input
 from hosts.compare.windows import scales_of

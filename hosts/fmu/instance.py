@@ -32,10 +32,7 @@ State: TypeAlias = ctypes.c_void_p
 
 # By version of FMI and type of a variable: the suffix of its functions, and its type in C.
 _NUMBERS: dict[int, dict[str, tuple[str, Any]]] = {
-    2: {
-        "Real": ("Real", ctypes.c_double),
-        **dict.fromkeys(("Integer", "Enumeration"), ("Integer", ctypes.c_int32)),
-    },
+    2: {"Real": ("Real", ctypes.c_double), **dict.fromkeys(("Integer", "Enumeration"), ("Integer", ctypes.c_int32))},
     3: {
         "Float64": ("Float64", ctypes.c_double),
         "Float32": ("Float32", ctypes.c_float),

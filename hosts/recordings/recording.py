@@ -37,12 +37,7 @@ def check_folder(folder: Path) -> None:
 
 
 def recording_meta(
-    fmu: Path,
-    step: float,
-    start: Mapping[str, Value],
-    *,
-    seed: int | None = None,
-    world: str | None = None,
+    fmu: Path, step: float, start: Mapping[str, Value], *, seed: int | None = None, world: str | None = None
 ) -> dict[str, Any]:
     """The metadata of a recording.
 
