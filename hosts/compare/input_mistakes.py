@@ -16,7 +16,7 @@ from hosts.compare.plausibility import ALIKE, inverted_correlation
 from hosts.compare.replay import Replay
 from hosts.compare.segments import Segment
 from hosts.compare.task import Task
-from hosts.measures.relations import SPEEDS
+from hosts.measures.log_signals import SPEEDS
 
 _SPEED = "initial.speed"
 _LATERAL_SPEED = "initial.lateral_speed"
