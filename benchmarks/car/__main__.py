@@ -23,6 +23,7 @@ from benchmarks.car import (
     fidelity,
     fidelity_references,
     fidelity_runs,
+    fmu_runs,
     manoeuvres,
     measures,
     road_faces,
@@ -39,7 +40,7 @@ REPEATS = {"repeats": (3, "timed runs of a row")}
 def _accuracy(options: Namespace) -> list[dict[str, Any]]:
     runs = [(name, h) for name in options.only for h in accuracy.STEPS]
     with tempfile.TemporaryDirectory() as folder:
-        fmu = None if options.no_fmu else accuracy.build_fmu_of(Path(folder))
+        fmu = None if options.no_fmu else fmu_runs.built_fmu(Path(folder))
         return [accuracy.measure(name, h, fmu, options.repeats) for name, h in watched(runs)]
 
 

@@ -1,6 +1,5 @@
 """Manoeuvres for the comparison of fidelities, their references and the errors against them."""
 
-import time
 from functools import cache
 from pathlib import Path
 
@@ -44,11 +43,6 @@ def manoeuvre_of(name: str) -> Manoeuvre:
 def run(name: str, fidelity: Fidelity, h: float, settings: Settings | None = None) -> Trajectory:
     """Simulate a manoeuvre; every step is recorded. `h`: step, s."""
     return manoeuvres.run_on(system_of(name, fidelity), manoeuvre_of(name), h, settings=settings)
-
-
-def cpu_time(name: str, fidelity: Fidelity, h: float, repeats: int) -> float:
-    """Least processor time of all steps of a run, s, without the start. `h`: step, s."""
-    return manoeuvres.time_on(system_of(name, fidelity), manoeuvre_of(name), h, repeats, time.process_time)
 
 
 def sampled(trajectory: Trajectory, h: float, *, stresses: bool = True) -> dict[str, NDArray[np.float64]]:
