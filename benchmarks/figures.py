@@ -193,7 +193,7 @@ def finite_element_tables(whole: bool) -> list[RemadeTable]:
 
 def assembly_defect_table() -> list[RemadeTable]:
     """Errors of the four-bar with assembly defect by bodies per bar; `benchmarks.paper` writes the whole table."""
-    rows = [{"table": "bars", **assembly_defect.measure(case)[0]} for case in assembly_defect.CASES[:3]]
+    rows = [{"table": "bars", **assembly_defect.measure(case)} for case in assembly_defect.CASES[:3]]
     text = assembly_defect.defect_blocks(rows)["defect"]
     return [RemadeTable("docs/flexible.md", text, "defect", ("bodies per bar", "elements, modes of each"))]
 

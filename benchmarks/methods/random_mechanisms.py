@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 import mbs
-from benchmarks.references.newton_euler import GROUND, Joint, Link, Mechanism, Spring
+from benchmarks.references.rigid_mechanism import GROUND, Joint, Link, Mechanism, Spring
 
 Array = NDArray[np.float64]
 PLANE_NORMAL = np.array([0.0, 0.0, 1.0])

@@ -22,12 +22,12 @@ from benchmarks.validation import margins, omitted_seconds, published_tests, two
 from benchmarks.validation.bank import bank_of, write_banked
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
-from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
+from benchmarks.validation.curves import MIN_SECONDS, acceleration_error, curves, within
 from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, read_drive
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import DriveComparison, compare_drive
 from benchmarks.validation.published_figures import full_throttle, published_rows
-from benchmarks.validation.refit import BOUNDS, problems, refit
+from benchmarks.validation.refit import BOUNDS, bound_notes, refit
 from benchmarks.validation.refit import COLUMNS as FIT_COLUMNS
 
 ALIASES = Path(__file__).with_name("ferrari_250_lm_log.toml")
@@ -172,7 +172,7 @@ def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[s
         rows.append(
             row | {"spread": c.spread} | {name: model_curves[k].difference for name, model_curves in results.items()}
         )
-    return [row for row in rows if row["seconds"] >= ENOUGH]
+    return [row for row in rows if row["seconds"] >= MIN_SECONDS]
 
 
 def _folds(first: Fitted, second: Fitted) -> list[dict[str, Any]]:
@@ -258,7 +258,7 @@ PARTS = {
         lambda options: refit(options.car, *_log(options), options.bounds or BOUNDS),
         options=LOGGED | FITTED_PARAMETERS,
         words=lambda rows: table(rows, FIT_COLUMNS),
-        check=lambda rows, options: problems(rows),
+        check=lambda rows, options: bound_notes(rows),
     ),
     "margins": Part(
         "how near the multibody car is to a spin: starts beside the measured state, more speed",

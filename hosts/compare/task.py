@@ -27,7 +27,7 @@ from hosts.compare.road_wheels import ANGLES
 from hosts.compare.segment_maker import SegmentMaker, is_invertible
 from hosts.compare.segments import Segment, Spans, concatenated_signals, parse_spans, window_begins, within_spans
 from hosts.compare.start_values import starting_pedals
-from hosts.compare.steering_input import WHEEL_ANGLE, add_steering_input
+from hosts.compare.steering_input import WHEEL_ANGLE, steering_input
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.run_checks import communication_step
@@ -90,7 +90,12 @@ def prepare(options: argparse.Namespace) -> Task:
         log = log_for(fmu, raw, log_aliases, {*ali3_values, *fitted_names}, used_names)
         notes = log.notes
         inputs, outputs = selected_signals(log, fmu, options)
-        frequencies = add_steering_input(fmu, log, inputs, outputs, notes, ali3_values, fitted_names)
+        frequencies = {}
+        if (steering := steering_input(fmu, inputs, log.outputs, ali3_values, fitted_names)) is not None:
+            inputs[steering.signal.name] = steering.signal
+            outputs = {n: s for n, s in outputs.items() if n not in steering.sources}  # an input is not compared
+            notes += steering.notes
+            frequencies = {steering.signal.name: steering.frequency} if steering.frequency else {}
         measured_speed = speed_to_hold(fmu, log, inputs, notes) if options.hold_speed else None
         unset_inputs = missing_inputs(fmu, inputs, measured_speed is not None, options)
         if unset_inputs:
