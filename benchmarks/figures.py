@@ -24,9 +24,9 @@ from benchmarks.car import (
     tabled_cars,
     variable_tables,
 )
+from benchmarks.car.error_limits import trust_sentences
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_rows, measure_table
-from benchmarks.car.trust_sentences import trust_sentences
 from benchmarks.methods import honesty, stability, stability_margins, unreduced_models
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.pictures.chart_commands import charts

@@ -21,8 +21,7 @@ from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_STATE
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.fmu.array_values import ArrayValues
-from hosts.fmu.scalars import Scalar
+from hosts.fmu.scalars import ArrayValues, Scalar
 
 _WARNING = 1
 _MAX_RAW_MESSAGES = 256

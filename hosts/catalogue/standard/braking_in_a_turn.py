@@ -10,7 +10,7 @@ from hosts.catalogue.preparation import StopConditions, constant_inputs, start_a
 from hosts.common.errors import HostError
 from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
-from hosts.driving.pilots.fixed_steering import FixedSteering
+from hosts.driving.pilots.steering_table import FixedSteering
 
 STEP = 0.005  # s; the yaw acceleration is a finite difference
 ON_CIRCLE = 12.0  # s, after which the steering is fixed
