@@ -21,7 +21,6 @@ from benchmarks.car import (
     edge_answers,
     error_limits,
     fidelity,
-    fidelity_references,
     fidelity_runs,
     fmu_runs,
     manoeuvres,
@@ -67,7 +66,7 @@ def _references(options: Namespace) -> None:
 
 
 def _fidelity_references(options: Namespace) -> None:
-    print("\n".join([fidelity_references.write(name) for name in watched(options.only)]))
+    print("\n".join([fidelity_runs.write_reference(name) for name in watched(options.only)]))
 
 
 def _tables_block(rows: Sequence[Row]) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Errors by steps in a period and by speed over a kerb, and the sentences of the page on trust that follow from them."""
+"""Errors by steps in a period and by speed over a kerb, and the sentences of the page on trust from them."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.car import accuracy, error_limits, manoeuvres, trajectories
+from benchmarks.car import accuracy, manoeuvres, trajectories
 from benchmarks.shared.command import watched
 from benchmarks.shared.figures import RemadeTable, between, read, rows_of
 from benchmarks.shared.pages import Row, table
@@ -117,9 +117,9 @@ def _car_error_sentences() -> list[str]:
     """Errors of the car at 10 ms, from the page on speed."""
     car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read("docs/speed.md"), "car"))}
     errors = {name: row[accuracy.ERROR_COLUMN].split(", ") for (name, h), row in car_rows.items() if h == "10"}
-    hard = [errors[accuracy.TITLES[name]] for name in error_limits.HARD]
+    hard = [errors[accuracy.TITLES[name]] for name in HARD]
     path, load = (_worst(cells[k] for cells in hard) for k in (0, 1))
-    fastest = max(map(error_limits.largest_acceleration, error_limits.HARD))
+    fastest = max(map(largest_acceleration, HARD))
     return [
         f"path to {path} of its length, loads to {load} at 10 ms, up to {fastest:.0f} m/s²",
         f"wheel loads to {errors[accuracy.TITLES['drop']][1]} at 10 ms, a fall of 0.5 m",

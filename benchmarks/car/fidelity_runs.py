@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ali3.files import write_text
 from ali3.low_pass import low_pass
-from benchmarks.car import fidelity_runs, manoeuvres
+from benchmarks.car import manoeuvres
 from benchmarks.shared.tables import read_csv, write_csv
 from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Settings, System, Trajectory, compile
@@ -20,6 +20,7 @@ FOLDER = Path(__file__).parents[2] / "tests" / "data" / "fidelity"
 NAMES = ("kerb_test", "double_lane_change_replay", "drop")
 INTERVAL = 0.01  # s, between the samples of a reference
 FREQUENCY = 10.0  # Hz, of the low-pass
+STEP = 5e-4  # s, of the references
 MOMENTS = tuple(f"bending_moment.{g}" for g in prototype_car.car().frame_section.gauges)
 FILTERED = "filtered."
 OUTPUTS = ("moment", "moment_unfiltered", "motion", "wheel_load")
@@ -88,20 +89,17 @@ def errors(values: dict[str, NDArray[np.float64]], reference: dict[str, NDArray[
     }
 
 
-STEP = 5e-4  # s
-
-
-def write(name: str) -> str:
+def write_reference(name: str) -> str:
     """Run a manoeuvre, write its reference and return a line with its differences from coarser runs."""
-    fine = fidelity_runs.run(name, Fidelity.MANY_MODES, STEP)
-    values = fidelity_runs.sampled(fine, STEP)
+    fine = run(name, Fidelity.MANY_MODES, STEP)
+    values = sampled(fine, STEP)
     checks = {
-        f"step {2 * STEP:g} s": fidelity_runs.sampled(fidelity_runs.run(name, Fidelity.MANY_MODES, 2 * STEP), 2 * STEP),
-        "5 dynamic modes": fidelity_runs.sampled(fidelity_runs.run(name, Fidelity.DYNAMIC, STEP), STEP),
+        f"step {2 * STEP:g} s": sampled(run(name, Fidelity.MANY_MODES, 2 * STEP), 2 * STEP),
+        "5 dynamic modes": sampled(run(name, Fidelity.DYNAMIC, STEP), STEP),
     }
     differences = []
     for label, values_of_check in checks.items():
-        e = fidelity_runs.errors(values_of_check, values)
+        e = errors(values_of_check, values)
         differences.append(
             f"{label}: moments {e['moment']:.1e} after the low-pass and {e['moment_unfiltered']:.1e} before it, "
             f"place {e['motion']:.1e} m, wheel loads {e['wheel_load']:.1e}"
@@ -114,7 +112,7 @@ def write(name: str) -> str:
     ]
     t = INTERVAL * np.arange(len(values[POSITION[0]]))
     write_csv(FOLDER / f"{name}.csv", lines, {"time": t} | {s: values[s] for s in signals}, 7)
-    _write_peaks(name, fidelity_runs.peaks(fine, STEP))
+    _write_peaks(name, peaks(fine, STEP))
     return f"{name}: " + "; ".join(differences)
 
 

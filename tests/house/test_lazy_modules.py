@@ -23,7 +23,7 @@ PATHS = (
 
 OPTIONAL_OF_A_STUDY = {
     "hosts.study.analysis.report",
-    "hosts.study.points",
+    "hosts.study.random_points",
     "hosts.study.repeated_run",
     "hosts.study.target",
 }

@@ -7,7 +7,7 @@ from scipy.stats import qmc
 
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import classes, main_effect
-from hosts.study.points import saltelli as unit_points
+from hosts.study.random_points import saltelli as unit_points
 
 pytest.importorskip("SALib")
 NAMES = ("a", "b", "c")

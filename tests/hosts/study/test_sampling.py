@@ -9,15 +9,8 @@ import pytest
 from SALib.sample import sobol
 from scipy.stats import qmc
 
-from hosts.study.points import (
-    UnitPoints,
-    digest,
-    grid_points,
-    latin_hypercube,
-    points_of_columns,
-    saltelli,
-    sobol_sequence,
-)
+from hosts.study.points import digest, grid_points, points_of_columns
+from hosts.study.random_points import UnitPoints, latin_hypercube, saltelli, sobol_sequence
 
 
 def in_blocks(places: UnitPoints, count: int, size: int) -> np.ndarray:
