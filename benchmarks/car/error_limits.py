@@ -16,10 +16,10 @@ PERIODS = 20
 STEPS_IN_A_PERIOD = (100, 50, 20, 10)
 SPEEDS = (5.0, 10.0, 20.0, 30.0)  # m/s
 STEPS = (0.001, 0.002, 0.005, 0.01)  # s
-FINE = 2e-4  # s
+FINE_STEP = 2e-4  # s
 BEFORE = 0.2  # s of the run before the kerb
 AFTER = 1.0  # s of the run after the kerb
-HARD = {  # manoeuvres, with the direction of their largest acceleration
+HARD_MANOEUVRES = {  # manoeuvres, with the direction of their largest acceleration
     "launch_and_brake": "vx",
     "step_steer_given_throttle": "vy",
     "double_lane_change_replay": "vy",
@@ -66,15 +66,15 @@ def kerb(speed: float) -> dict[str, Any]:
         run = manoeuvres.run_on(system, manoeuvre, h, every=round(0.01 / h))
         return np.array([run[name] for name in trajectories.LOADS])
 
-    exact = loads(FINE)
+    exact = loads(FINE_STEP)
     errors = {f"{1e3 * h:g} ms": float(np.abs(loads(h) - exact).max() / exact.max()) for h in STEPS}
     return {"speed_m_s": speed} | errors
 
 
 def largest_acceleration(name: str) -> float:
-    """Largest horizontal acceleration in a manoeuvre of `HARD`, from its stored reference, m/s2."""
+    """Largest horizontal acceleration in a manoeuvre of `HARD_MANOEUVRES`, from its stored reference, m/s2."""
     t, values, _ = trajectories.read(name)
-    accelerations = values["chassis.ay"] if HARD[name] == "vy" else np.gradient(values["speed"], t)
+    accelerations = values["chassis.ay"] if HARD_MANOEUVRES[name] == "vy" else np.gradient(values["speed"], t)
     return float(np.abs(accelerations).max())
 
 
@@ -117,9 +117,9 @@ def _car_error_sentences() -> list[str]:
     """Errors of the car at 10 ms, from the page on speed."""
     car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read("docs/speed.md"), "car"))}
     errors = {name: row[accuracy.ERROR_COLUMN].split(", ") for (name, h), row in car_rows.items() if h == "10"}
-    hard = [errors[accuracy.TITLES[name]] for name in HARD]
+    hard = [errors[accuracy.TITLES[name]] for name in HARD_MANOEUVRES]
     path, load = (_worst(cells[k] for cells in hard) for k in (0, 1))
-    fastest = max(map(largest_acceleration, HARD))
+    fastest = max(map(largest_acceleration, HARD_MANOEUVRES))
     return [
         f"path to {path} of its length, loads to {load} at 10 ms, up to {fastest:.0f} m/s²",
         f"wheel loads to {errors[accuracy.TITLES['drop']][1]} at 10 ms, a fall of 0.5 m",

@@ -17,10 +17,10 @@ from benchmarks.references.rigid_mechanism import GROUND, Joint, Mechanism
 Array = NDArray[np.float64]
 INSTANTS = 50  # intervals between recorded instants
 # relative tolerances of the runs
-COARSE = 1e-8
-FINE = 1e-10
-FINEST = 1e-12
-AGREE = 1e-5  # largest difference of two runs of a reference, relative to the size of the mechanism
+COARSE_TOLERANCE = 1e-8
+FINE_TOLERANCE = 1e-10
+FINEST_TOLERANCE = 1e-12
+MAX_DIFFERENCE = 1e-5  # largest difference of two runs of a reference, relative to the size of the mechanism
 MAX_CALLS = 100000  # largest number of evaluations of the equations of motion in a run
 
 
@@ -263,14 +263,14 @@ def motion(mechanism: Mechanism, rates: bool = False) -> Array:
     """Positions of the tips (INSTANTS + 1, n, d), m, confirmed by a run with a hundred times the tolerance; if `rates`,
     the values of `Dynamics.rates_and_drive` (INSTANTS + 1, k), before each event.
 
-    Raises `NoReferenceError` if the two runs differ by more than `AGREE`, or one of them does not end.
+    Raises `NoReferenceError` if the two runs differ by more than `MAX_DIFFERENCE`, or one of them does not end.
     """
-    (coarse, _), (results, omegas) = (_run(mechanism, tolerance) for tolerance in (COARSE, FINE))
+    (coarse, _), (results, omegas) = (_run(mechanism, tolerance) for tolerance in (COARSE_TOLERANCE, FINE_TOLERANCE))
     apart = float(np.abs(coarse - results).max()) / mechanism.size
-    if not apart <= AGREE:
-        coarse, (results, omegas) = results, _run(mechanism, FINEST)
+    if not apart <= MAX_DIFFERENCE:
+        coarse, (results, omegas) = results, _run(mechanism, FINEST_TOLERANCE)
         apart = float(np.abs(coarse - results).max()) / mechanism.size
-    if not apart <= AGREE:
+    if not apart <= MAX_DIFFERENCE:
         raise NoReferenceError(f"two runs of the reference differ by {apart:.1e} of the size")
     return omegas if rates else results
 
@@ -279,7 +279,7 @@ def _run(mechanism: Mechanism, tolerance: float) -> tuple[Array, Array]:
     dynamics = Dynamics(mechanism)
     t = np.linspace(0.0, mechanism.span, INSTANTS + 1)
     # a limit of the step, so that neither run misses motion between its stages
-    limit = mechanism.span / (200.0 if tolerance == COARSE else 350.0)
+    limit = mechanism.span / (200.0 if tolerance == COARSE_TOLERANCE else 350.0)
     tips, omegas = [], []
     x = np.zeros(0)
     try:

@@ -61,7 +61,7 @@ LACKING = {k: f for k, f in MODEL_COLUMNS.items() if k in ("model", "windows", "
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
 FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # inner step of the car, s
-COARSE = 0.01  # inner step for many runs, s
+COARSE_STEP = 0.01  # inner step for many runs, s
 LEFT_OUT = "linear bicycle", "saturating bicycle, tanh", "x/sqrt(1 + x2), two grips, yaw inertia"
 BANKED = "multibody car, bank by place"
 CHART_MODEL = 3  # index in MODELS: the saturating bicycle with four numbers
@@ -118,7 +118,7 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
 def _kinds(options: Namespace) -> list[dict[str, Any]]:
     log, aliases = _log(options)
     models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODELS[1]]
-    car = options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS
+    car = options.car, log, aliases, {"step_size": COARSE_STEP}, options.bounds or BOUNDS
     return omitted_seconds.rows_of(models, BODY, read_drive(log, aliases), car)
 
 
@@ -262,7 +262,7 @@ PARTS = {
     ),
     "margins": Part(
         "how near the multibody car is to a spin: starts beside the measured state, more speed",
-        lambda options: margins.margins(options.car, *_log(options), {"step_size": COARSE}),
+        lambda options: margins.margins(options.car, *_log(options), {"step_size": COARSE_STEP}),
         options=LOGGED,
         pages=(PAGE,),
         blocks=lambda rows: {"margins": table(rows, margins.COLUMNS)},

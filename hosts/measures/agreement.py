@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 Array: TypeAlias = NDArray[np.float64]
 MIN_VALUES = 6
 """Fewest values that are compared."""
-FINE = 0.02
+DELAY_RESOLUTION = 0.02
 """Interval of the delays in the second search, s."""
-_COARSE = 0.1  # s: interval of the delays in the first search
-_LATEST = 1.0  # s: largest delay
-_CLEAR = 0.03  # least increase of the correlation by a delay
+_FIRST_INTERVAL = 0.1  # s: interval of the delays in the first search
+_MAX_DELAY = 1.0  # s: largest delay
+_MIN_INCREASE = 0.03  # least increase of the correlation by a delay
 
 
 @dataclass(frozen=True)
@@ -55,8 +55,8 @@ def correlation(first: Array, second: Array) -> float:
 
 def _delay(first: Array, second: Callable[[float], Array]) -> float:
     undelayed, best = abs(correlation(first, second(0.0))), 0.0
-    for interval, reach in ((_COARSE, _LATEST), (FINE, _COARSE)):
+    for interval, reach in ((_FIRST_INTERVAL, _MAX_DELAY), (DELAY_RESOLUTION, _FIRST_INTERVAL)):
         delays = best + np.arange(-reach, reach + 1e-9, interval)
         correlations = [abs(correlation(first, second(float(delay)))) for delay in delays]
         best, highest = float(delays[int(np.argmax(correlations))]), max(correlations)
-    return best if highest > undelayed + _CLEAR else 0.0
+    return best if highest > undelayed + _MIN_INCREASE else 0.0

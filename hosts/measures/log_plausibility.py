@@ -12,7 +12,7 @@ import numpy as np
 
 from ali3.plausibility import Mistake, Plausibility, Value, far_values
 from ali3.units import misread, typeset
-from hosts.measures.agreement import FINE
+from hosts.measures.agreement import DELAY_RESOLUTION
 from hosts.measures.log_signals import PATH, QUANTITIES, SPEEDS, STEERING, WHEELS, Signals
 from hosts.measures.relations import RELATIONS, log_values
 from hosts.measures.samples import joint_sample_values, sample_values
@@ -159,7 +159,7 @@ def _shifted_logs(
     delays = [-power * v.value for v, power in _relations_with_powers(plausibility, "delay", (s.name,))]
     if delays and min(map(abs, delays)) > MIN_DELAY and np.ptp(delays) <= 2.0 * MIN_DELAY:
         delay = float(np.mean(delays))
-        message = f"a delay of {delay:.2f} s (within {FINE:g} s) of {label}"
+        message = f"a delay of {delay:.2f} s (within {DELAY_RESOLUTION:g} s) of {label}"
         yield message, {s.name}, {**signals, s.name: replace(s, time=s.time - delay)}, False
     offsets = [v.value for v, power in _relations_with_powers(plausibility, "offset", (s.name,)) if power < 0]
     if offsets:

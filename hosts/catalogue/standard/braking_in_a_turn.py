@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
+from hosts.catalogue.circle_stop import COMPARED, STEADY_TIME, Stop
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import StopConditions, constant_inputs, start_at_speed
 from hosts.common.errors import HostError
@@ -56,13 +56,13 @@ def drive_stop(car: TestedCar, settings: Mapping[str, float], pedal: float, long
         radius, speed, constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"], horizon=HORIZON
     )
     pilot = Braking(
-        FixedSteering(circle, begin, STEADY),
-        lambda time, observation: time >= begin + 1.5 * STEADY - 1e-9,
+        FixedSteering(circle, begin, STEADY_TIME),
+        lambda time, observation: time >= begin + 1.5 * STEADY_TIME - 1e-9,
         pedal,
         settings["rise_time"],
     )
     # Long enough for a deceleration of 0.5 m/s2.
-    stop_time = begin + 1.5 * STEADY + min(longest_stop, settings["rise_time"] + speed / 0.5)
+    stop_time = begin + 1.5 * STEADY_TIME + min(longest_stop, settings["rise_time"] + speed / 0.5)
     conditions = StopConditions(stands=0.05)
 
     def is_over(time: float, outputs: Mapping[str, float]) -> bool:
