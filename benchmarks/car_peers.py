@@ -149,12 +149,7 @@ def peer_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 
 PARTS = {
-    "car peers": Part(
-        "cars of other programs beside the prototype",
-        _rows,
-        pages=("speed.md",),
-        blocks=peer_blocks,
-    )
+    "car peers": Part("cars of other programs beside the prototype", _rows, pages=("speed.md",), blocks=peer_blocks)
 }
 
 main = partial(run, "car_peers", __doc__, PARTS)

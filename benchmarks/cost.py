@@ -8,24 +8,24 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.car import against_checkout, generated_code, lanes, real_time, scene_instructions
+from benchmarks.car import against_checkout, generated_code, lanes, real_time, scene_instructions, step_scenes
 from benchmarks.methods import cost_growth
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.figures import read
 from benchmarks.shared.pages import Row
 
 
-def _chosen(options: Namespace) -> list[scene_instructions.Scene]:
-    return [scene for scene in scene_instructions.SCENES if scene.name in options.only]
+def _scenes_of(options: Namespace) -> list[step_scenes.Scene]:
+    return [scene for scene in step_scenes.SCENES if scene.name in options.only]
 
 
 def _instructions(options: Namespace) -> list[dict[str, Any]]:
     with tempfile.TemporaryDirectory() as folder:
-        program = scene_instructions.compile_program(Path(folder))
-        return [scene_instructions.measure(scene, program, Path(folder)) for scene in watched(_chosen(options))]
+        program = step_scenes.compile_program(Path(folder))
+        return [scene_instructions.measure(scene, program, Path(folder)) for scene in watched(_scenes_of(options))]
 
 
-def _dearer(rows: Sequence[Row], options: Namespace) -> list[str]:
+def _increases(rows: Sequence[Row], options: Namespace) -> list[str]:
     return scene_instructions.compare_with_page(rows, read(scene_instructions.PAGE)) if options.compare else []
 
 
@@ -33,11 +33,11 @@ def _turns(options: Namespace) -> list[dict[str, Any]]:
     if options.other is None:
         raise RuntimeError("--other is missing: the folder of the checkout with which steps are timed in turn.")
     counts = options.rounds, options.repeats, options.instructions
-    return [*against_checkout.measure(options.other, _chosen(options), *counts)]
+    return [*against_checkout.measure(options.other, _scenes_of(options), *counts)]
 
 
 def _generated(options: Namespace) -> list[dict[str, Any]]:
-    return [*generated_code.measure(_chosen(options), options.rounds, options.repeats)]
+    return [*generated_code.measure(_scenes_of(options), options.rounds, options.repeats)]
 
 
 def _growth(options: Namespace) -> list[dict[str, Any]]:
@@ -50,7 +50,7 @@ def _throughput(options: Namespace) -> list[dict[str, Any]]:
     return [row for scene in watched(scenes) for row in lanes.measure(*scene, rounds=options.rounds)]
 
 
-SCENES = tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES))
+SCENES = tuple(dict.fromkeys(scene.name for scene in step_scenes.SCENES))
 IN_TURN = {
     "rounds": (7, "each measures both; the ratio is the median of all rounds"),
     "repeats": (5, "runs of which a round takes the least"),
@@ -63,7 +63,7 @@ PARTS = {
         options={"compare": (False, "with the table of the page: over 3 % more is an error")},
         pages=(scene_instructions.PAGE.removeprefix("docs/"),),
         blocks=scene_instructions.instruction_blocks,
-        check=_dearer,
+        check=_increases,
     ),
     "turns": Part(
         "steps of scenes by this checkout and by another one in turn: times, their ratio, counts",

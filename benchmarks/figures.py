@@ -25,9 +25,9 @@ from benchmarks.car import (
     table_cars,
     variable_tables,
 )
+from benchmarks.car.error_limits import trust_sentences
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_rows, measure_table
-from benchmarks.car.trust_sentences import trust_sentences
 from benchmarks.methods import honesty, stability, stability_margins, unreduced_models
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.pictures.chart_commands import charts
@@ -186,9 +186,7 @@ def readme_sentences() -> list[RemadeTable]:
 def finite_element_tables(whole: bool) -> list[RemadeTable]:
     """Mass models and modes of the prototype's frame; if `whole`, also CalculiX beside two beam theories."""
     page, frame = "docs/finite_elements.md", frame_tables
-    remade_tables = [
-        RemadeTable(page, frame.modes_table(), "modes", ("modes",)),
-    ]
+    remade_tables = [RemadeTable(page, frame.modes_table(), "modes", ("modes",))]
     return (
         [*remade_tables, RemadeTable(page, frame.calculix_table(), "calculix", ("quantity",))]
         if whole
@@ -198,7 +196,7 @@ def finite_element_tables(whole: bool) -> list[RemadeTable]:
 
 def assembly_defect_table() -> list[RemadeTable]:
     """Errors of the four-bar with assembly defect by bodies per bar; `benchmarks.paper` writes the whole table."""
-    rows = [{"table": "bars", **assembly_defect.measure(case)[0]} for case in assembly_defect.CASES[:3]]
+    rows = [{"table": "bars", **assembly_defect.measure(case)} for case in assembly_defect.CASES[:3]]
     text = assembly_defect.defect_blocks(rows)["defect"]
     return [RemadeTable("docs/flexible.md", text, "defect", ("bodies per bar", "elements, modes of each"))]
 

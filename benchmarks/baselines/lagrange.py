@@ -7,9 +7,9 @@ import scipy.linalg
 
 from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
-SINGULAR = 1e-14
+MIN_RECIPROCAL_CONDITION = 1e-14
 """Reciprocal condition number below which the bordered matrix counts as singular."""
-CUT = 1e-6
+SINGULAR_VALUE_CUT = 1e-6
 """Share of the largest singular value below which the minimum-norm solver drops a direction."""
 
 
@@ -39,12 +39,12 @@ class Lagrange:
             # qdd = free + L^-T y, y of minimum norm with J L^-T y = right - J free
             free = scipy.linalg.cho_solve((self.root, True), Q)
             scaled = scipy.linalg.solve_triangular(self.root, J.T, lower=True).T
-            y = np.linalg.lstsq(scaled, right_side - J @ free, rcond=CUT)[0]
+            y = np.linalg.lstsq(scaled, right_side - J @ free, rcond=SINGULAR_VALUE_CUT)[0]
             return np.concatenate([qd, free + scipy.linalg.solve_triangular(self.root, y, lower=True, trans="T")])
         bordered = np.block([[m.M, J.T], [J, np.zeros((m.nc, m.nc))]])
         if self.minimum_norm:
             return np.concatenate(
-                [qd, np.linalg.lstsq(bordered, np.concatenate([Q, right_side]), rcond=CUT)[0][: m.nq]]
+                [qd, np.linalg.lstsq(bordered, np.concatenate([Q, right_side]), rcond=SINGULAR_VALUE_CUT)[0][: m.nq]]
             )
         try:
             with warnings.catch_warnings():
@@ -53,6 +53,6 @@ class Lagrange:
         except np.linalg.LinAlgError:
             raise RefusedError(f"bordered matrix exactly singular; {m.rank(t, q)}", t) from None
         reciprocal = scipy.linalg.lapack.dgecon(lu, np.linalg.norm(bordered, 1))[0]
-        if not reciprocal > SINGULAR:
+        if not reciprocal > MIN_RECIPROCAL_CONDITION:
             raise RefusedError(f"bordered matrix singular (1/condition {reciprocal:.0e}); {m.rank(t, q)}", t)
         return np.concatenate([qd, scipy.linalg.lu_solve((lu, pivots), np.concatenate([Q, right_side]))[: m.nq]])

@@ -13,9 +13,9 @@ from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 DAMPING = 1.0  # damping ratio of the constraint oscillators
 FREQUENCY = 10.0  # their frequency, 1/s
 ITERATIONS = 30  # largest number of iterations of the accelerations
-SETTLED = 1e-10  # converged change of a component, relative to 1 + the largest
+ACCELERATION_TOLERANCE = 1e-10  # converged change of a component, relative to 1 + the largest
 PROJECTIONS = 5  # largest number of projections of the positions
-CLOSED = 1e-12  # converged mass-normalised Phi
+VIOLATION_TOLERANCE = 1e-12  # converged mass-normalised Phi
 
 
 class Penalty:
@@ -44,7 +44,7 @@ class Penalty:
             next_qdd = scipy.linalg.cho_solve(factor, m.M @ qdd - right_side)
             change = np.abs(next_qdd - qdd).max()
             qdd = next_qdd
-            if change <= SETTLED * (1.0 + np.abs(qdd).max()):
+            if change <= ACCELERATION_TOLERANCE * (1.0 + np.abs(qdd).max()):
                 break
         return np.concatenate([qd, qdd])
 
@@ -56,7 +56,7 @@ class Penalty:
         q, qd = x[: m.nq].copy(), x[m.nq :].copy()
         for _ in range(PROJECTIONS):
             phi, J, _, _ = m.evaluate(t, q, qd)
-            if np.abs(phi).max() < CLOSED:
+            if np.abs(phi).max() < VIOLATION_TOLERANCE:
                 break
             q -= scipy.linalg.cho_solve(self._factor(t, J), J.T @ (self.a * phi))
         J = m.evaluate(t, q, qd)[1]

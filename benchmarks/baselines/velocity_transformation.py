@@ -9,10 +9,10 @@ from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
 RANK = 1e-9
 """Share of the largest pivot below which a constraint counts as redundant at the start."""
-SINGULAR = 1e-12  # reciprocal condition number
+MIN_RECIPROCAL_CONDITION = 1e-12
 ITERATIONS = 20  # largest number of Newton iterations
-CLOSED = 1e-12  # converged mass-normalised Phi
-OPEN = 1e-8  # mass-normalised Phi above which there is no solution
+VIOLATION_TOLERANCE = 1e-12  # converged mass-normalised Phi
+MAX_VIOLATION = 1e-8  # mass-normalised Phi above which there is no solution
 
 
 class VelocityTransformation:
@@ -54,10 +54,10 @@ class VelocityTransformation:
         for _ in range(ITERATIONS):
             phi, J, _, _ = m.evaluate(t, q, qd)
             factor = self._factor(t, q, J)
-            if np.abs(phi[self.rows]).max(initial=0.0) < CLOSED:
+            if np.abs(phi[self.rows]).max(initial=0.0) < VIOLATION_TOLERANCE:
                 break
             q[d] -= scipy.linalg.lu_solve(factor, phi[self.rows])
-        if np.abs(phi[self.rows]).max(initial=0.0) > OPEN:
+        if np.abs(phi[self.rows]).max(initial=0.0) > MAX_VIOLATION:
             raise RefusedError(
                 "no position belongs to the independent coordinates: the chosen set is past its dead point", t
             )
@@ -72,7 +72,7 @@ class VelocityTransformation:
             warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
             lu, pivots = scipy.linalg.lu_factor(block, check_finite=False)
         reciprocal = scipy.linalg.lapack.dgecon(lu, np.linalg.norm(block, 1))[0] if len(block) else 1.0
-        if not reciprocal > SINGULAR:
+        if not reciprocal > MIN_RECIPROCAL_CONDITION:
             names = m.system.meta["coordinates"]
             chosen_names = ", ".join(names[k] for k in self.independent[:3])
             raise RefusedError(

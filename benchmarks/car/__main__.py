@@ -21,8 +21,8 @@ from benchmarks.car import (
     edge_answers,
     error_limits,
     fidelity,
-    fidelity_references,
     fidelity_runs,
+    fmu_runs,
     manoeuvres,
     measures,
     road_faces,
@@ -39,7 +39,7 @@ REPEATS = {"repeats": (3, "timed runs of a row")}
 def _accuracy(options: Namespace) -> list[dict[str, Any]]:
     runs = [(name, h) for name in options.only for h in accuracy.STEPS]
     with tempfile.TemporaryDirectory() as folder:
-        fmu = None if options.no_fmu else accuracy.build_fmu_of(Path(folder))
+        fmu = None if options.no_fmu else fmu_runs.built_fmu(Path(folder))
         return [accuracy.measure(name, h, fmu, options.repeats) for name, h in watched(runs)]
 
 
@@ -66,7 +66,7 @@ def _references(options: Namespace) -> None:
 
 
 def _fidelity_references(options: Namespace) -> None:
-    print("\n".join([fidelity_references.write(name) for name in watched(options.only)]))
+    print("\n".join([fidelity_runs.write_reference(name) for name in watched(options.only)]))
 
 
 def _tables_block(rows: Sequence[Row]) -> dict[str, str]:

@@ -10,9 +10,9 @@ from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
 
-from benchmarks.car import scene_instructions
+from benchmarks.car import step_scenes
 from benchmarks.car.operations import executed
-from benchmarks.car.scene_instructions import SOURCE, Scene
+from benchmarks.car.step_scenes import SOURCE, Scene
 from benchmarks.shared.command import watched
 from mbs.kernel import build
 
@@ -31,7 +31,7 @@ for scene in here["SCENES"]:
         commands[key] = here["command_of"](scene._replace(steps=steps or scene.steps), program, folder)
 print("\\n" + json.dumps(commands))
 """
-"""Scenes of `scene_instructions` of this checkout, made by the packages of another one."""
+"""Scenes of `step_scenes` of this checkout, made by the packages of another one."""
 
 
 def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: int) -> dict[str, list[str]]:
@@ -42,7 +42,7 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     checkout : Path
         Folder of a working tree.
     scenes : sequence of Scene
-        Scenes of `scene_instructions.SCENES`; one that the other packages cannot make is an error.
+        Scenes of `step_scenes.SCENES`; one that the other packages cannot make is an error.
     folder : Path
         Empty folder for program and files.
     steps : int
@@ -64,7 +64,7 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     include = (kernel / "include",)
     build.compile_c([SOURCE, *sources], build.host_target(), program, include=include, what=label, shared=False)
     scene_steps = json.dumps([[scene.name, scene.step] for scene in scenes])
-    command = [sys.executable, "-c", _COMMANDS, scene_instructions.__file__, str(program), scene_steps, str(steps)]
+    command = [sys.executable, "-c", _COMMANDS, step_scenes.__file__, str(program), scene_steps, str(steps)]
     environment = os.environ | {"PYTHONPATH": str(checkout)}
     process = subprocess.run(command, cwd=checkout, env=environment, capture_output=True, text=True)
     if process.returncode != 0:
@@ -86,7 +86,7 @@ def measure(
     other : Path
         Folder of the other checkout.
     scenes : sequence of Scene
-        Scenes of `scene_instructions.SCENES`.
+        Scenes of `step_scenes.SCENES`.
     rounds : int
         Each measures both, one after the other; the ratio is the median of the ratios of all rounds.
     repeats : int

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.car import accuracy, manoeuvres, trajectories
-from benchmarks.car.scene_instructions import Scene, compile_program
 from benchmarks.car.scene_instructions import measure as count
+from benchmarks.car.step_scenes import Scene, compile_program
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from ali3.errors import UserError
 from benchmarks.car import fidelity_runs
+from benchmarks.car.accuracy import cost
 from benchmarks.car.fidelity_runs import NAMES, OUTPUTS
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.figures import between, rows_of
@@ -60,23 +61,10 @@ def errors_of(trajectory: Trajectory, name: str, fidelity: Fidelity, h: float) -
 
 def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
     """Row of a model: errors and cost. `h`: step, s."""
-    trajectory = fidelity_runs.run(name, fidelity, h)
-    report = trajectory.report
-    assert report is not None
-    error = errors_of(trajectory, name, fidelity, h)
-    duration = float(trajectory.t[-1])
-    cpu_time = fidelity_runs.cpu_time(name, fidelity, h, repeats)
-    return {
-        "manoeuvre": name,
-        "fidelity": fidelity.name.lower(),
-        "h_s": h,
-        **size_of(name, fidelity),
-        **error,
-        "iterations_mean": report.mean_iterations,
-        "iterations_max": report.max_iterations,
-        "us_per_step": 1e6 * cpu_time * h / duration,
-        "realtime_factor": duration / cpu_time,
-    }
+    run = fidelity_runs.run(name, fidelity, h)
+    row = {"manoeuvre": name, "fidelity": fidelity.name.lower(), "h_s": h, **size_of(name, fidelity)}
+    system, manoeuvre = fidelity_runs.system_of(name, fidelity), fidelity_runs.manoeuvre_of(name)
+    return row | errors_of(run, name, fidelity, h) | cost(system, manoeuvre, run, h, repeats)
 
 
 def cheapest(rows: Sequence[Row], output: str, tolerance: float) -> LevelChoice:

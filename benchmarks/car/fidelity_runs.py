@@ -1,15 +1,15 @@
-"""Manoeuvres for the comparison of fidelities, their references and the errors against them."""
+"""Manoeuvres for the comparison of fidelities, their stored references and the errors against them."""
 
-import time
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.files import write_text
 from ali3.low_pass import low_pass
 from benchmarks.car import manoeuvres
-from benchmarks.shared.tables import read_csv
+from benchmarks.shared.tables import read_csv, write_csv
 from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Settings, System, Trajectory, compile
 from mbs.scenes import kerb_test, prototype_car
@@ -20,6 +20,7 @@ FOLDER = Path(__file__).parents[2] / "tests" / "data" / "fidelity"
 NAMES = ("kerb_test", "double_lane_change_replay", "drop")
 INTERVAL = 0.01  # s, between the samples of a reference
 FREQUENCY = 10.0  # Hz, of the low-pass
+STEP = 5e-4  # s, of the references
 MOMENTS = tuple(f"bending_moment.{g}" for g in prototype_car.car().frame_section.gauges)
 FILTERED = "filtered."
 OUTPUTS = ("moment", "moment_unfiltered", "motion", "wheel_load")
@@ -44,11 +45,6 @@ def manoeuvre_of(name: str) -> Manoeuvre:
 def run(name: str, fidelity: Fidelity, h: float, settings: Settings | None = None) -> Trajectory:
     """Simulate a manoeuvre; every step is recorded. `h`: step, s."""
     return manoeuvres.run_on(system_of(name, fidelity), manoeuvre_of(name), h, settings=settings)
-
-
-def cpu_time(name: str, fidelity: Fidelity, h: float, repeats: int) -> float:
-    """Least processor time of all steps of a run, s, without the start. `h`: step, s."""
-    return manoeuvres.time_on(system_of(name, fidelity), manoeuvre_of(name), h, repeats, time.process_time)
 
 
 def sampled(trajectory: Trajectory, h: float, *, stresses: bool = True) -> dict[str, NDArray[np.float64]]:
@@ -91,3 +87,39 @@ def errors(values: dict[str, NDArray[np.float64]], reference: dict[str, NDArray[
         "moment_unfiltered": error_of_change(values, reference, MOMENTS),
         **results,
     }
+
+
+def write_reference(name: str) -> str:
+    """Run a manoeuvre, write its reference and return a line with its differences from coarser runs."""
+    fine = run(name, Fidelity.MANY_MODES, STEP)
+    values = sampled(fine, STEP)
+    checks = {
+        f"step {2 * STEP:g} s": sampled(run(name, Fidelity.MANY_MODES, 2 * STEP), 2 * STEP),
+        "5 dynamic modes": sampled(run(name, Fidelity.DYNAMIC, STEP), STEP),
+    }
+    differences = []
+    for label, values_of_check in checks.items():
+        e = errors(values_of_check, values)
+        differences.append(
+            f"{label}: moments {e['moment']:.1e} after the low-pass and {e['moment_unfiltered']:.1e} before it, "
+            f"place {e['motion']:.1e} m, wheel loads {e['wheel_load']:.1e}"
+        )
+    signals = (*POSITION, *LOADS, *MOMENTS, *(FILTERED + s for s in MOMENTS))
+    lines = [
+        f"# Prototype car, flexible chassis, {name.replace('_', ' ')}: this engine, 106 modes, steps of {STEP:g} s; "
+        "made by python -m benchmarks.car fidelity-references",
+        *(f"# differences with {text}" for text in differences),
+    ]
+    t = INTERVAL * np.arange(len(values[POSITION[0]]))
+    write_csv(FOLDER / f"{name}.csv", lines, {"time": t} | {s: values[s] for s in signals}, 7)
+    _write_peaks(name, peaks(fine, STEP))
+    return f"{name}: " + "; ".join(differences)
+
+
+def _write_peaks(name: str, peaks: dict[str, float]) -> None:
+    lines = [
+        f"# Largest changes from the start over all steps of {STEP:g} s of {name}.csv, whose samples miss them, N m",
+        "signal,largest change",
+        *(f"{signal},{value:.7g}" for signal, value in peaks.items()),
+    ]
+    write_text(FOLDER / f"{name}_peaks.csv", "\n".join(lines) + "\n")

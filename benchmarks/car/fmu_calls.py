@@ -23,6 +23,7 @@ CALLS = {
 }
 """Quantities in the table of the page, with their titles."""
 KINDS = ("native", "python")
+PYTHON_INSTANCES = 30  # at once, of the kind python
 SOURCE = Path(__file__).parent / "c" / "time_fmu.c"
 
 
@@ -35,7 +36,7 @@ def measure(fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instan
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)
     values = {"file_MB": fmu.stat().st_size / 1e6}
-    values |= time_from_c(folder, steps, repeats, instances if kind == "native" else 30)
+    values |= time_from_c(folder, steps, repeats, instances if kind == "native" else PYTHON_INSTANCES)
     return [{"quantity": name, "kind": kind, "value": value} for name, value in values.items()]
 
 

@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 SCALE = 150.0  # factor of the drawn deformation
 END = 8.9  # s, after the rear wheels have landed
 PERCENTILE = 99.5  # of the stresses: the colour scale ends there, since a few joints have much larger ones
-SHOWN = ("wheel", "spring", "damper")  # shapes that are drawn with the frame
-NEAR = (0.5, 0.1)  # m: names of gauges at smaller distances would overlap
+SHOWN_KINDS = ("wheel", "spring", "damper")  # shapes that are drawn with the frame
+MIN_LABEL_DISTANCE = (0.5, 0.1)  # m: names of gauges at smaller distances would overlap
 VIEWS = ((0, 2, "z, m"), (0, 1, "y, m"))  # from the side, from above
 UNDEFORMED = {"radius": 0.002, "color": "#bbbbbb"}  # style of the lines of the undeformed frame
 
@@ -69,7 +69,7 @@ def frame_alone(recording: Recording, limit: float) -> Recording:
     Pa.
     """
     scene: dict[str, Any] = dict(recording.scene or {})
-    shapes = [shape for shape in scene["shapes"] if shape["kind"] in SHOWN]
+    shapes = [shape for shape in scene["shapes"] if shape["kind"] in SHOWN_KINDS]
     flexible_parts = []
     for part in scene["flexible"]:
         nodes, carrier = part["nodes"], part["frame"]
@@ -122,7 +122,10 @@ def _frame_and_gauges(a: Any, car: Car, i: int, j: int) -> None:
         a.plot(*np.array(list(names)).T, "s", ms=8, color="tab:red", label="strain gauges")
     positions = list(names)
     for k, (position, gauges) in enumerate(names.items()):
-        overlaps = any(abs(position[0] - x0) < NEAR[0] and abs(position[1] - y0) < NEAR[1] for x0, y0 in positions[:k])
+        overlaps = any(
+            abs(position[0] - x0) < MIN_LABEL_DISTANCE[0] and abs(position[1] - y0) < MIN_LABEL_DISTANCE[1]
+            for x0, y0 in positions[:k]
+        )
         style = {
             "xytext": (0, 9 if overlaps else -17),
             "textcoords": "offset points",

@@ -5,9 +5,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from benchmarks.car import scene_instructions
+from benchmarks.car import step_scenes
 from benchmarks.car.against_checkout import Side, row_of
-from benchmarks.car.scene_instructions import Scene
+from benchmarks.car.step_scenes import Scene
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 from mbs.compiler.generated.library import library_of
@@ -19,7 +19,7 @@ def measure(scenes: Sequence[Scene], rounds: int, repeats: int) -> Iterator[dict
     Parameters
     ----------
     scenes : sequence of Scene
-        Scenes of `scene_instructions.SCENES`.
+        Scenes of `step_scenes.SCENES`.
     rounds : int
         Each measures both, one after the other; the ratio is the median of the ratios of all rounds.
     repeats : int
@@ -31,14 +31,14 @@ def measure(scenes: Sequence[Scene], rounds: int, repeats: int) -> Iterator[dict
         A step is refused, or both do not make the same iterations.
     """
     with tempfile.TemporaryDirectory() as folder:
-        program = scene_instructions.compile_program(Path(folder))
+        program = step_scenes.compile_program(Path(folder))
         for scene in watched(scenes):
             yield _row(scene, program, Path(folder), rounds, repeats)
 
 
 def _row(scene: Scene, program: Path, folder: Path, rounds: int, repeats: int) -> dict[str, Any]:
     system = scene.system()
-    command = scene_instructions.command_of(scene._replace(system=lambda: system), program, folder)
+    command = step_scenes.command_of(scene._replace(system=lambda: system), program, folder)
     code = library_of(system)
     two_sides = [Side("generated", command, (str(code),)), Side("loops", command)]
     row = row_of(scene, two_sides, scene.steps, rounds, repeats, counted=True)

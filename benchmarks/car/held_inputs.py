@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.car import manoeuvres, trajectories
-from benchmarks.car.accuracy import TITLES, run_of_fmu
+from benchmarks.car.accuracy import TITLES
+from benchmarks.car.fmu_runs import run_of_fmu
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, table
 

@@ -80,12 +80,7 @@ def one_after_another(build: Callable[[], Model], begin: float) -> tuple[System,
 
 
 def measure(
-    scene: str,
-    h: float,
-    make: Callable[[], tuple[System, Start]],
-    seconds: float = SECONDS,
-    *,
-    rounds: int = 1,
+    scene: str, h: float, make: Callable[[], tuple[System, Start]], seconds: float = SECONDS, *, rounds: int = 1
 ) -> list[dict[str, Any]]:
     """Rows of one scene: us of a core for a step of a car, and the ratio to cars one after the other.
 

@@ -1,6 +1,5 @@
 """Cars whose suspensions are tables against those with links: errors, cost, and the table of `docs/cars.md`."""
 
-import time
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
@@ -9,7 +8,6 @@ from benchmarks.car import accuracy, manoeuvres, trajectories
 from benchmarks.shared.pages import Row, table
 from mbs import System, compile
 from mbs.vehicle import load
-from mbs.vehicle.levels.errors import load_error, path_error
 
 STEP = 0.005  # s
 CARS = (manoeuvres.PROTOTYPE, "hatchback")
@@ -25,27 +23,22 @@ def tabled(name: str, car: str) -> System:
 
 
 def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
-    """Row of a manoeuvre: errors, and times if `repeats` is not 0. `h`: step, s."""
+    """Row of a manoeuvre: errors of both models, and times if `repeats` is not 0. `h`: step, s."""
     manoeuvre, (_, reference, length) = manoeuvres.load(name, car), trajectories.read(name, car)
-    path_length, every = max(length, 1.0), round(manoeuvres.sampling(name, car) / h)
-    systems = {"tables": tabled(name, car), "links": manoeuvres.system_of(name, car)}
-    runs = {kind: manoeuvres.run_on(system, manoeuvre, h, every=every) for kind, system in systems.items()}
+    path_length = max(length, 1.0)
     row: dict[str, Any] = {"car": car, "manoeuvre": name, "h_s": h, "way_m": length}
-    for kind, run in runs.items():
-        assert run.report is not None
-        spent = None
-        if repeats:
-            spent = manoeuvres.time_on(systems[kind], manoeuvre, h, repeats, time.process_time)
-        row |= {
-            f"{kind}_path": path_error(run, reference) / path_length,
-            f"{kind}_load": load_error(run, reference),
-            f"{kind}_iterations": run.report.mean_iterations,
-            f"{kind}_us": None if spent is None else 1e6 * spent * h / manoeuvre.stop_time,
-        }
-    return row | {
-        "apart_path": path_error(runs["tables"], runs["links"]) / path_length,
-        "apart_load": load_error(runs["tables"], runs["links"]),
-    }
+    runs = {}
+    for kind, system in (("tables", tabled(name, car)), ("links", manoeuvres.system_of(name, car))):
+        runs[kind] = accuracy.run_at_reference(name, h, car, system)
+        row |= _errors(kind, runs[kind], reference, path_length)
+        cost = accuracy.cost(system, manoeuvre, runs[kind], h, repeats)
+        row |= {f"{kind}_iterations": cost["iterations_mean"], f"{kind}_us": cost["us_per_step"]}
+    return row | _errors("apart", runs["tables"], runs["links"], path_length)
+
+
+def _errors(kind: str, run: Any, reference: Any, length: float) -> dict[str, float]:
+    path, load = accuracy.errors_of(run, reference, length).values()
+    return {f"{kind}_path": path, f"{kind}_load": load}
 
 
 def table_of(rows: Sequence[Row]) -> str:
@@ -55,9 +48,9 @@ def table_of(rows: Sequence[Row]) -> str:
             "car": r["car"],
             "manoeuvre": r["manoeuvre"].replace("_", " "),
             "h, ms": 1e3 * r["h_s"],
-            "tables: path, loads": _errors(r, "tables"),
-            "links: path, loads": _errors(r, "links"),
-            "apart: path, loads": _errors(r, "apart"),
+            "tables: path, loads": _error_text(r, "tables"),
+            "links: path, loads": _error_text(r, "links"),
+            "apart: path, loads": _error_text(r, "apart"),
             "iterations, tables, links": f"{r['tables_iterations']:.2f}, {r['links_iterations']:.2f}",
             "us a step, tables, links": f"{r['tables_us']:.0f}, {r['links_us']:.0f}" if r["tables_us"] else None,
         }
@@ -81,5 +74,5 @@ def verdict(rows: Sequence[Row]) -> str:
     return sentence
 
 
-def _errors(row: Row, prefix: str) -> str:
-    return f"{row[f'{prefix}_path']:.1e}, {100.0 * row[f'{prefix}_load']:.2g} %"
+def _error_text(row: Row, kind: str) -> str | None:
+    return accuracy.error_text(row[f"{kind}_path"], row[f"{kind}_load"])

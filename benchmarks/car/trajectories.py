@@ -11,7 +11,7 @@ from mbs.vehicle.levels.errors import LOADS, POSITION, load_error, path_error
 
 STEP = 1e-4  # s
 CHECKS = (1e-3, 5e-4, 2.5e-4)  # s, steps that show the order
-TIGHT = Settings(tolerance_r=1e-12)
+TIGHT_SETTINGS = Settings(tolerance_r=1e-12)
 SENSORS = (
     *POSITION,
     *(f"chassis.{name}" for name in ("yaw", "pitch", "roll", "vx", "vy", "wz", "ay")),
@@ -51,13 +51,13 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
     system, replayed = manoeuvres.system_of(name, car), name == manoeuvres.REPLAY
     interval = manoeuvres.sampling(manoeuvres.CLOSED_LOOP if replayed else name, car)
     manoeuvre = manoeuvres.record_driver(car) if replayed else manoeuvres.load(name, car)
-    fine = manoeuvres.run_on(system, manoeuvre, STEP, settings=TIGHT)
+    fine = manoeuvres.run_on(system, manoeuvre, STEP, settings=TIGHT_SETTINGS)
     every = round(interval / STEP)
     length = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
     values = {s: fine[s][::every] for s in SENSORS}
     errors, loads = [], []
     for h in CHECKS:
-        coarse = manoeuvres.run_on(system, manoeuvre, h, every=round(interval / h), settings=TIGHT)
+        coarse = manoeuvres.run_on(system, manoeuvre, h, every=round(interval / h), settings=TIGHT_SETTINGS)
         errors.append(path_error(coarse, values))
         loads.append(load_error(coarse, values))
     order = np.log2(errors[0] / errors[1])
@@ -66,7 +66,7 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
     assert report is not None
     lines = [
         f"# {car.capitalize()} car, {name.replace('_', ' ')}: this engine with steps of {STEP:g} s, tolerance_r = "
-        f"{TIGHT.tolerance_r:g}; made by python -m benchmarks.car references",
+        f"{TIGHT_SETTINGS.tolerance_r:g}; made by python -m benchmarks.car references",
         f"# path_length_m: {length:.9g}",
         "# path error and relative wheel load error of larger steps: "
         + "; ".join(f"{h:g} s {e:.2e} m, {w:.1e}" for h, e, w in zip(CHECKS, errors, loads, strict=True)),

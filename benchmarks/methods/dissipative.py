@@ -1,4 +1,4 @@
-"""Scenes without an exact motion: reference of each, and the error from which a run counts as wrong."""
+"""Scenes with dissipation or flexible bodies, which have no exact motion: each with an error and its limit."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -34,7 +34,7 @@ class Scene:
     run: Callable[[mbs.Settings, float], CaseRun]
     """Returns error and trajectory for settings and a step, s."""
     limit: float
-    """Error from which a run is wrong."""
+    """Error from which a run is wrong: 5 % of what an engineer reads, or 1e-3 of what must not move."""
     steps: tuple[float, ...]
     """Steps, s."""
 

@@ -19,7 +19,8 @@ from scipy.interpolate import PPoly
 import mbs
 from benchmarks.methods import random_cars, random_machines, random_mechanisms
 from benchmarks.references import boxes, masses_on_a_line, newton_euler
-from benchmarks.references.newton_euler import INSTANTS, Joint, Mechanism
+from benchmarks.references.newton_euler import INSTANTS
+from benchmarks.references.rigid_mechanism import GROUND, Joint, Mechanism
 from fmu_src.build.build import build_fmu
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu, StepRefusedError
@@ -175,7 +176,7 @@ def switches(rng: np.random.Generator) -> Case:
     kind, mechanism = _swinging(rng)
     link = int(rng.integers(1, len(mechanism.links)))
     on, off = (mechanism.span / INSTANTS * k for k in np.sort(rng.choice(np.arange(5, INSTANTS - 5), 2, replace=False)))
-    pin = Joint("pin", link, newton_euler.GROUND, mechanism.tips[link], mechanism.joints[0].axis, (on, off))
+    pin = Joint("pin", link, GROUND, mechanism.tips[link], mechanism.joints[0].axis, (on, off))
     mechanism = replace(mechanism, joints=[*mechanism.joints, pin])
     case = _mechanism_case(f"{kind} with a pin", mechanism)
     name = f"j{len(mechanism.joints) - 1}"

@@ -19,7 +19,7 @@ STEPS = 100_000
 EVERY = 10  # steps between recorded instants
 TURNS = (0.01, 0.05, 0.2, 0.5)
 """Rate of the fastest wheel, or of the load, times the step, rad."""
-WRONG = 1e-3
+MAX_CHANGE = 1e-3
 """Relative change of the energy from which a run should report an error."""
 MECHANISMS = WHEELS | TWO_AXES | ELEMENTS
 
@@ -55,7 +55,7 @@ def measure(
     row["grows"] = abs(drift) * steps > 0.5 * row["energy"]
     if r.report is not None:
         row |= {"iterations": r.report.iterations / steps, "halvings": r.report.halvings}
-    if with_check and row["energy"] > WRONG and not row["told"]:
+    if with_check and row["energy"] > MAX_CHANGE and not row["told"]:
         with warnings.catch_warnings(record=True) as caught_warnings:
             warnings.simplefilter("always")
             checked = mbs.simulate(system, steps * STEP, STEP, **options)
@@ -91,20 +91,20 @@ def blocks(rows: Sequence[Row]) -> dict[str, str]:
         "gears": table([*lines.values()], {"mechanism": ""} | dict.fromkeys(heads, ".1e")),
         "free": crossed(one, lambda r: r["mechanism"], "method", lambda r: r["cell"], "mechanism"),
         "free wrong": table(
-            [row for row in rows if row["energy"] is not None and row["energy"] > WRONG and not row["told"]],
+            [row for row in rows if row["energy"] is not None and row["energy"] > MAX_CHANGE and not row["told"]],
             {"mechanism": "", "method": "", "turn": "g", "energy": ".1e", "drift": ".1e"},
         ),
     }
 
 
 def cell(rows: Sequence[Row], name: str, method: str) -> str:
-    """Text of a cell: largest change over the rates, the rate from which it grows or exceeds `WRONG`, and refusals."""
+    """Text of a cell: largest change over the rates, the rate from which it exceeds `MAX_CHANGE`, and refusals."""
     own_rows = sorted((r for r in rows if (r["mechanism"], r["method"]) == (name, method)), key=lambda r: r["turn"])
     ran = [row for row in own_rows if row["energy"] is not None]
     if not ran:
         return "–" if all(row["told"] == "no" for row in own_rows) else "refused"
     text = f"{max(row['energy'] for row in ran):.0e}"
-    wrong = [row for row in ran if row["energy"] > WRONG]
+    wrong = [row for row in ran if row["energy"] > MAX_CHANGE]
     if wrong:
         text += f" from {wrong[0]['turn']:g}" + (", grows" if any(row.get("grows") for row in wrong) else "")
         text += "" if all(row["told"] for row in wrong) else " (!)"

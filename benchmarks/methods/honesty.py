@@ -8,11 +8,11 @@ from typing import Any
 import mbs
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
-from benchmarks.methods.random_honesty import COUNTS, ERRORS, FACTOR, NEGLIGIBLE, counts, verdict_of
+from benchmarks.methods.random_honesty import COUNTS, ERRORS, MAX_RATIO, NEGLIGIBLE, counts, verdict_of
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.header.limits import WRONG_ERROR
 
-LONG = 12.0  # s of processor time from which a method is not run with smaller steps
+MAX_TIME = 12.0  # s of processor time from which a method is not run with smaller steps
 QUICK = {"pendulum": (0.2, 0.05, 0.01), "printed_crank_slider": (1e-3, 2e-5), "tumbling_body": (0.01, 0.0002)}
 SUMMARY = {"method": "", **COUNTS}
 
@@ -62,9 +62,9 @@ def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
     low_estimates = [
         f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, estimate {r['estimate']:.1e}"
         for r in rows
-        if r["estimate"] is not None and r["error"] > max(NEGLIGIBLE, FACTOR * r["estimate"])
+        if r["estimate"] is not None and r["error"] > max(NEGLIGIBLE, MAX_RATIO * r["estimate"])
     ]
-    reported += [f"- More than {FACTOR:g} times the estimate: {'; '.join(low_estimates) or 'none'}."]
+    reported += [f"- More than {MAX_RATIO:g} times the estimate: {'; '.join(low_estimates) or 'none'}."]
     return {
         "honesty": table(summary(rows), SUMMARY),
         "honesty exceptions": "\n".join(reported),

@@ -19,9 +19,9 @@ Array = NDArray[np.float64]
 CARS = ("prototype", "hatchback")
 STEPS = (0.02, 0.01, 0.005, 0.002)  # s
 INTERVAL = 0.02  # s between recorded instants
-REFERENCE = 2.5e-4  # step of energy-momentum, s
-CHECK = 1e-4  # step of ALi3-P, s
-AGREE = 0.01  # largest difference of both, relative to the range
+CHECK_STEP = 2.5e-4  # step of energy-momentum, s
+FINE_STEP = 1e-4  # step of ALi3-P, s
+MAX_DIFFERENCE = 0.01  # largest difference of both, relative to the range
 
 
 @dataclass(frozen=True)
@@ -89,12 +89,12 @@ def reference_by_two_methods(system: mbs.System, simulate: Callable[[str, float]
     `simulate`: simulates with a method and a step, s. Raises `NoReferenceError` if both runs differ, or one is refused.
     """
     try:
-        fine, other = simulate("ali3p", CHECK), simulate("energy_momentum", REFERENCE)
+        fine, other = simulate("ali3p", FINE_STEP), simulate("energy_momentum", CHECK_STEP)
     except mbs.SimulationError as refused:
         raise NoReferenceError(str(refused)) from refused
     judged = {name: sensor for name, sensor in compared_sensors(system).items() if sensor.always}
     apart = max(differences(other, fine, judged, None, length_of(system))[0].values())
-    if not apart <= AGREE:
+    if not apart <= MAX_DIFFERENCE:
         raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")
     return {name: fine[name] for name in judged}
 

@@ -19,9 +19,9 @@ from mbs.simulation.prepared_system import length_of
 
 Array = NDArray[np.float64]
 NEGLIGIBLE = 1e-3  # error relative to the range or the length below which estimates are not compared
-FACTOR = 10.0  # largest ratio between an error and its estimate
+MAX_RATIO = 10.0  # largest ratio between an error and its estimate
 WRONG_TOLERANCES = 10.0  # tolerances from which an error is wrong
-NEAR = (0.9, 1.1)  # range of the error relative to the limit in which runs are not judged
+UNDECIDED = (0.9, 1.1)  # range of the error relative to the limit in which runs are not judged
 VERDICTS = ("right", "false alarm", "refused", "wrong, warned", "silently wrong", "near")
 ERRORS = (mbs.AccuracyWarning, mbs.BranchWarning)
 """Warnings of errors; others are about models, such as bending beyond the range of the modes."""
@@ -121,7 +121,7 @@ def _verdict(
 
 def verdict_of(error: float, limit: float, warned: bool) -> str:
     """One of `VERDICTS` for a run with or without a warning, which is wrong if its error exceeds `limit`."""
-    if limit == WRONG_ERROR and NEAR[0] * limit <= error <= NEAR[1] * limit:
+    if limit == WRONG_ERROR and UNDECIDED[0] * limit <= error <= UNDECIDED[1] * limit:
         return "near"
     if error <= limit:
         return "false alarm" if warned else "right"
@@ -132,7 +132,7 @@ def counts(rows: Sequence[Row]) -> dict[str, Any]:
     """Values of the columns `COUNTS` for rows of runs."""
     count = {v: sum(r["verdict"] == v for r in rows) for v in VERDICTS}
     estimated = [r for r in rows if r.get("estimate") is not None and r["error"] > _negligible(r)]
-    close = sum(1.0 / FACTOR <= r["estimate"] / r["error"] <= FACTOR for r in estimated)
+    close = sum(1.0 / MAX_RATIO <= r["estimate"] / r["error"] <= MAX_RATIO for r in estimated)
     steps = [r["steps"] for r in rows if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
     return {
         "runs": len(rows),

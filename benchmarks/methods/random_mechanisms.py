@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 import mbs
-from benchmarks.references.newton_euler import GROUND, Joint, Link, Mechanism, Spring
+from benchmarks.references.rigid_mechanism import GROUND, Joint, Link, Mechanism, Spring
 
 Array = NDArray[np.float64]
 PLANE_NORMAL = np.array([0.0, 0.0, 1.0])
 NEARLY_EQUAL = 0.3  # fraction of loops that pass close to a dead centre
-NEAR = (1e-3, 0.05)  # relative difference of their arms at the dead centre
+DEAD_CENTRE_DIFFERENCE = (1e-3, 0.05)  # relative difference of their arms at the dead centre
 
 
 def random_mechanism(rng: np.random.Generator, dimension: int | None = None) -> tuple[str, Mechanism]:
@@ -135,7 +135,7 @@ def _lengths(rng: np.random.Generator, near: tuple[float, float] | None) -> Arra
     """
     r = 10.0 ** rng.uniform(-0.6, 0.3, 4)
     if rng.random() < NEARLY_EQUAL or near is not None:
-        factor = 1.0 + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(*np.log10(near or NEAR))
+        factor = 1.0 + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(*np.log10(near or DEAD_CENTRE_DIFFERENCE))
         r[2] = (r[0] + r[3] - r[1]) * factor if r[0] + r[3] > 1.1 * r[1] else r[1] + (r[3] - r[0]) * factor
     return np.abs(r)
 
@@ -202,7 +202,7 @@ def slider_crank(rng: np.random.Generator) -> Mechanism:
     """A slider-crank with or without offset; in some the rod is nearly as long as the crank."""
     crank = float(10.0 ** rng.uniform(-0.7, 0.0))
     near = rng.random() < NEARLY_EQUAL
-    rod = crank * float(1.0 + 10.0 ** rng.uniform(*np.log10(NEAR)) if near else rng.uniform(1.2, 4.0))
+    rod = crank * float(1.0 + 10.0 ** rng.uniform(*np.log10(DEAD_CENTRE_DIFFERENCE)) if near else rng.uniform(1.2, 4.0))
     offset = 0.0 if near or rng.random() < 0.5 else float(rng.uniform(-0.5, 0.5)) * (rod - crank)
     angle = float(rng.uniform(0.0, 2.0 * np.pi))
     b = crank * np.array([np.cos(angle), np.sin(angle)])

@@ -23,8 +23,8 @@ PENALTIES = (1e3, 1e5, 1e7, 1e9)  # mass-normalised, 1/s2
 BAUMGARTE = (0.0, 10.0, 100.0, 1000.0)  # 1/s
 MAX_CLASSICAL = 1000  # largest number of steps of a method in Python
 CLASSICAL_WORK = 1.3e4  # largest product of steps and coordinates of a method in Python
-WRONG = 0.05  # of the extent of the motion
-ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
+MAX_ERROR = 0.05  # of the extent of the motion
+MAX_ENERGY_ERROR = 0.05  # of the largest energy exchanged, for conservative scenes
 OUTCOMES = ("fine", "wrong", "refused", "diverged")
 SCENES = tuple(name for name in CASES if name not in ("pendulum_1000s", "four_bar_200"))
 PARAMETER = {
@@ -54,9 +54,9 @@ def judge(scene: str, positions: np.ndarray, energy: np.ndarray) -> tuple[str, d
     figures = {"error_share": error / size_of(scene), "energy_deviation_J": float(np.abs(energy - energy[0]).max())}
     if not np.isfinite(error):
         return "diverged", figures
-    good = figures["error_share"] < WRONG
+    good = figures["error_share"] < MAX_ERROR
     if case.energy_stays:
-        good = good and figures["energy_deviation_J"] < ENERGY * _energy_scale(scene)
+        good = good and figures["energy_deviation_J"] < MAX_ENERGY_ERROR * _energy_scale(scene)
     return ("fine" if good else "wrong"), figures
 
 

@@ -71,11 +71,7 @@ def controlled_action(scene: str, method: str, tolerance: float) -> Action:
             return 0.0, {"ended": f"refused at {run.simulation.time:.4g} s"}
         report = run.simulation.report
         error = float(np.linalg.norm(run.values[:, columns] - exact_of(scene)[1:], axis=1).max())
-        return run.wall, {
-            "ended": "finished",
-            "position_error_m": error,
-            "factorizations": report.factorizations,
-        }
+        return run.wall, {"ended": "finished", "position_error_m": error, "factorizations": report.factorizations}
 
     return act
 
@@ -105,10 +101,7 @@ def peer_action(scene: str, engine: Any, integrator: str, h: float) -> Action:
         r = engine.run(scene, h, CASES[scene].end, SAMPLES, integrator)
         if not r.finished:
             return 0.0, {"ended": f"gave up at {r.t[-1]:.4g} s"}
-        return r.wall_s, {
-            "ended": "finished",
-            "position_error_m": _error(r.positions, scene),
-        }
+        return r.wall_s, {"ended": "finished", "position_error_m": _error(r.positions, scene)}
 
     return act
 

@@ -34,14 +34,14 @@ def _puma(options: Namespace) -> list[dict[str, Any]]:
     system, methods = mbs.compile(puma_scene.build()), puma.METHODS[:1] if options.quick else puma.METHODS
     runs = [(method, h) for method in methods for h in puma.STEPS]
     rows = [{"table": "methods", **puma.measure(system, *run)} for run in watched(runs)]
-    stages = [] if options.quick else puma.split(system, methods[0])
+    stages = [] if options.quick else puma.errors_by_stage(system, methods[0])
     return rows + [{"table": "large steps in one stage", **row} for row in stages]
 
 
 @expected_errors()
 def _defect(options: Namespace) -> list[dict[str, Any]]:
     cases = assembly_defect.CASES[:1] if options.quick else assembly_defect.CASES
-    bars = [{"table": "bars", **assembly_defect.measure(case)[0]} for case in watched(cases)]
+    bars = [{"table": "bars", **assembly_defect.measure(case)} for case in watched(cases)]
     return bars + [{"table": "largest moments, N m", **assembly_defect.peaks(r)} for r in assembly_defect.RADII]
 
 

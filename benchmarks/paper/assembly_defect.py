@@ -19,22 +19,25 @@ CASES = ((1, 2, 0), (1, 8, 6), (2, 2, 0), (4, 2, 0), (8, 2, 0))
 RADII = (scene.RADIUS, 0.5 * scene.RADIUS)  # m
 
 
-def measure(case: tuple[int, int, int]) -> tuple[dict[str, Any], mbs.Trajectory]:
-    """Row of a case, and its run."""
-    expected = reference()
+def simulate(system: mbs.System) -> mbs.Trajectory:
+    """Simulate a four-bar at the instants of the stored reference."""
+    return mbs.simulate(system, scene.DURATION, STEP, progress=False)
+
+
+def measure(case: tuple[int, int, int]) -> dict[str, Any]:
+    """Row of a case: its size and the largest differences of the moments, of the largest moment."""
     parts, elements, dynamic = case
-    system = mbs.compile(scene.build(parts, elements, dynamic))
-    run = mbs.simulate(system, scene.DURATION, STEP, progress=False)
+    system, expected = mbs.compile(scene.build(*case)), reference()
+    run = simulate(system)
     gaps = {c: float(np.max(np.abs(run[f"coupler.{c}"] - expected[c]))) for c in COMPONENTS}
     largest = {c: float(np.max(np.abs(expected[c]))) for c in COMPONENTS}
-    row = {
+    return {
         "bodies_per_bar": parts,
         "elements, modes of each": f"{elements}, {12 + dynamic}",
         "coordinates, rows": f"{system.nq}, {system.nc}",
         **{c: gaps[c] / largest[c] for c in COMPONENTS},
         "largest_of_moment": max(gaps.values()) / max(largest.values()),
     }
-    return row, run
 
 
 def defect_blocks(rows: Sequence[Row]) -> dict[str, str]:
@@ -46,7 +49,7 @@ def defect_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 def peaks(radius: float) -> dict[str, float]:
     """Largest moments of bars of a radius, N m: the paper's "5 mm" may be radius or diameter."""
-    run = mbs.simulate(mbs.compile(scene.build(1, 2, 0, radius=radius)), scene.DURATION, STEP, progress=False)
+    run = simulate(mbs.compile(scene.build(1, 2, 0, radius=radius)))
     return {"diameter_mm": 2e3 * radius} | {c: float(np.max(np.abs(run[f"coupler.{c}"]))) for c in COMPONENTS}
 
 
@@ -56,7 +59,7 @@ def draw(rows: Sequence[Row], file: Path) -> None:
     Ito.
     """
     bodies, expected = [row for row in rows if row["table"] == "bars"][-1]["bodies_per_bar"], reference()
-    _, run = measure(next(case for case in CASES if case[0] == bodies))
+    run = simulate(mbs.compile(scene.build(*next(case for case in CASES if case[0] == bodies))))
     plt = pyplot()
     figure, ax = plt.subplots(figsize=(8.0, 4.2), layout="constrained")
     for c, colour in zip(COMPONENTS, ("#0072B2", "#D55E00", "#009E73"), strict=True):

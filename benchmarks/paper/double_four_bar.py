@@ -14,12 +14,16 @@ from benchmarks.shared.machine import machine
 from benchmarks.shared.pages import Row, table
 from mbs.scenes import double_four_bar
 
-WINDOWS = (2, 40)
+WINDOWS = (2, 40)  # N
 END = 10.0  # s
 REPEATS = 15
-MAX_ERROR = 1.0  # m, of a drawn run
-PAPER = {0.01: (-0.21, 0.86), 0.03: (-0.83, 0.37), 0.05: (-9.03, 0.26)}  # s: (J, s), Table 1
-SHORT = 3e-3  # s: shorter runs are seldom interrupted, and their time is in the table
+_STYLES = (("#0072B2", "o"), ("#009E73", "s"), ("#E69F00", "^"), ("#000000", "v"), ("#CC79A7", "D"))
+"""Colour of Okabe and Ito, and marker of each of `METHODS`."""
+MAX_DRAWN_ERROR = 1.0  # m
+PAPER = {0.01: (-0.21, 0.86), 0.03: (-0.83, 0.37), 0.05: (-9.03, 0.26)}
+"""Energy error, J, and time in Matlab, s, by step, s: Table 1 of the paper."""
+MAX_TIME = 3e-3
+"""Longest time that the table has, s: shorter runs are seldom interrupted by other programs."""
 METHODS = {
     "ALi3-P": mbs.Settings(),
     "ALi3-P, tolerance 1e-12": mbs.Settings(tolerance_r=1e-12, tolerance_phi=1e-12),
@@ -90,25 +94,22 @@ def four_bar_blocks(rows: Sequence[Row]) -> dict[str, str]:
                 "largest position error m": r["position_error_m"],
                 "iterations, mean (most)": f"{r['iterations_mean']:.2f} ({r['iterations_max']})",
                 "paper s (Matlab)": wall,
-                "ours ms": 1e3 * r["wall_s"] if r["wall_s"] < SHORT else None,
+                "ours ms": 1e3 * r["wall_s"] if r["wall_s"] < MAX_TIME else None,
             }
         )
     return {"table 1": table(lines, dict.fromkeys(lines[0], ".3g"))}
 
 
 def draw(rows: Sequence[Row], file: Path) -> None:
-    """Draw position errors over wall time, log-log, a panel for each N; colours of Okabe and Ito."""
-    styles = dict(
-        zip(METHODS, zip(("#0072B2", "#009E73", "#E69F00", "#000000", "#CC79A7"), "os^vD", strict=True), strict=True)
-    )
+    """Draw position errors over wall time, log-log, a panel for each N."""
     windows = list(dict.fromkeys(r["N"] for r in rows))
     figure, axes = pyplot().subplots(
         1, len(windows), figsize=(4.6 * len(windows), 4.4), sharey=True, squeeze=False, layout="constrained"
     )
     for ax, n in zip(axes[0], windows, strict=True):
-        for method, (colour, marker) in styles.items():
+        for method, (colour, marker) in zip(METHODS, _STYLES, strict=True):
             method_rows = [r for r in rows if r["N"] == n and r["method"] == method]
-            method_rows = [r for r in method_rows if r["wall_s"] and r["position_error_m"] < MAX_ERROR]
+            method_rows = [r for r in method_rows if r["wall_s"] and r["position_error_m"] < MAX_DRAWN_ERROR]
             x, y = ([r[key] for r in method_rows] for key in ("wall_s", "position_error_m"))
             ax.loglog(x, y, marker=marker, color=colour, label=method, linewidth=1.6, markersize=6, fillstyle="none")
             for r in method_rows if method == "ALi3-P" else ():

@@ -28,12 +28,12 @@ from mbs.scenes import kerb_test, prototype_car
 Array = NDArray[np.float64]
 GRAVITY = 9.81  # m/s2
 RATE = 0.01  # s between samples
-FINE = 0.002  # step of the simulation that gives the signals, s
+FINE_STEP = 0.002  # step of the simulation that gives the signals, s
 CUT_OFF = 40.0  # frequency of the filter before sampling, Hz
 NOISE = 3.0  # standard deviation of the samples, m/s2
 OFFSET = 0.2  # standard deviation of the zero, m/s2
 DRIFT = 0.02  # standard deviation of the rate of the zero, m/s3
-REST = (kerb_test.ACCELERATE[0], kerb_test.BRAKE[1])  # s: the car stands before the first and after the second
+STANDSTILL = (kerb_test.ACCELERATE[0], kerb_test.BRAKE[1])  # s: the car stands before the first and after the second
 _WINDOW = 1.0  # s at rest for each value of the drift
 POSITIONS = prototype_car.car().chassis.accelerometers
 _ARMS = np.array(list(POSITIONS.values())) - np.array(prototype_car.car().chassis.reference)
@@ -72,8 +72,8 @@ class Motion:
 
 
 def simulate_smooth() -> Trajectory:
-    """Simulate the kerb test with its own guide, with steps of `FINE`."""
-    return simulate(compile(kerb_test.build()), kerb_test.DURATION, FINE)
+    """Simulate the kerb test with its own guide, with steps of `FINE_STEP`."""
+    return simulate(compile(kerb_test.build()), kerb_test.DURATION, FINE_STEP)
 
 
 def accelerometer_signals(
@@ -131,7 +131,7 @@ def _cross(r: Array) -> Array:
 
 def _drift(t: Array, v: Array) -> PchipInterpolator:
     """Drift of a rate `v` that begins at 0, interpolated between its means at rest."""
-    begins = [*np.arange(t[0], REST[0], _WINDOW), *np.arange(REST[1], t[-1], _WINDOW)]
+    begins = [*np.arange(t[0], STANDSTILL[0], _WINDOW), *np.arange(STANDSTILL[1], t[-1], _WINDOW)]
     windows = [(t >= b - 1e-9) & (t <= min(b + _WINDOW, t[-1]) + 1e-9) for b in begins]
     knots = [t[0], *(float(t[w].mean()) for w in windows), t[-1]]
     return PchipInterpolator(knots, [v[0], *(float(v[w].mean()) for w in windows), v[-1]])
@@ -212,7 +212,7 @@ def row_of(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int])
     """
     options = dict(CASES[name])
     frequency = options.pop("filter", 0.0)
-    every = round(RATE / FINE)
+    every = round(RATE / FINE_STEP)
     x = true["chassis.x"][::every] - true["chassis.x"][0]
     reference = moments(plain)
     results = []

@@ -1,4 +1,4 @@
-"""The PUMA 560 whose hand is pinned and released: errors, energy jumps, error by stage."""
+"""The PUMA 560 whose hand is pinned and released: errors and energy jumps of a replay, and the errors of its stages."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -13,15 +13,16 @@ PAPER = {0.01: 0.53, 0.05: 3.4}
 """Errors of the paper's Table 2, mm, by step, s; with 0.1 s its method did not converge."""
 STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
 METHODS = ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
-LARGE = 0.05  # s
-SMALL = 0.0005  # s
-SPLIT = {
-    "all stages": (LARGE, LARGE, LARGE),
-    "stage 1, free": (LARGE, SMALL, SMALL),
-    "stage 2, pinned": (SMALL, LARGE, SMALL),
-    "stage 3, free": (SMALL, SMALL, LARGE),
-    "none": (SMALL, SMALL, SMALL),
+LARGE_STEP = 0.05  # s
+SMALL_STEP = 0.0005  # s
+STEPS_BY_STAGE = {
+    "all stages": (LARGE_STEP, LARGE_STEP, LARGE_STEP),
+    "stage 1, free": (LARGE_STEP, SMALL_STEP, SMALL_STEP),
+    "stage 2, pinned": (SMALL_STEP, LARGE_STEP, SMALL_STEP),
+    "stage 3, free": (SMALL_STEP, SMALL_STEP, LARGE_STEP),
+    "none": (SMALL_STEP, SMALL_STEP, SMALL_STEP),
 }
+"""Steps of the three stages, s, by the stages with large ones."""
 
 
 def measure(system: mbs.System, method: str, h: float) -> dict[str, Any]:
@@ -49,10 +50,10 @@ def measure(system: mbs.System, method: str, h: float) -> dict[str, Any]:
     }
 
 
-def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
+def errors_by_stage(system: mbs.System, method: str) -> list[dict[str, Any]]:
     """Rows of errors with large steps in one stage and small ones elsewhere, and of the hand's offset when pinned."""
     rows = []
-    for title, steps in SPLIT.items():
+    for title, steps in STEPS_BY_STAGE.items():
         result = puma.replay(system, steps, mbs.Settings(method=method), estimate_error=False)
         stage_1 = result.hand[result.times <= puma.STAGES_S[0]]
         offset = float(np.linalg.norm(stage_1[-1] - puma.pinned_position()))

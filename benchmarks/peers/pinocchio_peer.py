@@ -4,6 +4,8 @@ Pinocchio has no integrator: the Runge-Kutta method of order 4 is a loop in Pyth
 of these compiled calls counts. Baumgarte's stabilisation is its own.
 """
 
+from __future__ import annotations
+
 import time
 
 import numpy as np
@@ -15,7 +17,7 @@ INTEGRATORS = ("RK4", "RK4, corrected")
 CORRECTION = 0.2  # Baumgarte's stabilisation has the time constant h / CORRECTION
 PROXIMAL = {"bricard": (1e-6, 1e-6, 3)}  # accuracy, damping and iterations for the redundant rows of loops
 OTHER_LOOPS = 1e-10, 1e-10, 10
-DIVERGED = 1e3  # rad/s
+MAX_RATE = 1e3  # rad/s: above it the motion has diverged
 Loops = list[pin.RigidConstraintModel]
 Proximal = tuple[float, float, int]
 
@@ -33,17 +35,9 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
     states = [(q, v)]
     for _ in range(samples):
         for _ in range(steps):
-            a1 = acceleration(q, v)
-            v2 = v + 0.5 * h * a1
-            a2 = acceleration(q + 0.5 * h * v, v2)
-            v3 = v + 0.5 * h * a2
-            a3 = acceleration(q + 0.5 * h * v2, v3)
-            v4 = v + h * a3
-            a4 = acceleration(q + h * v3, v4)
-            q = q + h / 6.0 * (v + 2.0 * (v2 + v3) + v4)
-            v = v + h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4)
+            q, v = _runge_kutta_step(acceleration, q, v, h)
         states.append((q, v))
-        if not np.abs(v).max() < DIVERGED:
+        if not np.abs(v).max() < MAX_RATE:
             break
     positions = []
     for q, v in states:
@@ -52,6 +46,18 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
     finished = len(states) == samples + 1
     times = sample_times(end, samples)[: len(states)]
     return PeerRun(times, np.array(positions)[:, tree.components], acceleration.wall, finished)
+
+
+def _runge_kutta_step(acceleration: _Acceleration, q: Vector, v: Vector, h: float) -> tuple[Vector, Vector]:
+    """Position and velocity after a step of the classical method of order 4."""
+    a1 = acceleration(q, v)
+    v2 = v + 0.5 * h * a1
+    a2 = acceleration(q + 0.5 * h * v, v2)
+    v3 = v + 0.5 * h * a2
+    a3 = acceleration(q + 0.5 * h * v2, v3)
+    v4 = v + h * a3
+    a4 = acceleration(q + h * v3, v4)
+    return q + h / 6.0 * (v + 2.0 * (v2 + v3) + v4), v + h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4)
 
 
 def integrators(scene: str) -> tuple[str, ...]:

@@ -138,10 +138,7 @@ ANIMATIONS = {
         "The prototype car, double lane change", _lane_change(manoeuvres.PROTOTYPE), 1.0, 6.0, camera="chase"
     ),
     "proving_ground": Animation(
-        "The proving ground of the simulator: a jump from a metre, a sudden turn",
-        _driven("proving_ground"),
-        1.4,
-        5.4,
+        "The proving ground of the simulator: a jump from a metre, a sudden turn", _driven("proving_ground"), 1.4, 5.4
     ),
     "plane": Animation(
         "The world plane: swerves at 22 m/s, then brakes", _driven("plane"), 0.2, 5.2, camera="trackside"

@@ -60,16 +60,18 @@ DRIVES = {
 
 def drive(name: str) -> Recording:
     """Simulate a drive; its recording with the drawn world. Raises `UserError` if the world cannot be made."""
-    d = DRIVES[name]
+    chosen = DRIVES[name]
     with TemporaryDirectory() as folder:
         with redirect_stdout(StringIO()):
-            code = world_command.main(["--world", d.world, "--out", folder])
+            code = world_command.main(["--world", chosen.world, "--out", folder])
         if code != 0:
-            raise UserError(f"The world {d.world} cannot be made.")
-        car = mbs.compile(load(d.car).model())
-        road = {"road.file": str(Path(folder, f"{d.world}.road"))}
-        run = mbs.simulate(car, d.stop_time, STEP, d.inputs, parameters=road, pose=d.start, every=EVERY, progress=False)
-        drawing = json.loads(Path(folder, f"{d.world}.json").read_text(encoding="utf-8"))
+            raise UserError(f"The world {chosen.world} cannot be made.")
+        car = mbs.compile(load(chosen.car).model())
+        road = {"road.file": str(Path(folder, f"{chosen.world}.road"))}
+        run = mbs.simulate(
+            car, chosen.stop_time, STEP, chosen.inputs, parameters=road, pose=chosen.start, every=EVERY, progress=False
+        )
+        drawing = json.loads(Path(folder, f"{chosen.world}.json").read_text(encoding="utf-8"))
         assert run.drawing is not None
         # without the roads of the run, which have no scenery; roads of the world's file are added below
         result = run.recording({**run.drawing.scene, "roads": []})

@@ -28,7 +28,7 @@ from viewer.page_data import page_data
 DESKTOP = (1280, 720)
 PHONE = (390, 780)
 PHONE_LANDSCAPE = (780, 390)
-ALIKE = 2
+MAX_COLOUR_DIFFERENCE = 2
 """Largest difference of equal pixels in a colour, of 255."""
 LIVE = "live"
 SIMULATOR = "simulator"
@@ -61,13 +61,13 @@ class Page:
 
 
 CAR = "double_lane_change"
-OTHER = "hatchback_lane_change"
+SECOND_CAR = "hatchback_lane_change"
 PAGES = {
     **{
         name: Page((name,), film.begin + 0.6 * (film.end - film.begin), options={**film.options, "camera": film.camera})
         for name, film in ANIMATIONS.items()
     },
-    "ghosts": Page((CAR, OTHER), 3.0, options={"camera": "chase"}),
+    "ghosts": Page((CAR, SECOND_CAR), 3.0, options={"camera": "chase"}),
     "arrows": Page((CAR,), 3.4, options={"arrows": True, "plots": ["speed", "chassis.ay"]}),
     "arrows_plane": Page(("slider_crank",), 2.0, options={"arrows": True}),
     "draft": Page(("rough",), 2.4, quality="draft"),
@@ -218,4 +218,4 @@ def _count_differences(*files: Path) -> int:
     from PIL import Image
 
     one, other = (np.asarray(Image.open(file).convert("RGB")).astype(int) for file in files)
-    return int((np.abs(one - other).max(axis=2) > ALIKE).sum())
+    return int((np.abs(one - other).max(axis=2) > MAX_COLOUR_DIFFERENCE).sum())

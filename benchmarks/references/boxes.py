@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 from benchmarks.references.newton_euler import INSTANTS, NoReferenceError, cross, quaternion_matrix
 
 Array = NDArray[np.float64]
-LOOSE, TIGHT = 1e-8, 1e-10  # relative tolerances of the two runs
-AGREE = 1e-4  # largest difference of two runs, relative to the diagonal of the box
+LOOSE_TOLERANCE, TIGHT_TOLERANCE = 1e-8, 1e-10  # relative tolerances of the two runs
+MAX_DIFFERENCE = 1e-4  # largest difference of two runs, relative to the diagonal of the box
 
 
 @dataclass(frozen=True)
@@ -54,10 +54,12 @@ def motion(box: Box) -> dict[str, Array]:
 
     Raises `NoReferenceError` if both runs differ.
     """
-    loose, tight = (_run(box, tolerance, divisions) for tolerance, divisions in ((LOOSE, 300), (TIGHT, 500)))
+    loose, tight = (
+        _run(box, tolerance, divisions) for tolerance, divisions in ((LOOSE_TOLERANCE, 300), (TIGHT_TOLERANCE, 500))
+    )
     size = 2.0 * float(np.linalg.norm(box.half))
     apart = max(float(np.abs(loose[name] - tight[name]).max()) for name in tight) / size
-    if not apart <= AGREE:
+    if not apart <= MAX_DIFFERENCE:
         raise NoReferenceError(f"two runs of the reference differ by {apart:.1e} of the size")
     return tight
 

@@ -11,10 +11,10 @@ from scipy.interpolate import PchipInterpolator, PPoly
 from benchmarks.references.newton_euler import INSTANTS, NoReferenceError
 
 Array = NDArray[np.float64]
-LOOSE = 1e-8
-TIGHT = 1e-10
-REST = 1e-100  # squares of smaller rates underflow in SciPy's estimate of an error
-AGREE = 1e-4  # largest difference of two runs, relative to the largest range of a mass
+LOOSE_TOLERANCE = 1e-8
+TIGHT_TOLERANCE = 1e-10
+MIN_RATE = 1e-100  # squares of smaller rates underflow in SciPy's estimate of an error
+MAX_DIFFERENCE = 1e-4  # largest difference of two runs, relative to the largest range of a mass
 
 
 @dataclass(frozen=True)
@@ -94,9 +94,11 @@ def motion(machine: Machine) -> Array:
     Forces are continuous in the state, so that the step control detects each kink; steps are limited, so that none
     skips a short contact. Raises `NoReferenceError` if both runs differ.
     """
-    loose, tight = (_run(machine, tolerance, divisions) for tolerance, divisions in ((LOOSE, 300), (TIGHT, 500)))
+    loose, tight = (
+        _run(machine, tolerance, divisions) for tolerance, divisions in ((LOOSE_TOLERANCE, 300), (TIGHT_TOLERANCE, 500))
+    )
     apart = float(np.abs(loose - tight).max()) / float(np.ptp(tight, axis=0).max())
-    if not apart <= AGREE:
+    if not apart <= MAX_DIFFERENCE:
         raise NoReferenceError(f"two runs of the reference differ by {apart:.1e} of the range")
     return tight
 
@@ -130,7 +132,7 @@ def _run(machine: Machine, tolerance: float, divisions: int) -> Array:
             if f.on is not None:
                 force[f.on] += friction
         values = np.concatenate([v[free], force[free] / mass[free], slips])
-        values[np.abs(values) < REST] = 0.0
+        values[np.abs(values) < MIN_RATE] = 0.0
         return values
 
     t = np.linspace(0.0, machine.span, INSTANTS + 1)

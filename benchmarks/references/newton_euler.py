@@ -4,104 +4,28 @@ Coordinates, equations and integrator differ from the engine. Source: Haug, "Com
 Dynamics", 6.3 and 11.3.
 """
 
+from __future__ import annotations
+
 import itertools
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from scipy.interpolate import PPoly
+
+from benchmarks.references.rigid_mechanism import GROUND, Joint, Mechanism
 
 Array = NDArray[np.float64]
-GROUND = -1
 INSTANTS = 50  # intervals between recorded instants
 # relative tolerances of the runs
-COARSE = 1e-8
-FINE = 1e-10
-FINEST = 1e-12
-AGREE = 1e-5  # largest difference of two runs of a reference, relative to the size of the mechanism
+COARSE_TOLERANCE = 1e-8
+FINE_TOLERANCE = 1e-10
+FINEST_TOLERANCE = 1e-12
+MAX_DIFFERENCE = 1e-5  # largest difference of two runs of a reference, relative to the size of the mechanism
 MAX_CALLS = 100000  # largest number of evaluations of the equations of motion in a run
 
 
 class NoReferenceError(Exception):
     """Two runs of the reference differ, or a run does not end: the motion is chaotic or singular."""
-
-
-@dataclass(frozen=True)
-class Link:
-    """A rigid body: centre of mass (d,), m, mass, kg, and inertia about it, kg m2, a number or (3, 3); a particle if
-    `inertia` is None.
-    """
-
-    com: Array
-    mass: float
-    inertia: float | Array | None
-
-
-@dataclass(frozen=True)
-class Joint:
-    """A joint at a common point of two links, of which the first one moves.
-
-    `kind`: "ball"; "hinge" about `axis`; "line": the point of the first link stays on a line of the ground along
-    `axis`; "pin": the point of the first link is fixed while the joint is closed.
-    """
-
-    kind: str
-    first: int
-    second: int
-    point: Array
-    axis: Array
-    closed: tuple[float, float] = (-np.inf, np.inf)
-    """Times at which the joint is closed and opened, s."""
-
-
-@dataclass(frozen=True)
-class Spring:
-    """Spring and damper between points of two links: stiffness, N/m, damping, N s/m, unloaded length, m."""
-
-    first: int
-    point_1: Array
-    second: int
-    point_2: Array
-    stiffness: float
-    damping: float
-    length: float
-
-
-@dataclass(frozen=True)
-class Mechanism:
-    """A mechanism at its initial position."""
-
-    dimension: int
-    """2 (gravity along -y) or 3 (along -z)."""
-    links: list[Link]
-    joints: list[Joint]
-    springs: list[Spring]
-    tips: list[Array]
-    """A point of each link whose motion is compared, each of shape (d,), m."""
-    rate: float
-    """Initial angular velocity of link 0 about the axis of its first joint, rad/s; the other velocities have the least
-    kinetic energy."""
-    torque: float
-    """Torque of the ground on link 0 about that axis, N m."""
-    drive: PPoly | None
-    """Angle of link 0 over time, rad, 0 at the start; its rate may jump between pieces. None: not driven."""
-    span: float
-    """Duration, s."""
-    gravity: float = 9.81
-
-    @property
-    def events(self) -> list[float]:
-        """Times at which constraints change, from 0 to the end, s."""
-        switch_times = [t for joint in self.joints for t in joint.closed]
-        breaks = [] if self.drive is None else list(self.drive.x)
-        return [0.0, *sorted({float(t) for t in (*switch_times, *breaks) if 0.0 < t < self.span}), self.span]
-
-    @property
-    def size(self) -> float:
-        """Diagonal of the box that encloses all joints and tips, m."""
-        points = np.array([j.point for j in self.joints] + self.tips)
-        return float(np.linalg.norm(np.ptp(points, axis=0)))
 
 
 def _skew(v: Array) -> Array:
@@ -236,68 +160,63 @@ class Dynamics:
 
     def _equations(self, t: float, x: Array) -> tuple[Array, Array, Array, Array]:
         """Mass matrix, forces, constraint Jacobian and its time derivative times the velocities."""
-        n, d, n_omega, mechanism = self.n, self.d, self.n_omega, self.mechanism
+        motion = _LinkMotion(self, x)
+        mass, force = self._mass_and_force(motion)
+        rows, gamma = self._joint_rows(motion)
+        first = self._first_rotation_row(x)
+        self._add_springs(motion, force)
+        force += self.mechanism.torque * first[0]
+        if self.mechanism.drive is not None:
+            rows.append(first)
+            gamma.append(np.array([-self._drive_derivative(t, 2)]))
+        return mass, force, np.vstack([np.zeros((0, len(mass))), *rows]), np.concatenate([np.zeros(0), *gamma])
+
+    def _mass_and_force(self, motion: _LinkMotion) -> tuple[Array, Array]:
+        """Mass matrix, and forces of gravity and gyroscopic moments."""
+        n, d, n_omega = self.n, self.d, self.n_omega
         nv = n * (d + n_omega)
-        position, rotation = self._poses(x)
-        velocity = x[-nv:]
-        linear, omega = velocity[: n * d].reshape(n, d), velocity[n * d :].reshape(n, n_omega)
         mass, force = np.zeros((nv, nv)), np.zeros(nv)
-        for i, link in enumerate(mechanism.links):
+        for i, link in enumerate(self.mechanism.links):
             a, b = slice(i * d, (i + 1) * d), slice(n * d + i * n_omega, n * d + (i + 1) * n_omega)
             mass[a, a] = link.mass * np.eye(d)
-            force[i * d + d - 1] -= link.mass * mechanism.gravity
-            inertia = self.inertia[i] if d == 2 else rotation[i] @ self.inertia[i] @ rotation[i].T
+            force[i * d + d - 1] -= link.mass * self.mechanism.gravity
+            rotation, omega = motion.rotation[i], motion.omega[i]
+            inertia = self.inertia[i] if d == 2 else rotation @ self.inertia[i] @ rotation.T
             mass[b, b] = inertia
             if d == 3:
-                force[b] -= cross(omega[i], inertia @ omega[i])
+                force[b] -= cross(omega, inertia @ omega)
+        return mass, force
 
-        def point(i: int, p: Array) -> tuple[Array, Array, Array, Array]:
-            """Position, velocity, Jacobian and centripetal acceleration of a point of a link, or of the ground."""
-            rows = np.zeros((d, nv))
-            if i == GROUND:
-                return p, np.zeros(d), rows, np.zeros(d)
-            s = rotation[i] @ (p - self.com[i])
-            lever = self._velocity_by_rotation(s)
-            rows[:, i * d : (i + 1) * d] = np.eye(d)
-            rows[:, n * d + i * n_omega : n * d + (i + 1) * n_omega] = lever
-            inward = -(omega[i, 0] ** 2) * s if d == 2 else cross(omega[i], cross(omega[i], s))
-            return position[i] + s, linear[i] + lever @ omega[i], rows, inward
-
-        for spring in mechanism.springs:
-            r1, v1, rows_1, _ = point(spring.first, spring.point_1)
-            r2, v2, rows_2, _ = point(spring.second, spring.point_2)
+    def _add_springs(self, motion: _LinkMotion, force: Array) -> None:
+        for spring in self.mechanism.springs:
+            r1, v1, rows_1, _ = motion.point(spring.first, spring.point_1)
+            r2, v2, rows_2, _ = motion.point(spring.second, spring.point_2)
             gap = r2 - r1
             length = float(np.linalg.norm(gap))
             along = gap / length
             pull = spring.stiffness * (length - spring.length) + spring.damping * float(along @ (v2 - v1))
             force += pull * along @ (rows_1 - rows_2)
-        all_rows, gamma = [np.zeros((0, nv))], [np.zeros(0)]
-        for joint in mechanism.joints:
+
+    def _joint_rows(self, motion: _LinkMotion) -> tuple[list[Array], list[Array]]:
+        """Rows of the Jacobian, and their time derivative times the velocities, of the closed joints."""
+        rows, gamma = [], []
+        for joint in self.mechanism.joints:
             if not (joint.closed[0] <= self.interval[0] and self.interval[1] <= joint.closed[1]):
                 continue
-            _, _, rows_1, in_1 = point(joint.first, joint.point)
-            if joint.kind == "pin":
-                all_rows.append(rows_1)
-                gamma.append(in_1)
+            _, _, rows_1, inward_1 = motion.point(joint.first, joint.point)
+            if joint.kind in ("pin", "line"):
+                normals = self.normals[id(joint)] if joint.kind == "line" else np.eye(self.d)
+                rows.append(normals @ rows_1)
+                gamma.append(normals @ inward_1)
                 continue
-            if joint.kind == "line":
-                normals = self.normals[id(joint)]
-                all_rows.append(normals @ rows_1)
-                gamma.append(normals @ in_1)
-                continue
-            _, _, rows_2, in_2 = point(joint.second, joint.point)
-            all_rows.append(rows_1 - rows_2)
-            gamma.append(in_1 - in_2)
-            if joint.kind == "hinge" and d == 3:
-                rows, product = self._hinge(joint, rotation, omega)
-                all_rows.append(rows)
+            _, _, rows_2, inward_2 = motion.point(joint.second, joint.point)
+            rows.append(rows_1 - rows_2)
+            gamma.append(inward_1 - inward_2)
+            if joint.kind == "hinge" and self.d == 3:
+                axis_rows, product = self._hinge(joint, motion.rotation, motion.omega)
+                rows.append(axis_rows)
                 gamma.append(product)
-        first = self._first_rotation_row(x)
-        force += mechanism.torque * first[0]
-        if mechanism.drive is not None:
-            all_rows.append(first)
-            gamma.append(np.array([-self._drive_derivative(t, 2)]))
-        return mass, force, np.vstack(all_rows), np.concatenate(gamma)
+        return rows, gamma
 
     def _hinge(self, joint: Joint, rotation: Array, omega: Array) -> tuple[Array, Array]:
         """Two constraints: the axis of the first link is perpendicular to two vectors of the second."""
@@ -316,18 +235,42 @@ class Dynamics:
         return rows, product
 
 
+class _LinkMotion:
+    """Poses and velocities of all links at a state."""
+
+    def __init__(self, dynamics: Dynamics, x: Array) -> None:
+        n, d = dynamics.n, dynamics.d
+        self._dynamics = dynamics
+        self.position, self.rotation = dynamics._poses(x)
+        velocity = x[-n * (d + dynamics.n_omega) :]
+        self.linear, self.omega = velocity[: n * d].reshape(n, d), velocity[n * d :].reshape(n, dynamics.n_omega)
+
+    def point(self, i: int, p: Array) -> tuple[Array, Array, Array, Array]:
+        """Position, velocity, Jacobian and centripetal acceleration of a point of a link, or of the ground."""
+        n, d, n_omega = self._dynamics.n, self._dynamics.d, self._dynamics.n_omega
+        rows = np.zeros((d, n * (d + n_omega)))
+        if i == GROUND:
+            return p, np.zeros(d), rows, np.zeros(d)
+        s, omega = self.rotation[i] @ (p - self._dynamics.com[i]), self.omega[i]
+        lever = self._dynamics._velocity_by_rotation(s)
+        rows[:, i * d : (i + 1) * d] = np.eye(d)
+        rows[:, n * d + i * n_omega : n * d + (i + 1) * n_omega] = lever
+        inward = -(omega[0] ** 2) * s if d == 2 else cross(omega, cross(omega, s))
+        return self.position[i] + s, self.linear[i] + lever @ omega, rows, inward
+
+
 def motion(mechanism: Mechanism, rates: bool = False) -> Array:
     """Positions of the tips (INSTANTS + 1, n, d), m, confirmed by a run with a hundred times the tolerance; if `rates`,
     the values of `Dynamics.rates_and_drive` (INSTANTS + 1, k), before each event.
 
-    Raises `NoReferenceError` if the two runs differ by more than `AGREE`, or one of them does not end.
+    Raises `NoReferenceError` if the two runs differ by more than `MAX_DIFFERENCE`, or one of them does not end.
     """
-    (coarse, _), (results, omegas) = (_run(mechanism, tolerance) for tolerance in (COARSE, FINE))
+    (coarse, _), (results, omegas) = (_run(mechanism, tolerance) for tolerance in (COARSE_TOLERANCE, FINE_TOLERANCE))
     apart = float(np.abs(coarse - results).max()) / mechanism.size
-    if not apart <= AGREE:
-        coarse, (results, omegas) = results, _run(mechanism, FINEST)
+    if not apart <= MAX_DIFFERENCE:
+        coarse, (results, omegas) = results, _run(mechanism, FINEST_TOLERANCE)
         apart = float(np.abs(coarse - results).max()) / mechanism.size
-    if not apart <= AGREE:
+    if not apart <= MAX_DIFFERENCE:
         raise NoReferenceError(f"two runs of the reference differ by {apart:.1e} of the size")
     return omegas if rates else results
 
@@ -336,7 +279,7 @@ def _run(mechanism: Mechanism, tolerance: float) -> tuple[Array, Array]:
     dynamics = Dynamics(mechanism)
     t = np.linspace(0.0, mechanism.span, INSTANTS + 1)
     # a limit of the step, so that neither run misses motion between its stages
-    limit = mechanism.span / (200.0 if tolerance == COARSE else 350.0)
+    limit = mechanism.span / (200.0 if tolerance == COARSE_TOLERANCE else 350.0)
     tips, omegas = [], []
     x = np.zeros(0)
     try:

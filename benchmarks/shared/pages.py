@@ -26,11 +26,7 @@ def table(rows: Sequence[Row], columns: Mapping[str, str]) -> str:
 
 
 def crossed(
-    rows: Sequence[Row],
-    name: Callable[[Row], str],
-    column: str,
-    cell: Callable[[Row], str],
-    title: str,
+    rows: Sequence[Row], name: Callable[[Row], str], column: str, cell: Callable[[Row], str], title: str
 ) -> str:
     """A pivot table: a line for each name, a column for each value of the key `column`."""
     lines: dict[str, dict[str, str]] = {}

@@ -22,12 +22,12 @@ from benchmarks.validation import margins, omitted_seconds, published_tests, two
 from benchmarks.validation.bank import bank_of, write_banked
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
-from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
+from benchmarks.validation.curves import MIN_SECONDS, acceleration_error, curves, within
 from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, read_drive
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import DriveComparison, compare_drive
 from benchmarks.validation.published_figures import full_throttle, published_rows
-from benchmarks.validation.refit import BOUNDS, problems, refit
+from benchmarks.validation.refit import BOUNDS, bound_notes, refit
 from benchmarks.validation.refit import COLUMNS as FIT_COLUMNS
 
 ALIASES = Path(__file__).with_name("ferrari_250_lm_log.toml")
@@ -61,7 +61,7 @@ LACKING = {k: f for k, f in MODEL_COLUMNS.items() if k in ("model", "windows", "
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
 FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # inner step of the car, s
-COARSE = 0.01  # inner step for many runs, s
+COARSE_STEP = 0.01  # inner step for many runs, s
 LEFT_OUT = "linear bicycle", "saturating bicycle, tanh", "x/sqrt(1 + x2), two grips, yaw inertia"
 BANKED = "multibody car, bank by place"
 CHART_MODEL = 3  # index in MODELS: the saturating bicycle with four numbers
@@ -118,7 +118,7 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
 def _kinds(options: Namespace) -> list[dict[str, Any]]:
     log, aliases = _log(options)
     models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODELS[1]]
-    car = options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS
+    car = options.car, log, aliases, {"step_size": COARSE_STEP}, options.bounds or BOUNDS
     return omitted_seconds.rows_of(models, BODY, read_drive(log, aliases), car)
 
 
@@ -172,7 +172,7 @@ def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[s
         rows.append(
             row | {"spread": c.spread} | {name: model_curves[k].difference for name, model_curves in results.items()}
         )
-    return [row for row in rows if row["seconds"] >= ENOUGH]
+    return [row for row in rows if row["seconds"] >= MIN_SECONDS]
 
 
 def _folds(first: Fitted, second: Fitted) -> list[dict[str, Any]]:
@@ -238,7 +238,7 @@ LOGGED: dict[str, tuple[Any, str]] = {
     "aliases": (Path, "aliases of the log, for the car; by default the Ferrari's"),
 }
 FITTED_PARAMETERS: dict[str, tuple[Any, str]] = {
-    "bounds": (Path, "sought parameters and their bounds; by default the Ferrari's"),
+    "bounds": (Path, "sought parameters and their bounds; by default the Ferrari's")
 }
 PARTS = {
     "drive": Part(
@@ -258,11 +258,11 @@ PARTS = {
         lambda options: refit(options.car, *_log(options), options.bounds or BOUNDS),
         options=LOGGED | FITTED_PARAMETERS,
         words=lambda rows: table(rows, FIT_COLUMNS),
-        check=lambda rows, options: problems(rows),
+        check=lambda rows, options: bound_notes(rows),
     ),
     "margins": Part(
         "how near the multibody car is to a spin: starts beside the measured state, more speed",
-        lambda options: margins.margins(options.car, *_log(options), {"step_size": COARSE}),
+        lambda options: margins.margins(options.car, *_log(options), {"step_size": COARSE_STEP}),
         options=LOGGED,
         pages=(PAGE,),
         blocks=lambda rows: {"margins": table(rows, margins.COLUMNS)},

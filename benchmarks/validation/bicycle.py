@@ -147,11 +147,7 @@ MODELS = (
         (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _PLACE),
         _saturating(root),
     ),
-    Model(
-        "the same and yaw inertia",
-        (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _PLACE, INERTIA),
-        _saturating(root),
-    ),
+    Model("the same and yaw inertia", (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _PLACE, INERTIA), _saturating(root)),
     Model(
         "the same with the height of the car file, tyres degressive",
         (*STIFFNESS, *GRIPS, _OFFSET, _PLACE, INERTIA, *_BY_LOAD),

@@ -11,15 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.validation.commonroad_reference import (
-    BEGIN,
-    BRAKING,
-    FOLDER,
-    MANOEUVRES,
-    SECONDS,
-    STEER,
-    STEER_SPEED,
-)
+from benchmarks.validation.commonroad_reference import BEGIN, BRAKING, FOLDER, MANOEUVRES, SECONDS, STEER, STEER_SPEED
 from hosts.common.wheels import WHEELS
 from mbs import Pose, compile, simulate
 from mbs.vehicle import Car, load
@@ -27,13 +19,13 @@ from mbs.vehicle import Car, load
 Array = NDArray[np.float64]
 
 STEP = 0.002  # s
-ROLLING = 0.344  # m, rolling radius R_w of that model
-SAME = {"steering.frequency": 200.0, "ports.torque": "half_shafts"}
-"""Changes of the cars here: fast steering, and no torque of drive and engine drag."""
+ROLLING_RADIUS = 0.344  # m, R_w of that model
+COMMON_CHANGES = {"steering.frequency": 200.0, "ports.torque": "half_shafts"}
+"""Changes of the cars here, as that model has them: fast steering, and no torque of drive and engine drag."""
 
 
 @dataclass(frozen=True)
-class Compared:
+class Comparison:
     """A manoeuvre of both models, at the times of the reference."""
 
     reference: Mapping[str, Array]
@@ -42,14 +34,14 @@ class Compared:
     """Values of the car here by column of the reference, each of shape (n,)."""
 
 
-def compared(name: str, manoeuvre: str) -> Compared:
+def compare(name: str, manoeuvre: str) -> Comparison:
     """Simulate a car in the manoeuvre of its reference. `manoeuvre`: one of `MANOEUVRES`."""
     table = np.genfromtxt(FOLDER / f"{name}_{manoeuvre}.csv", delimiter=",", names=True)
     table = table[table["time"] > BEGIN - 0.1]
     reference = {column: np.asarray(table[column]) for column in table.dtype.names}
     car = load(name)
     changes = _consistent(car) if manoeuvre.startswith("consistent") else {}
-    car = car.changed(SAME | changes)
+    car = car.changed(COMMON_CHANGES | changes)
     run = simulate(
         compile(car.model()), SECONDS, STEP, inputs=_inputs(car, manoeuvre), pose=Pose(speed=MANOEUVRES[manoeuvre])
     )
@@ -58,7 +50,7 @@ def compared(name: str, manoeuvre: str) -> Compared:
     results = {column: np.interp(reference["time"], run.t, run[sensor]) for column, sensor in names.items()}
     for axis in ("x", "y"):
         reference[axis], results[axis] = reference[axis] - reference[axis][0], results[axis] - results[axis][0]
-    return Compared(reference, results)
+    return Comparison(reference, results)
 
 
 def _consistent(car: Car) -> dict[str, Any]:
@@ -80,6 +72,6 @@ def _inputs(car: Car, manoeuvre: str) -> dict[str, tuple[Array, Array]]:
         most = car.steering.front_wheel_angle_max
         t = np.array([0.0, BEGIN, BEGIN + STEER / STEER_SPEED, SECONDS])
         return {"steering": (t, np.array([0.0, 0.0, STEER, STEER]) / most)}
-    pedal = car.vehicle.mass * ROLLING * BRAKING / (2.0 * car.brakes.torque)
+    pedal = car.vehicle.mass * ROLLING_RADIUS * BRAKING / (2.0 * car.brakes.torque)
     t = np.array([0.0, BEGIN, BEGIN + 1e-6, SECONDS])
     return {"brake": (t, np.array([0.0, 0.0, pedal, pedal]))}

@@ -7,13 +7,13 @@ from scipy.signal import butter, sosfiltfilt
 
 from benchmarks.validation.drive import JUDGED, LENGTH, Array, Drive
 from benchmarks.validation.fitting import begins
+from mbs.vehicle.environment import GRAVITY
 
-G = 9.81
-WIDTH = 0.1  # g, of a bin: 0.05 g to either side of its middle
-SLOW = 1.0  # cut-off of the acceleration for the bins, Hz
-FAST = 2.0  # cut-off of the compared acceleration, Hz
-ENOUGH = 2.0  # s, least time in a compared bin
-STEADY = 0.5  # s at the beginning of a window that are left out
+BIN_WIDTH = 0.1  # g, of a bin: 0.05 g to either side of its middle
+BIN_CUT_OFF = 1.0  # Hz, of the acceleration that assigns samples to bins
+ERROR_CUT_OFF = 2.0  # Hz, of the accelerations that are compared
+MIN_SECONDS = 2.0  # s, in a compared bin
+SETTLING_TIME = 0.5  # s at the beginning of a window that are left out
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,10 @@ def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:
     """
     rows = window_rows(drive)
     exact = lateral_acceleration(drive.vx[rows], drive.vy[rows], drive.yaw_rate[rows], drive.interval)
-    error = low_passed(lateral_acceleration(drive.vx[rows], vy, rate, drive.interval) - exact, FAST, drive.interval)
-    return float(np.sqrt(np.mean(error[:, round(STEADY / drive.interval) :] ** 2)))
+    error = low_passed(
+        lateral_acceleration(drive.vx[rows], vy, rate, drive.interval) - exact, ERROR_CUT_OFF, drive.interval
+    )
+    return float(np.sqrt(np.mean(error[:, round(SETTLING_TIME / drive.interval) :] ** 2)))
 
 
 def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve]:
@@ -73,10 +75,12 @@ def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve
     The understeer angle is the mean angle of the front wheels minus wheelbase times yaw rate divided by speed, times
     the sign of the lateral acceleration: positive if the car understeers.
     """
-    rows = window_rows(drive)[:, round(STEADY / drive.interval) :]
-    vy, rate = (values[:, round(STEADY / drive.interval) :] for values in (vy, rate))
-    whole = low_passed(lateral_acceleration(drive.vx, drive.vy, drive.yaw_rate, drive.interval), SLOW, drive.interval)
-    number = np.round(whole[rows] / G / WIDTH)
+    rows = window_rows(drive)[:, round(SETTLING_TIME / drive.interval) :]
+    vy, rate = (values[:, round(SETTLING_TIME / drive.interval) :] for values in (vy, rate))
+    whole = low_passed(
+        lateral_acceleration(drive.vx, drive.vy, drive.yaw_rate, drive.interval), BIN_CUT_OFF, drive.interval
+    )
+    number = np.round(whole[rows] / GRAVITY / BIN_WIDTH)
     side = np.where(number < 0.0, -1.0, 1.0)
 
     def understeer(turning: Array) -> Array:
@@ -89,26 +93,22 @@ def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve
         "understeer angle": (understeer(drive.yaw_rate[rows]), understeer(rate)),
         "sideslip": (sideslip(drive.vy[rows]), sideslip(vy)),
     }
-    results = []
-    for quantity, (measured, simulated) in pairs.items():
-        for k in np.unique(number):
-            in_bin = number == k
-            results.append(
-                Curve(
-                    quantity,
-                    float(k * WIDTH),
-                    len(np.unique(rows[in_bin])) * drive.interval,
-                    float(measured[in_bin].mean()),
-                    float(measured[in_bin].std()),
-                    float((simulated - measured)[in_bin].mean()),
-                )
-            )
-    return results
+    bins = [(float(k * BIN_WIDTH), number == k) for k in np.unique(number)]
+    return [
+        Curve(
+            quantity,
+            acceleration,
+            len(np.unique(rows[in_bin])) * drive.interval,
+            float(measured[in_bin].mean()),
+            float(measured[in_bin].std()),
+            float((simulated - measured)[in_bin].mean()),
+        )
+        for quantity, (measured, simulated) in pairs.items()
+        for acceleration, in_bin in bins
+    ]
 
 
 def within(curves: list[Curve], quantity: str, aim: float) -> tuple[int, int]:
-    """Number of bins with enough time whose mean difference is within `aim`, deg, and number of bins with enough
-    time.
-    """
-    judged = [c for c in curves if c.quantity == quantity and c.seconds >= ENOUGH]
+    """Of the bins with `MIN_SECONDS`, the number whose mean difference is within `aim`, deg, and the number of all."""
+    judged = [c for c in curves if c.quantity == quantity and c.seconds >= MIN_SECONDS]
     return sum(abs(c.difference) <= aim for c in judged), len(judged)

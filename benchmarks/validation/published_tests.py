@@ -26,7 +26,7 @@ def by_commonroad(cars: Sequence[str] = CARS) -> list[tuple[Published, float]]:
     results = []
     for car in cars:
         for manoeuvre, quantity, unit, text in _QUANTITIES:
-            both = commonroad.compared(car, manoeuvre)
+            both = commonroad.compare(car, manoeuvre)
             published = float(both.reference[quantity][-1])
             figure = Published(f"{car}, {text}", unit, {_SOURCE: published}, _STORED * abs(published))
             results.append((figure, float(both.simulated[quantity][-1])))

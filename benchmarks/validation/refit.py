@@ -13,7 +13,7 @@ from benchmarks.validation.multibody import arguments_of
 from hosts.compare.command import main as compare
 
 BOUNDS = Path(__file__).with_name("ferrari_250_lm_fit.toml")
-NEAR = 0.02  # distance from a bound, relative to the range, up to which a parameter is marked
+NEAR_BOUND = 0.02  # of the range: distance from a bound up to which a parameter is marked
 COLUMNS = {
     "number": "",
     "low": ".4g",
@@ -25,7 +25,7 @@ COLUMNS = {
     "near a bound": "",
 }
 STEP = 0.01  # inner step, s
-EVERY = 10.0  # interval between the starts of windows, s
+WINDOW_INTERVAL = 10.0  # interval between the starts of windows, s
 
 
 def read_ranges(file: Path) -> dict[str, str]:
@@ -44,7 +44,7 @@ def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, An
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder, "record.json")
         arguments = [*arguments_of(car, log, aliases, {"step_size": STEP}), "--windows", f"{LENGTH:g}"]
-        arguments += ["--window-every", f"{EVERY:g}", "--seconds", text_of(FITTED), "--jobs", "1"]
+        arguments += ["--window-every", f"{WINDOW_INTERVAL:g}", "--seconds", text_of(FITTED), "--jobs", "1"]
         arguments += [part for name, span in ranges.items() for part in ("--fit", f"{name}={span}")]
         compare([*arguments, "--out", folder, "--json", str(record)])
         content = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
@@ -56,7 +56,7 @@ def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, An
 def row_of(fitted: dict[str, Any], low: float, high: float) -> dict[str, Any]:
     """Row of `COLUMNS`. `fitted`: entry of a record of ``ali3 compare --fit``."""
     value, folds = fitted["value"], fitted["folds"]
-    near = min(value - low, high - value) < NEAR * (high - low)
+    near = min(value - low, high - value) < NEAR_BOUND * (high - low)
     return {
         "number": f"`{fitted['name']}`",
         "low": low,
@@ -69,10 +69,11 @@ def row_of(fitted: dict[str, Any], low: float, high: float) -> dict[str, Any]:
     }
 
 
-def problems(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+def bound_notes(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Sentences on parameters near a bound."""
     return [
-        f"{row['number']} = {row['found']:.4g} lies within {NEAR:.0%} of a bound: it makes up for what the model lacks."
+        f"{row['number']} = {row['found']:.4g} lies within {NEAR_BOUND:.0%} of a bound: it makes up for "
+        "what the model lacks."
         for row in rows
         if row["near a bound"] == "yes"
     ]

@@ -13,8 +13,7 @@ from ali3.command_run import run_command
 from ali3.scene.recording import Recording
 from fmu_src.build.command import main as build
 from hosts.view.command import main as view
-from hosts.view.page_parts import FmuParts, fmu_parts
-from hosts.view.page_text import page_text
+from hosts.view.page_parts import FmuParts, fmu_parts, page_text
 from mbs.scenes import double_four_bar
 
 _FAILS = "ali3p_no_projection"

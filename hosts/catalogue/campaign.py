@@ -7,8 +7,7 @@ from contextlib import closing
 from ali3.cores import available_cores
 from ali3.files import check_writable
 from ali3.isolated_processes import Lost
-from hosts.catalogue.car import TestedCar
-from hosts.catalogue.cars import cars_of
+from hosts.catalogue.car import TestedCar, cars_of
 from hosts.catalogue.execution import Reason, reason_against, settings_of_test
 from hosts.catalogue.limits import GivenLimits
 from hosts.catalogue.output import print_measures, write_measures

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import ROLLED, start_at_speed
-from hosts.catalogue.steered_run import level_acceleration
+from hosts.catalogue.steered_run import CorneringSignals, level_acceleration
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.circle_follower import CircleFollower
@@ -33,29 +33,12 @@ _RECORD_STEP = 0.02  # s
 _APPROACH_TIME = 60.0  # s, until the first speed is reached
 
 
-@dataclass(frozen=True)
-class CircleRun:
-    """Signals of a run from steady driving at the first speed to the largest lateral acceleration.
+@dataclass(frozen=True, kw_only=True)
+class CircleRun(CorneringSignals):
+    """Signals from steady driving at the first speed to the largest lateral acceleration, at intervals of 20 ms."""
 
-    Arrays have shape (n,), positive to the left; NaN if the car has no such output.
-    """
-
-    result: Result
-    """The whole run, at intervals of 20 ms."""
-    time: NDArray[np.float64]
-    """s."""
-    acceleration: NDArray[np.float64]
-    """Lateral and horizontal, m/s²."""
-    steering: NDArray[np.float64]
-    """Steering-wheel angle, rad."""
-    sideslip: NDArray[np.float64]
-    """Sideslip angle, rad."""
-    roll: NDArray[np.float64]
-    """Roll angle, rad."""
     torque: NDArray[np.float64]
     """Steering-wheel torque, N m."""
-    speed: NDArray[np.float64]
-    """m/s."""
     largest: float
     """Largest lateral acceleration to the side of the run, mean over 1 s, m/s²."""
     end: str
@@ -197,17 +180,17 @@ def _circle_run(result: Result, monitor: _RunMonitor, steering: SteeringInput, s
         return result.continuous(name)[steady] if name in result else np.full(len(steady), math.nan)
 
     return CircleRun(
-        result,
-        result.time[steady],
-        level_acceleration(result)[steady],
-        steering.measured_angle(result, step)[steady],
-        signal("sideslip"),
-        signal("chassis.roll"),
-        signal("steering_wheel_torque"),
-        signal("speed"),
-        largest,
-        monitor.end,
-        steering.note,
+        result=result,
+        time=result.time[steady],
+        acceleration=level_acceleration(result)[steady],
+        steering=steering.measured_angle(result, step)[steady],
+        sideslip=signal("sideslip"),
+        roll=signal("chassis.roll"),
+        torque=signal("steering_wheel_torque"),
+        speed=signal("speed"),
+        largest=largest,
+        end=monitor.end,
+        steering_note=steering.note,
     )
 
 

@@ -12,7 +12,7 @@ from hosts.driving.result import Result
 from hosts.measures.braking import locked
 from hosts.measures.wheels import at_wheels
 
-STEADY = 1.0  # s before the onset, in which the circle is undisturbed
+STEADY_TIME = 1.0  # s before the onset, in which the circle is undisturbed
 MIN_SPEED = 2.0  # m/s, below which the sideslip is not evaluated
 
 COMPARED: Sequence[Mapping[str, Any]] = [
@@ -59,7 +59,7 @@ class Stop:
     def steady(self) -> NDArray[np.bool_]:
         """Whether a sample is of the undisturbed circle, shape (n,)."""
         t = self.result.time
-        return np.asarray((t >= self.onset - STEADY - 1e-9) & (t <= self.onset + 1e-9))
+        return np.asarray((t >= self.onset - STEADY_TIME - 1e-9) & (t <= self.onset + 1e-9))
 
     def at(self, name: str, after: float) -> float:
         """Value of an output at a time after the onset, s; NaN if the run ends before."""
@@ -120,8 +120,8 @@ class Stop:
 
     @property
     def shown(self) -> NDArray[np.bool_]:
-        """Whether a sample is drawn: at most `STEADY` before the onset; shape (n,)."""
-        return np.asarray(self.result.time >= self.onset - STEADY)
+        """Whether a sample is drawn: at most `STEADY_TIME` before the onset; shape (n,)."""
+        return np.asarray(self.result.time >= self.onset - STEADY_TIME)
 
     def over_time(self, name: str) -> NDArray[np.float64]:
         """An output at the samples that are drawn; NaN of a sideslip below the speed `MIN_SPEED`."""

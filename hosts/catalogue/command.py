@@ -22,10 +22,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
     )
     add_option(parser, "--list")
     add_option(
-        parser,
-        "--aliases",
-        "none; one file for all FMUs, or one for each in their order or 'none'",
-        action="append",
+        parser, "--aliases", "none; one file for all FMUs, or one for each in their order or 'none'", action="append"
     )
     parser.add_argument(
         "--variant",

@@ -245,13 +245,7 @@ def _expansions(scope: Scope, each: str | Mapping[str, Sequence[Any]]) -> Sequen
 
 
 def mean_of_sides(
-    name: str,
-    left: float,
-    right: float,
-    unit: str,
-    text: str,
-    reason: str = "",
-    exists: bool = True,
+    name: str, left: float, right: float, unit: str, text: str, reason: str = "", exists: bool = True
 ) -> Measure:
     """Mean of left and right, with a note if they differ by more than 5 %, or one is missing.
 

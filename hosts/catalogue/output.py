@@ -50,13 +50,7 @@ def measures_record(
     """Cars, settings, measures and notes of all tests for JSON; missing numbers are null."""
     return {
         "cars": [
-            {
-                "label": car.label,
-                "fmu": str(car.path),
-                "step_s": car.facts.step,
-                "set": dict(car.start),
-            }
-            for car in cars
+            {"label": car.label, "fmu": str(car.path), "step_s": car.facts.step, "set": dict(car.start)} for car in cars
         ],
         "tests": [
             {
@@ -85,11 +79,11 @@ def _outcome_record(test: str, label: str, outcome: Outcome) -> dict[str, Any]:
 
 
 def _measure_record(m: Measure) -> dict[str, Any]:
-    record: dict[str, Any] = {"value": or_null(m.value), "unit": m.unit, "text": m.text}
+    record = {name: value for name, value in m.record().items() if name != "note" or value}
     if m.limit is not None:
         limit = {"lowest": or_null(m.limit.lowest), "highest": or_null(m.limit.highest), "source": m.limit.source}
         record |= {"limit": limit, "kept": m.is_kept}
-    return record | ({"note": m.note} if m.note else {})
+    return record
 
 
 def write_measures(

@@ -100,23 +100,16 @@ class SteeredPilot:
         )
 
 
-@dataclass(frozen=True)
-class SteeredRun:
-    """Signals of a steered run at equally spaced times; NaN if the car has no such output.
-
-    Arrays have shape (n,); time 0 is the start of the steering.
-    """
+@dataclass(frozen=True, kw_only=True)
+class CorneringSignals:
+    """Signals of a run in a corner, shape (n,), positive to the left; NaN if the car has no such output."""
 
     result: Result
-    """The record, with intervals of at least 5 ms."""
-    steering_start: float
-    """Start of the steering in the time of `result`, s; NaN if the car did not reach its speed."""
+    """The whole run."""
     time: NDArray[np.float64]
-    """s; starts at most 1 s before the steering. Empty if the steering did not begin."""
+    """s."""
     steering: NDArray[np.float64]
     """Steering-wheel angle, rad."""
-    yaw_rate: NDArray[np.float64]
-    """rad/s."""
     acceleration: NDArray[np.float64]
     """Lateral and horizontal, m/s²."""
     sideslip: NDArray[np.float64]
@@ -125,6 +118,19 @@ class SteeredRun:
     """Roll angle, rad."""
     speed: NDArray[np.float64]
     """m/s."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteeredRun(CorneringSignals):
+    """Signals at equally spaced times, from at most 1 s before the steering, which starts at time 0.
+
+    They are empty if the steering did not begin. The result has intervals of at least 5 ms.
+    """
+
+    steering_start: float
+    """Start of the steering in the time of `result`, s; NaN if the car did not reach its speed."""
+    yaw_rate: NDArray[np.float64]
+    """rad/s."""
     whole: bool
     """Whether the table was driven to its end."""
 
@@ -198,7 +204,8 @@ def level_acceleration(result: Result) -> NDArray[np.float64]:
 def _steered_run(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
     empty = np.zeros(0)
     if not pilot.is_steering or len(result.time) < 3 or result.time[-1] <= pilot.steering_start:
-        return SteeredRun(result, math.nan, *7 * (empty,), whole=False)
+        signals = ("time", "steering", "yaw_rate", "acceleration", "sideslip", "roll", "speed")
+        return SteeredRun(result=result, steering_start=math.nan, whole=False, **dict.fromkeys(signals, empty))
     row_interval = float(result.time[1] - result.time[0])
     interval = max(_INTERVAL, row_interval)
     # The grid has a sample at the start of the steering.

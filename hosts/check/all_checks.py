@@ -7,27 +7,15 @@ from pathlib import Path
 
 from ali3.errors import UserError
 from ali3.isolated_processes import Lost
-from hosts.check.behaviour import BEHAVIOUR_CHECKS
-from hosts.check.dependencies import DEPENDENCY_CHECKS
-from hosts.check.documents import DOCUMENT_CHECKS, FUNCTIONS
+from hosts.check import behaviour, dependencies, documents, portability, process_settings, process_state, values
+from hosts.check.documents import FUNCTIONS
 from hosts.check.instance import Check, Finding, NotInstantiatedError, Subject, open_subject
-from hosts.check.portability import PORTABILITY_CHECKS
-from hosts.check.process_settings import SETTING_CHECKS
-from hosts.check.process_state import PROCESS_CHECKS
-from hosts.check.values import VALUE_CHECKS
 from hosts.common.numbers import Value
 
+_ROOMS = (documents, process_settings, process_state, behaviour, values, dependencies, portability)
 CHECKS: tuple[Check, ...] = tuple(
     sorted(
-        (
-            *DOCUMENT_CHECKS,
-            *SETTING_CHECKS,
-            *PROCESS_CHECKS,
-            *BEHAVIOUR_CHECKS,
-            *VALUE_CHECKS,
-            *DEPENDENCY_CHECKS,
-            *PORTABILITY_CHECKS,
-        ),
+        (found for room in _ROOMS for found in vars(room).values() if isinstance(found, Check)),
         key=lambda check: check.crash == "note",
     )
 )
@@ -63,11 +51,11 @@ def run_check(check: Check, subject: Subject) -> Finding:
     except (ModuleNotFoundError, MemoryError):
         raise
     except NotInstantiatedError as error:
-        return Finding(check.name, "bad", str(error), last=check.crash == "bad")
+        return Finding("bad", str(error), last=check.crash == "bad")
     except UserError as error:
-        return Finding(check.name, "bad", str(error).rstrip("."))
+        return Finding("bad", str(error).rstrip("."))
     except Exception as error:
-        return Finding(check.name, "bad", f"ended with {type(error).__name__}: {error}")
+        return Finding("bad", f"ended with {type(error).__name__}: {error}")
 
 
 def finding_of_loss(check: Check, loss: Lost, limit: float) -> Finding:
@@ -78,9 +66,4 @@ def finding_of_loss(check: Check, loss: Lost, limit: float) -> Finding:
         message = f"{loss.how}{open_by}; --time-limit gives a check more than {limit:g} s"
     else:
         message = f"the process {loss.how}{open_by}"
-    return Finding(check.name, verdict, message, last=check.name == FUNCTIONS)
-
-
-def checks_left_out(finding: Finding) -> list[Check]:
-    """Checks that cannot be run after a finding."""
-    return [check for check in CHECKS if check.calls and check.name != finding.check] if finding.last else []
+    return Finding(verdict, message, last=check.name == FUNCTIONS)

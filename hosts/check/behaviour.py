@@ -7,7 +7,7 @@ from threading import Thread
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from hosts.check.instance import NOT_ALLOWED, Check, Finding, Instance, Subject, count_of
+from hosts.check.instance import NOT_ALLOWED, Finding, Instance, Subject, check, count_of
 from hosts.common.errors import HostError
 
 _SUBSTEP_TOLERANCE = 0.05  # of the range of an output, by which runs with other steps may differ
@@ -17,6 +17,7 @@ _CREATION_TIME = 5.0  # s, in which they are made
 _ALTERED = "FMI defines states of the same FMU only: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
 
 
+@check("runs")
 def check_run(subject: Subject) -> Finding:
     """Whether a run gives finite outputs."""
     instance = Instance(subject).start()
@@ -26,23 +27,24 @@ def check_run(subject: Subject) -> Finding:
         for name, value in zip(names, row, strict=True):
             if not math.isfinite(value):
                 message = f"{name} is {value:g} at {k * subject.step:g} s; give a number or refuse the step"
-                return Finding("runs", "bad", f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
+                return Finding("bad", f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
     del rows[0]
     moving = sum(min(column) < max(column) for column in zip(*rows, strict=True))
     message = f"{len(rows)} steps of {subject.step:g} s, {moving} outputs move"
     if len(rows) < subject.steps:
         message += f"; it asks to end then, which it may {subject.clause('4.2.3', '4.2.1')}"
-        return Finding("runs", "note", message)
-    return Finding("runs", "good", message)
+        return Finding("note", message)
+    return Finding("good", message)
 
 
+@check("repeats")
 def check_repetition(subject: Subject) -> Finding:
     """Whether two interleaved instances, and one stepped in another thread, give the results of one alone."""
     alone = Instance(subject).start().run(subject.steps)
     if subject.is_single:
         if differs := first_difference(subject, alone, Instance(subject).start().run(subject.steps)):
             return _bad_repetition(subject, "after a first one", differs)
-        return Finding("repeats", "good", "bit for bit, one after another")
+        return Finding("good", "bit for bit, one after another")
     pair = [Instance(subject).start() for _ in range(2)]
     rows: list[list[list[float]]] = [[], []]
     for k in range(subject.steps):
@@ -59,12 +61,12 @@ def check_repetition(subject: Subject) -> Finding:
         raise HostError("a run in another thread than the instance was made in fails")
     if differs := first_difference(subject, alone, rows_of_thread[0]):
         return _bad_repetition(subject, "in another thread than its instance was made in", differs)
-    return Finding("repeats", "good", "bit for bit, also interleaved and in another thread")
+    return Finding("good", "bit for bit, also interleaved and in another thread")
 
 
 def _bad_repetition(subject: Subject, when: str, differs: str) -> Finding:
     message = f"a run {when} differs: {differs}; keep all that a run needs in its instance"
-    return Finding("repeats", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
 
 
 def first_difference(subject: Subject, one: list[list[float]], other: list[list[float]], begin: int = 0) -> str:
@@ -77,6 +79,7 @@ def first_difference(subject: Subject, one: list[list[float]], other: list[list[
     return "" if len(one) == len(other) else f"one ends after {len(one)} steps, the other after {len(other)}"
 
 
+@check("reset")
 def check_reset(subject: Subject) -> Finding:
     """Whether an instance behaves as a new one after a reset."""
     instance = Instance(subject).start()
@@ -89,17 +92,18 @@ def check_reset(subject: Subject) -> Finding:
         instance.reset()
         if not first_difference(subject, first[:-1], instance.start().run(len(first) - 1)):
             message = "not as at the first start after it has requested the end of the run; set everything back in it"
-            return Finding("reset", "note", f"{message} {subject.clause('2.1.6', '2.3.1')}")
+            return Finding("note", f"{message} {subject.clause('2.1.6', '2.3.1')}")
     if differs:
         message = f"not as at the first start: {differs}; set everything back in it"
-        return Finding("reset", "bad", f"{message} {subject.clause('2.1.6', '2.3.1')}")
-    return Finding("reset", "good", "as at the first start")
+        return Finding("bad", f"{message} {subject.clause('2.1.6', '2.3.1')}")
+    return Finding("good", "as at the first start")
 
 
+@check("states")
 def check_states(subject: Subject) -> Finding:
     """Whether a restored state continues exactly, also in another instance to which it is passed as bytes."""
     if not _has_states(subject):
-        return Finding("states", "note", "cannot be saved and restored")
+        return Finding("note", "cannot be saved and restored")
     half = max(1, subject.steps // 2)
     instance = Instance(subject).start()
     instance.run(half)
@@ -107,15 +111,15 @@ def check_states(subject: Subject) -> Finding:
     try:
         data = instance.state_bytes()
     except HostError as error:
-        return Finding("states", "bad", f"{str(error).rstrip('.')}; say the size that is needed {clause}")
+        return Finding("bad", f"{str(error).rstrip('.')}; say the size that is needed {clause}")
     first = instance.run(half, half)
     instance.restore_bytes(data)
     again = instance.run(half, half)
     if fault := _fault_of_state(subject):
-        return Finding("states", "bad", f"{fault} {clause}")
+        return Finding("bad", f"{fault} {clause}")
     if differs := first_difference(subject, first, again, half):
         message = f"a restored state goes on differently: {differs}; save all of it, with the solver's own"
-        return Finding("states", "note" if _nearly_equal(first, again) else "bad", f"{message} {clause}")
+        return Finding("note" if _nearly_equal(first, again) else "bad", f"{message} {clause}")
     for initialised in (False, True):
         receiver = Instance(subject).start() if initialised else Instance(subject)
         try:
@@ -126,11 +130,11 @@ def check_states(subject: Subject) -> Finding:
         if not differs:
             break
     if differs:
-        return Finding("states", "bad", f"a state goes on differently in another instance: {differs} {clause}")
+        return Finding("bad", f"a state goes on differently in another instance: {differs} {clause}")
     if initialised:
         message = "a state goes on in another instance only where that was initialised; save its mode too"
-        return Finding("states", "bad" if subject.is_fmi3 else "note", f"{message} {clause}")
-    return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes")
+        return Finding("bad" if subject.is_fmi3 else "note", f"{message} {clause}")
+    return Finding("good", f"exact, also in another instance, {len(data)} bytes")
 
 
 def _fault_of_state(subject: Subject) -> str:
@@ -160,10 +164,11 @@ def _has_states(subject: Subject) -> bool:
     return bool(co_simulation.canGetAndSetFMUstate and co_simulation.canSerializeFMUstate)
 
 
+@check("altered states", crash="note", late="note", clause=_ALTERED)
 def check_altered_states(subject: Subject) -> Finding:
     """Whether serialized states with one bit changed are refused."""
     if not _has_states(subject):
-        return Finding("altered states", "good", "there are none")
+        return Finding("good", "there are none")
     instance = Instance(subject).start()
     instance.run(max(1, subject.steps // 2))
     data, accepted, receiver = instance.state_bytes(), 0, Instance(subject)
@@ -176,10 +181,11 @@ def check_altered_states(subject: Subject) -> Finding:
         except Exception:
             continue
     if accepted:
-        return Finding("altered states", "note", f"{accepted} of 16 were taken ({_ALTERED})")
-    return Finding("altered states", "good", "16 of 16 are refused")
+        return Finding("note", f"{accepted} of 16 were taken ({_ALTERED})")
+    return Finding("good", "16 of 16 are refused")
 
 
+@check("refusals", crash="note", late="note", clause=NOT_ALLOWED)
 def check_refusals(subject: Subject) -> Finding:
     """Whether a wrong token, a NaN and calls out of order are refused with a message."""
     without_message, accepted = [], []
@@ -209,18 +215,17 @@ def check_refusals(subject: Subject) -> Finding:
     expect("an unknown value reference", unknown, lambda: getter([4_000_000_000]))
     if accepted:
         message = f"accepted without a message: {', '.join(accepted)}"
-        return Finding(
-            "refusals", "note", f"{message}; FMI does not say what an FMU does {subject.clause('4.2.4', '2.3.1')}"
-        )
+        return Finding("note", f"{message}; FMI does not say what an FMU does {subject.clause('4.2.4', '2.3.1')}")
     if without_message:
-        return Finding("refusals", "note", f"refused without a message: {', '.join(without_message)}")
-    return Finding("refusals", "good", "wrong GUID, order, NaN and references are refused, with messages")
+        return Finding("note", f"refused without a message: {', '.join(without_message)}")
+    return Finding("good", "wrong GUID, order, NaN and references are refused, with messages")
 
 
+@check("steps of any size")
 def check_other_steps(subject: Subject) -> Finding:
     """Whether communication steps of other sizes end near the results of the default one."""
     if not subject.description.coSimulation.canHandleVariableCommunicationStepSize:
-        return Finding("steps of any size", "note", "only the one step size is allowed")
+        return Finding("note", "only the one step size is allowed")
     reference = Instance(subject).start().run(subject.steps)
     instance, time_reached, end = Instance(subject).start(), 0.0, subject.steps * subject.step
     k = 0
@@ -236,19 +241,18 @@ def check_other_steps(subject: Subject) -> Finding:
     near = sum(abs(a - b) <= _SUBSTEP_TOLERANCE * span + 1e-9 for a, b, span in moving)
     message = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_TOLERANCE:g} % of their range"
     if not all(math.isfinite(v) for v in last):
-        return Finding(
-            "steps of any size", "bad", f"an output is not a number; {message} {subject.clause('4.2.2', '4.2.1')}"
-        )
+        return Finding("bad", f"an output is not a number; {message} {subject.clause('4.2.2', '4.2.1')}")
     if 2 * near < len(moving):
         message += "; step by the length that is asked for, or say that only one is allowed"
-        return Finding("steps of any size", "note", f"{message} {subject.clause('4.3.1', '4.2.1')}")
-    return Finding("steps of any size", "good", message)
+        return Finding("note", f"{message} {subject.clause('4.3.1', '4.2.1')}")
+    return Finding("good", message)
 
 
+@check("many instances")
 def check_many_instances(subject: Subject) -> Finding:
     """Whether instances that exist at the same time give equal results: thirty, or those made within some seconds."""
     if subject.is_single:
-        return Finding("many instances", "note", "one per process is allowed")
+        return Finding("note", "one per process is allowed")
     instances, begin = list[Instance](), time.perf_counter()
     while len(instances) < _MAX_INSTANCES and (len(instances) < 2 or time.perf_counter() - begin < _CREATION_TIME):
         instances.append(Instance(subject).start())
@@ -258,17 +262,5 @@ def check_many_instances(subject: Subject) -> Finding:
     for end in ends[1:]:
         if differs := first_difference(subject, [ends[0]], [end], 2):
             message = f"{len(instances)} at once differ: {differs}; keep all that a run needs in its instance"
-            return Finding("many instances", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("many instances", "good", f"{len(instances)} at once")
-
-
-BEHAVIOUR_CHECKS = (
-    Check("runs", check_run),
-    Check("repeats", check_repetition),
-    Check("reset", check_reset),
-    Check("states", check_states),
-    Check("altered states", check_altered_states, crash="note", late="note", clause=_ALTERED),
-    Check("refusals", check_refusals, crash="note", late="note", clause=NOT_ALLOWED),
-    Check("steps of any size", check_other_steps),
-    Check("many instances", check_many_instances),
-)
+            return Finding("bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("good", f"{len(instances)} at once")

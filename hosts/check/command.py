@@ -75,10 +75,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(table, "--show-parameters")
     table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all of them to this file, as set")
     table.add_argument(
-        "--diff",
-        type=Path,
-        metavar="SSV",
-        help="print only where this set differs from the FMU and the given values",
+        "--diff", type=Path, metavar="SSV", help="print only where this set differs from the FMU and the given values"
     )
     reference = parser.add_argument_group(
         "against a reference, instead of the check",
@@ -217,16 +214,16 @@ def _read_settings(fmu: Path, settings: FmuOptions) -> Settings:
 def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """Run the checks in an isolated process; one that has ended is replaced for the next check."""
     from ali3.isolated_processes import Lost
-    from hosts.check.all_checks import CHECKS, Checker, checks_left_out, finding_of_loss
-    from hosts.check.documents import check_archive
+    from hosts.check.all_checks import CHECKS, Checker, finding_of_loss
+    from hosts.check.documents import ARCHIVE, check_archive
     from hosts.check.instance import Finding
     from hosts.experiment.pool import Pool
     from hosts.fmu.own_process import files_of
 
     if faults := check_archive(fmu):
         for finding in faults:
-            print_finding(finding)
-            cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))
+            print_finding(ARCHIVE, finding)
+            cases.append(Case(fmu.stem, ARCHIVE, "bad" if finding.verdict == "bad" else "good", finding.words))
         raise HostError(f"{fmu} is not unpacked: nothing else in it was checked.")
     start: Mapping[str, Value] = {}
     if set_options := fmu_options(options):
@@ -237,32 +234,30 @@ def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> in
     limit = _TIME_LIMIT if options.time_limit is None else options.time_limit
     if not limit > 0.0:
         raise HostError(f"--time-limit is {limit:g} s; it must be positive.")
-    skipped: list[str] = []
+    may_call = True
     steps = options.steps or (_THOROUGH_STEPS if options.thorough else _DEFAULT_STEPS)
     checker = Checker(fmu.absolute(), steps, start)
     with Pool(checker, Finding, reads=(fmu, *files_of(start)), limit=limit, in_all=True) as process:
         for index, check in enumerate(CHECKS):
-            if check.name in skipped:
+            if check.calls and not may_call:
                 cases.append(Case(fmu.stem, check.name, "skipped", "functions of the FMU cannot be called"))
                 continue
             begin = time.perf_counter()
             result = process.run(index)
             finding = finding_of_loss(check, result, limit) if isinstance(result, Lost) else result
-            print_finding(finding)
+            print_finding(check.name, finding)
             cases.append(Case(fmu.stem, check.name, finding.verdict, finding.words, time.perf_counter() - begin))
-            skipped += [other.name for other in checks_left_out(finding)]
+            may_call = may_call and not finding.last
     if process.left:
         message = f"{process.left} that it had started were ended with it"
         print(f"{_MARKS['note']:>4}  {'processes':<{_NAME_WIDTH}}  {message}")
-    if skipped:
-        print(
-            f"{_MARKS['note']:>4}  {'not done':<{_NAME_WIDTH}}  {len(skipped)} checks, which call functions of the FMU"
-        )
+    if skipped := sum(case.verdict == "skipped" for case in cases):
+        print(f"{_MARKS['note']:>4}  {'not done':<{_NAME_WIDTH}}  {skipped} checks, which call functions of the FMU")
     bad = sum(case.verdict == "bad" for case in cases)
     print(f"\n{fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
     return 1 if bad else 0
 
 
-def print_finding(finding: Finding) -> None:
-    """Print a finding as one line of the verdict."""
-    print(f"{_MARKS[finding.verdict]:>4}  {finding.check:<{_NAME_WIDTH}}  {shortened(finding.words)}", flush=True)
+def print_finding(name: str, finding: Finding) -> None:
+    """Print the finding of a check as one line of the verdict."""
+    print(f"{_MARKS[finding.verdict]:>4}  {name:<{_NAME_WIDTH}}  {shortened(finding.words)}", flush=True)

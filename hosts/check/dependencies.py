@@ -8,7 +8,7 @@ import numpy as np
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
-from hosts.check.instance import REAL, Check, Finding, Instance, Subject, count_of, start_and_change, value_in_range
+from hosts.check.instance import REAL, Finding, Instance, Subject, check, count_of, start_and_change, value_in_range
 
 _INSTANTS = 4
 _RELATIVE_CHANGE = 1e-4  # of an input's range, by which it is changed for a difference quotient
@@ -23,11 +23,12 @@ def _real_outputs(subject: Subject) -> tuple[list[ScalarVariable], list[str]]:
     return outputs, [v.name for v in outputs for _ in range(count_of(v))]
 
 
+@check("dependencies")
 def check_dependencies(subject: Subject) -> Finding:
     """Whether outputs that an input changes at a communication point are declared to depend on it."""
     outputs, names = _real_outputs(subject)
     if not (subject.inputs and outputs):
-        return Finding("dependencies", "good", "no inputs and outputs to compare")
+        return Finding("good", "no inputs and outputs to compare")
     clause = subject.clause("2.2.8", "2.4.8")
     variable_names: dict[int, str] = {}  # by value reference; the name of the input where several share it
     for v in sorted(subject.description.modelVariables, key=lambda v: v.causality != "input"):
@@ -54,7 +55,7 @@ def check_dependencies(subject: Subject) -> Finding:
                 if listed is not None and input_name not in listed:
                     message = f"{name} goes from {one:g} to {other:g} as {input_name} is set, on which it is said not "
                     message += f"to depend; declare it in ModelStructure {clause}"
-                    return Finding("dependencies", "bad", message)
+                    return Finding("bad", message)
     perturbed = {variable_names[subject.scalars[v.name].reference] for v in subject.inputs}
     inputs = {v.name for v in subject.description.modelVariables if v.causality == "input"}
     listed_of = {name: declared.get(name) for name in dict.fromkeys(names)}
@@ -67,8 +68,8 @@ def check_dependencies(subject: Subject) -> Finding:
             f"{len(unaffected)} outputs, such as {unaffected[0]}, are said to depend on inputs that did not change them"
         )
         message += ' before the next step; masters may see loops; dependencies="" where that is so'
-        return Finding("dependencies", "note", f"{message} {clause}")
-    return Finding("dependencies", "good", "outputs change at a communication point as they are said to")
+        return Finding("note", f"{message} {clause}")
+    return Finding("good", "outputs change at a communication point as they are said to")
 
 
 def _provides_derivatives(subject: Subject) -> bool:
@@ -87,14 +88,15 @@ def _derivatives(
     )
 
 
+@check("derivatives")
 def check_derivatives(subject: Subject) -> Finding:
     """Directional derivatives against difference quotients, at a communication point or over a step."""
     outputs, names = _real_outputs(subject)
     co_simulation = subject.description.coSimulation
     if not (_provides_derivatives(subject) and subject.inputs and outputs):
-        return Finding("derivatives", "good", "no derivatives of outputs by inputs")
+        return Finding("good", "no derivatives of outputs by inputs")
     if not co_simulation.canGetAndSetFMUstate:
-        return Finding("derivatives", "note", "cannot be compared with differences: states cannot be saved")
+        return Finding("note", "cannot be compared with differences: states cannot be saved")
     compared, over_steps, span = 0, 0, _span_annotation(subject)
     added_along = "" if span is None else span.get("addedAlong", "")
     for input_variable, instance, time in _running_instances(subject, without=set(added_along.split())):
@@ -117,7 +119,7 @@ def check_derivatives(subject: Subject) -> Finding:
                 slopes = _derivatives(subject, instance, outputs, input_variable)
             except Exception as error:
                 instance.free_state(before)
-                return Finding("derivatives", "note", f"none by {input_variable.name}: {error}")
+                return Finding("note", f"none by {input_variable.name}: {error}")
             near = [_agrees(slopes, differences, offset) for differences in (at_point, over_step)]
             wrong = np.flatnonzero(~(near[0] | near[1]))
             if len(wrong):
@@ -125,18 +127,16 @@ def check_derivatives(subject: Subject) -> Finding:
                 step, point = ((values[1][k] - values[2][k]) / (2.0 * offset) for values in (over_step, at_point))
                 message = f"{names[k]} has the derivative {slopes[k]:g} by {input_variable.name}; differences are "
                 message += f"{point:g} at a communication point and {step:g} over a step; give one of them"
-                return Finding("derivatives", "bad", f"{message} {subject.clause('2.1.9', '2.2.12')}")
+                return Finding("bad", f"{message} {subject.clause('2.1.9', '2.2.12')}")
             compared += 1
             over_steps += bool(np.any(~near[0]))
         instance.free_state(before)
     if not compared:
-        return Finding("derivatives", "note", "no step could be compared")
+        return Finding("note", "no step could be compared")
     if over_steps and (span is None or span.get("span") != "communicationStep"):
         message = "they are those over the last step, which FMI has no word for; say so in an annotation"
-        return Finding("derivatives", "note", f"{message} {subject.clause('2.1.9', '2.2.12')}")
-    return Finding(
-        "derivatives", "good", f"as differences {'over a step' if over_steps else 'at a communication point'}"
-    )
+        return Finding("note", f"{message} {subject.clause('2.1.9', '2.2.12')}")
+    return Finding("good", f"as differences {'over a step' if over_steps else 'at a communication point'}")
 
 
 def _span_annotation(subject: Subject) -> ElementTree.Element | None:
@@ -166,6 +166,3 @@ def _agrees(slopes: NDArray[np.float64], differences: list[NDArray[np.float64]],
     near = np.abs(slopes - central) <= _TOLERANCE * np.maximum(np.abs(central), np.abs(slopes)) + round_off
     agrees: NDArray[np.bool_] = near | kink | ~np.isfinite(central)
     return agrees
-
-
-DEPENDENCY_CHECKS = (Check("dependencies", check_dependencies), Check("derivatives", check_derivatives))

@@ -139,10 +139,7 @@ def _deviation(
 
 
 def remedies(
-    result: Result,
-    times: NDArray[np.float64],
-    columns: Mapping[str, NDArray[np.float64]],
-    bad: Sequence[Deviation],
+    result: Result, times: NDArray[np.float64], columns: Mapping[str, NDArray[np.float64]], bad: Sequence[Deviation]
 ) -> list[str]:
     """Sentences on how signals beyond their bounds would agree: in another unit, with another sign, time or start.
 

@@ -14,29 +14,32 @@ from ali3.call_mark import marked
 from ali3.columns import some_of
 from ali3.processes import cause_text
 from ali3.reading import is_file, missing_file_text
-from hosts.check.instance import REAL, Check, Finding, Subject
+from hosts.check.instance import REAL, Finding, Subject, check
 from hosts.common.errors import HostError
 
 FUNCTIONS = "functions"
 ARCHIVE = "archive"
 
 
+@check("model description", calls=False)
 def check_description(subject: Subject) -> Finding:
     """Whether FMPy finds the description valid: schema, names, start values, structure."""
     problems = validate_fmu(str(subject.path))
     if problems:
-        return Finding("model description", "bad", f"{len(problems)} problems, the first: {problems[0]}")
+        return Finding("bad", f"{len(problems)} problems, the first: {problems[0]}")
     count = len(subject.description.modelVariables)
-    return Finding("model description", "good", f"FMI {subject.description.fmiVersion}, {count} variables")
+    return Finding("good", f"FMI {subject.description.fmiVersion}, {count} variables")
 
 
+@check("binaries", calls=False)
 def check_binaries(subject: Subject) -> Finding:
     """Whether the FMU has a binary for this platform."""
     platforms = supported_platforms(str(subject.path))
     message = ", ".join(platforms) or "none"
-    return Finding("binaries", "good" if platform in platforms else "bad", message)
+    return Finding("good" if platform in platforms else "bad", message)
 
 
+@check(FUNCTIONS, calls=False)
 def check_functions(subject: Subject) -> Finding:
     """Whether the library can be loaded and has all functions of the standard, under their names."""
     model = subject.description.coSimulation.modelIdentifier
@@ -48,7 +51,7 @@ def check_functions(subject: Subject) -> Finding:
     )
 
     def bad_finding(message: str) -> Finding:
-        return Finding(FUNCTIONS, "bad", message, last=True)
+        return Finding("bad", message, last=True)
 
     try:
         loaded_library = marked("dlopen", ctypes.CDLL)(str(library))
@@ -58,27 +61,30 @@ def check_functions(subject: Subject) -> Finding:
     names = [name for name in dir(slave_class) if name.startswith(prefix)]
     missing = [name for name in names if not hasattr(loaded_library, name)]
     if not missing:
-        return Finding(FUNCTIONS, "good", f"the library has all {len(names)}")
+        return Finding("good", f"the library has all {len(names)}")
     if hasattr(loaded_library, f"{model}_{missing[0]}"):
         return bad_finding(
             f"they begin with the prefix {model}_, which those of sources and static libraries have, not those of a "
-            f"shared library {subject.clause('2.1.1', '2.2.2')}",
+            f"shared library {subject.clause('2.1.1', '2.2.2')}"
         )
     return bad_finding(f"{len(missing)} of {len(names)} are missing: {some_of(missing)} {subject.clause('2.3', '2.5')}")
 
 
+@check("stands alone", calls=False)
 def check_execution_tool(subject: Subject) -> Finding:
     """Whether the FMU needs no execution tool."""
     if subject.description.coSimulation.needsExecutionTool:
-        return Finding("stands alone", "note", "needs another program on the machine that runs it")
-    return Finding("stands alone", "good", "needs no other program")
+        return Finding("note", "needs another program on the machine that runs it")
+    return Finding("good", "needs no other program")
 
 
+@check("size", calls=False)
 def check_size(subject: Subject) -> Finding:
     """The file size of the FMU."""
-    return Finding("size", "good", f"{subject.path.stat().st_size / 1e6:.2f} MB")
+    return Finding("good", f"{subject.path.stat().st_size / 1e6:.2f} MB")
 
 
+@check("units", calls=False)
 def check_units(subject: Subject) -> Finding:
     """Whether all real inputs, outputs and parameters have a unit."""
     without_unit = [
@@ -90,10 +96,11 @@ def check_units(subject: Subject) -> Finding:
         and not (v.declaredType is not None and v.declaredType.unit)
     ]
     if without_unit:
-        return Finding("units", "note", f"{len(without_unit)} variables have none, such as {without_unit[0]}")
-    return Finding("units", "good", "every real variable has one")
+        return Finding("note", f"{len(without_unit)} variables have none, such as {without_unit[0]}")
+    return Finding("good", "every real variable has one")
 
 
+@check("documentation, sources", calls=False)
 def check_folders(subject: Subject) -> Finding:
     """Whether documentation, sources and licence are in the FMU."""
     names = {
@@ -103,10 +110,11 @@ def check_folders(subject: Subject) -> Finding:
     }
     missing = [name for name, path in names.items() if not path.exists()]
     if missing:
-        return Finding("documentation, sources", "note", f"missing: {', '.join(missing)}")
-    return Finding("documentation, sources", "good", "documentation, sources and licence are inside")
+        return Finding("note", f"missing: {', '.join(missing)}")
+    return Finding("good", "documentation, sources and licence are inside")
 
 
+@check("source files", calls=False)
 def check_source_files(subject: Subject) -> Finding:
     """Whether the source files that the documents name are in the FMU."""
     sources = subject.folder / "sources"
@@ -122,20 +130,8 @@ def check_source_files(subject: Subject) -> Finding:
         message = (
             f"{len(missing)} of {len(file_names)} that are named are missing: {some_of(missing)}; pack them in sources"
         )
-        return Finding("source files", "bad", f"{message} {subject.clause('2.3', '2.5.1')}")
-    return Finding("source files", "good", f"all {len(file_names)} that are named are there")
-
-
-DOCUMENT_CHECKS = (
-    Check("model description", check_description, calls=False),
-    Check("binaries", check_binaries, calls=False),
-    Check(FUNCTIONS, check_functions, calls=False),
-    Check("stands alone", check_execution_tool, calls=False),
-    Check("size", check_size, calls=False),
-    Check("units", check_units, calls=False),
-    Check("documentation, sources", check_folders, calls=False),
-    Check("source files", check_source_files, calls=False),
-)
+        return Finding("bad", f"{message} {subject.clause('2.3', '2.5.1')}")
+    return Finding("good", f"all {len(file_names)} that are named are there")
 
 
 def check_archive(fmu: Path) -> list[Finding]:
@@ -146,8 +142,6 @@ def check_archive(fmu: Path) -> list[Finding]:
     if not is_file(fmu):
         raise HostError(missing_file_text(fmu))
     return [
-        Finding(ARCHIVE, "bad", f"{fault.words} ({fault.clause})")
-        if fault.clause
-        else Finding(ARCHIVE, "note", fault.words)
+        Finding("bad", f"{fault.words} ({fault.clause})") if fault.clause else Finding("note", fault.words)
         for fault in faults_of(fmu, HostError, "an FMU")
     ]

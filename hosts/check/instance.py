@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 from xml.etree import ElementTree
 
 import numpy as np
@@ -27,9 +27,8 @@ from hosts.fmu.variables import check_co_simulation, default_step
 
 @dataclass(frozen=True)
 class Finding:
-    """One line of the verdict."""
+    """The verdict of a check in words."""
 
-    check: str
     verdict: Literal["good", "note", "bad"]
     """``note``: the standard leaves it open."""
     words: str
@@ -51,6 +50,11 @@ class Check:
     """Verdict if it takes too long: a note if the standard allows that."""
     clause: str = ""
     """Clause of FMI, where `crash` or `late` is a note."""
+
+
+def check(name: str, **more: Any) -> Callable[[Callable[[Subject], Finding]], Check]:
+    """Make a function a `Check`. `more`: its other fields."""
+    return lambda find: Check(name, find, **more)
 
 
 @dataclass
@@ -169,14 +173,7 @@ class Instance(instance.Instance):
         if subject.present_instance is not None:
             subject.present_instance.free()
         try:
-            super().__init__(
-                subject.by_elements,
-                subject.folder,
-                name,
-                self._collect_message,
-                token,
-                resources,
-            )
+            super().__init__(subject.by_elements, subject.folder, name, self._collect_message, token, resources)
         except (ModuleNotFoundError, MemoryError):
             raise
         except Exception as error:

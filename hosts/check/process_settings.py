@@ -8,7 +8,7 @@ import signal
 from collections.abc import Callable
 from pathlib import Path
 
-from hosts.check.instance import Check, Finding, Instance, Subject
+from hosts.check.instance import Finding, Instance, Subject, check
 from hosts.check.process_state import LINUX, files_around
 
 _STATUS = Path("/proc/self/status")
@@ -105,6 +105,7 @@ _SETTINGS = {
 """Function that reads a setting, and remedy, by the name of the setting."""
 
 
+@check("process settings")
 def check_settings(subject: Subject) -> Finding:
     """Check that each kind of call leaves the settings of the process unchanged."""
     subject.files_before = files_around(subject)
@@ -139,8 +140,8 @@ def _find_change(subject: Subject) -> Finding:
         for name, (read, remedy) in _SETTINGS.items():
             if (now := read()) != before[name]:
                 message = f"{name} changed from {_change_text(before[name], now)} by {label}; {remedy}"
-                return Finding("process settings", "bad", f"{message} {subject.clause(*_CLAUSES)}")
-    return Finding("process settings", "good", f"unchanged: {', '.join(_SETTINGS)}")
+                return Finding("bad", f"{message} {subject.clause(*_CLAUSES)}")
+    return Finding("good", f"unchanged: {', '.join(_SETTINGS)}")
 
 
 def _change_text(before: object, now: object) -> str:
@@ -151,6 +152,3 @@ def _change_text(before: object, now: object) -> str:
     if isinstance(before, tuple) and isinstance(now, tuple):
         return " to ".join("/".join(f"0x{bits:x}" for bits in value) for value in (before, now))
     return f"{before} to {now}"
-
-
-SETTING_CHECKS = (Check("process settings", check_settings),)

@@ -13,7 +13,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
-from hosts.check.instance import NOT_ALLOWED, Check, Finding, Instance, Subject
+from hosts.check.instance import NOT_ALLOWED, Finding, Instance, Subject, check
 
 _WARM_UP_STEPS = 30
 _MEASURED_STEPS = 120
@@ -62,107 +62,6 @@ def _present_costs() -> list[int]:
     return [read() for read, *_ in _COSTS.values()]
 
 
-def check_costs_of_steps(subject: Subject) -> Finding:
-    """Whether processes, threads, descriptors and memory do not grow with steps."""
-    instance, rows = Instance(subject).start(), list[list[int]]()
-    begin, steps = time.perf_counter(), 0
-    for k in range(_WARM_UP_STEPS + _MEASURED_STEPS):
-        if not instance.advance(k * subject.step, subject.step):
-            break
-        if k >= _WARM_UP_STEPS // 3 and (k - _WARM_UP_STEPS // 3) % 10 == 0:
-            rows.append(_present_costs())
-        steps = k + 1
-        if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
-            break
-    rows = rows[1:] if len(rows) > 4 else rows
-    if message := _growth(rows, "a step"):
-        return Finding("costs of steps", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("costs of steps", "good", f"{', '.join(_COSTS)} stay over {steps} steps")
-
-
-def _growth(rows: list[list[int]], operation: str) -> str:
-    """The first cost that grows per operation, as text; empty if none does. `rows`: costs after each ten operations."""
-    for column, (name, (_, limit, unit, remedy)) in zip(zip(*rows, strict=True), _COSTS.items(), strict=True):
-        growth = [(later - earlier) / 10.0 for earlier, later in pairwise(column)]
-        rate = sorted(growth)[len(growth) // 2] if growth else 0.0
-        if rate > limit:
-            return f"{name} grow by {rate:g} {unit} {operation}; {remedy}"
-    return ""
-
-
-def check_costs_of_states(subject: Subject) -> Finding:
-    """Whether processes, threads, descriptors and memory do not grow with states that are freed."""
-    if not subject.description.coSimulation.canGetAndSetFMUstate:
-        return Finding("costs of states", "good", "there are none")
-    instance, rows = Instance(subject).start(), list[list[int]]()
-    instance.run(2)
-    begin = time.perf_counter()
-    for k in range(100):
-        if k % 10 == 0:
-            rows.append(_present_costs())
-            if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
-                break
-        state = instance.state()
-        instance.restore(state)
-        instance.free_state(state)
-    if message := _growth(rows[1:], "a state that is freed"):
-        return Finding("costs of states", "bad", f"{message} {subject.clause('2.1.8', '2.2.7.4')}")
-    return Finding("costs of states", "good", "states that are freed leave nothing")
-
-
-def check_costs_of_instances(subject: Subject) -> Finding:
-    """Whether processes, threads, descriptors and memory do not grow with instances that are freed."""
-    if subject.is_single:
-        return Finding("costs of instances", "good", "one per process is allowed")
-    rows: list[list[int]] = []
-    begin = time.perf_counter()
-    for k in range(_INSTANCES):
-        if time.perf_counter() - begin > _PATIENCE:
-            return Finding(
-                "costs of instances", "note", f"not seen: {k} instances take {_PATIENCE:g} s; {_INSTANCES} are needed"
-            )
-        instance = Instance(subject).start()
-        instance.run(2)
-        instance.free()
-        if k % 5 == 4:
-            del instance
-            gc.collect()  # frees what Python still holds of them
-            rows.append(_present_costs())
-    for column, (name, (_, limit, unit, _remedy)) in zip(zip(*rows, strict=True), _COSTS.items(), strict=True):
-        rate = (column[-1] - column[0]) / (_INSTANCES - 5)
-        if rate > max(limit, _PER_INSTANCE if name == "memory" else 0.0) and column[-1] > column[-2] > column[-3]:
-            message = f"{name} grow by {rate:g} {unit} an instance that is freed; release them there"
-            verdict: Literal["note", "bad"] = "note" if name == "memory" else "bad"
-            return Finding("costs of instances", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("costs of instances", "good", "instances that are freed leave nothing")
-
-
-def check_time_of_steps(subject: Subject) -> Finding:
-    """Whether a step takes at most some times its length, and no thread is busy between calls."""
-    instance = Instance(subject).start()
-    times = []
-    for k in range(5):
-        begin = time.perf_counter()
-        if not instance.advance(k * subject.step, subject.step):
-            break
-        times.append(time.perf_counter() - begin)
-    busy, rest, begin = 0.0, 0.0, time.process_time()
-    while rest < _MAX_REST and (rest == 0.0 or 0.1 * _IDLE < busy < _IDLE):  # a busy thread may wait for the processor
-        time.sleep(_REST)
-        busy, rest = time.process_time() - begin, rest + _REST
-    clause = subject.clause("4.2.2", "4.2.1")
-    if busy > _IDLE:
-        message = (
-            f"{busy:.3f} s of processor time are used in {rest:.1f} s between calls; stop threads while no call is made"
-        )
-        return Finding("time of steps", "note", f"{message} {clause}")
-    median = sorted(times)[len(times) // 2] if times else 0.0
-    if median > max(_SLOW * subject.step, 0.05) or median > 0.09:
-        message = f"a step of {subject.step:g} s takes {median:.3g} s, {median / subject.step:.3g} times as long; "
-        return Finding("time of steps", "note", f"{message}FMI sets no time for a step {clause}")
-    return Finding("time of steps", "good", "in time")
-
-
 @contextmanager
 def _capture_output() -> Iterator[list[bytes]]:
     """A context that collects what is written to standard output and standard error in a list."""
@@ -197,6 +96,7 @@ def files_around(subject: Subject) -> dict[str, tuple[int, int]]:
     return results
 
 
+@check("files and prints")
 def check_files_and_prints(subject: Subject) -> Finding:
     """Whether a run prints nothing and writes no files."""
     before = files_around(subject) if subject.files_before is None else subject.files_before
@@ -218,10 +118,114 @@ def check_files_and_prints(subject: Subject) -> Finding:
     if text:
         faults.append(f"prints {text.splitlines()[0][:60]!r}; give messages to the host's logger")
     if faults:
-        return Finding("files and prints", "note", f"{'; '.join(faults)} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("files and prints", "good", "none")
+        return Finding("note", f"{'; '.join(faults)} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("good", "none")
 
 
+@check("costs of steps")
+def check_costs_of_steps(subject: Subject) -> Finding:
+    """Whether processes, threads, descriptors and memory do not grow with steps."""
+    instance, rows = Instance(subject).start(), list[list[int]]()
+    begin, steps = time.perf_counter(), 0
+    for k in range(_WARM_UP_STEPS + _MEASURED_STEPS):
+        if not instance.advance(k * subject.step, subject.step):
+            break
+        if k >= _WARM_UP_STEPS // 3 and (k - _WARM_UP_STEPS // 3) % 10 == 0:
+            rows.append(_present_costs())
+        steps = k + 1
+        if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
+            break
+    rows = rows[1:] if len(rows) > 4 else rows
+    if message := _growth(rows, "a step"):
+        return Finding("bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("good", f"{', '.join(_COSTS)} stay over {steps} steps")
+
+
+def _growth(rows: list[list[int]], operation: str) -> str:
+    """The first cost that grows per operation, as text; empty if none does. `rows`: costs after each ten operations."""
+    for column, (name, (_, limit, unit, remedy)) in zip(zip(*rows, strict=True), _COSTS.items(), strict=True):
+        growth = [(later - earlier) / 10.0 for earlier, later in pairwise(column)]
+        rate = sorted(growth)[len(growth) // 2] if growth else 0.0
+        if rate > limit:
+            return f"{name} grow by {rate:g} {unit} {operation}; {remedy}"
+    return ""
+
+
+@check("costs of instances")
+def check_costs_of_instances(subject: Subject) -> Finding:
+    """Whether processes, threads, descriptors and memory do not grow with instances that are freed."""
+    if subject.is_single:
+        return Finding("good", "one per process is allowed")
+    rows: list[list[int]] = []
+    begin = time.perf_counter()
+    for k in range(_INSTANCES):
+        if time.perf_counter() - begin > _PATIENCE:
+            return Finding("note", f"not seen: {k} instances take {_PATIENCE:g} s; {_INSTANCES} are needed")
+        instance = Instance(subject).start()
+        instance.run(2)
+        instance.free()
+        if k % 5 == 4:
+            del instance
+            gc.collect()  # frees what Python still holds of them
+            rows.append(_present_costs())
+    for column, (name, (_, limit, unit, _remedy)) in zip(zip(*rows, strict=True), _COSTS.items(), strict=True):
+        rate = (column[-1] - column[0]) / (_INSTANCES - 5)
+        if rate > max(limit, _PER_INSTANCE if name == "memory" else 0.0) and column[-1] > column[-2] > column[-3]:
+            message = f"{name} grow by {rate:g} {unit} an instance that is freed; release them there"
+            verdict: Literal["note", "bad"] = "note" if name == "memory" else "bad"
+            return Finding(verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("good", "instances that are freed leave nothing")
+
+
+@check("costs of states")
+def check_costs_of_states(subject: Subject) -> Finding:
+    """Whether processes, threads, descriptors and memory do not grow with states that are freed."""
+    if not subject.description.coSimulation.canGetAndSetFMUstate:
+        return Finding("good", "there are none")
+    instance, rows = Instance(subject).start(), list[list[int]]()
+    instance.run(2)
+    begin = time.perf_counter()
+    for k in range(100):
+        if k % 10 == 0:
+            rows.append(_present_costs())
+            if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
+                break
+        state = instance.state()
+        instance.restore(state)
+        instance.free_state(state)
+    if message := _growth(rows[1:], "a state that is freed"):
+        return Finding("bad", f"{message} {subject.clause('2.1.8', '2.2.7.4')}")
+    return Finding("good", "states that are freed leave nothing")
+
+
+@check("time of steps", late="note", clause="FMI sets no time for a step")
+def check_time_of_steps(subject: Subject) -> Finding:
+    """Whether a step takes at most some times its length, and no thread is busy between calls."""
+    instance = Instance(subject).start()
+    times = []
+    for k in range(5):
+        begin = time.perf_counter()
+        if not instance.advance(k * subject.step, subject.step):
+            break
+        times.append(time.perf_counter() - begin)
+    busy, rest, begin = 0.0, 0.0, time.process_time()
+    while rest < _MAX_REST and (rest == 0.0 or 0.1 * _IDLE < busy < _IDLE):  # a busy thread may wait for the processor
+        time.sleep(_REST)
+        busy, rest = time.process_time() - begin, rest + _REST
+    clause = subject.clause("4.2.2", "4.2.1")
+    if busy > _IDLE:
+        message = (
+            f"{busy:.3f} s of processor time are used in {rest:.1f} s between calls; stop threads while no call is made"
+        )
+        return Finding("note", f"{message} {clause}")
+    median = sorted(times)[len(times) // 2] if times else 0.0
+    if median > max(_SLOW * subject.step, 0.05) or median > 0.09:
+        message = f"a step of {subject.step:g} s takes {median:.3g} s, {median / subject.step:.3g} times as long; "
+        return Finding("note", f"{message}FMI sets no time for a step {clause}")
+    return Finding("good", "in time")
+
+
+@check("messages", crash="note", clause=NOT_ALLOWED)
 def check_messages(subject: Subject) -> Finding:
     """Whether messages have no format directives without arguments, have category and text, and are few."""
     instance = Instance(subject)
@@ -238,7 +242,7 @@ def check_messages(subject: Subject) -> Finding:
                 f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is not a format"
             )
             verdict: Literal["note", "bad"] = "note" if subject.is_fmi3 else "bad"
-            return Finding("messages", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
+            return Finding(verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
     quiet, message_count, message = Instance(subject).start(), len(instance.messages), ""
     quiet.run(5)
     if message_count > 20 * max(1, len(rows)):
@@ -250,15 +254,5 @@ def check_messages(subject: Subject) -> Finding:
             f"logging is off, and {quiet.ok_messages} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"
         )
     if message:
-        return Finding("messages", "note", f"{message} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("messages", "good", f"{message_count} in {len(rows)} steps")
-
-
-PROCESS_CHECKS = (
-    Check("files and prints", check_files_and_prints),
-    Check("costs of steps", check_costs_of_steps),
-    Check("costs of instances", check_costs_of_instances),
-    Check("costs of states", check_costs_of_states),
-    Check("time of steps", check_time_of_steps, late="note", clause="FMI sets no time for a step"),
-    Check("messages", check_messages, crash="note", clause=NOT_ALLOWED),
-)
+        return Finding("note", f"{message} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("good", f"{message_count} in {len(rows)} steps")

@@ -6,7 +6,7 @@ from typing import Literal
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ScalarVariable
 
-from hosts.check.instance import REAL, WHOLE, Check, Finding, Instance, Subject, near_start, value_in_range
+from hosts.check.instance import REAL, WHOLE, Finding, Instance, Subject, check, near_start, value_in_range
 
 _BEGIN = 10.0  # s
 _ROUND_OFF = 1e-9  # of a value that is written and read back as text
@@ -31,6 +31,7 @@ def _initialising_instance(subject: Subject) -> Instance:
     return instance
 
 
+@check("start values")
 def check_start_values(subject: Subject) -> Finding:
     """Whether values read before any is set are the start values of the description."""
     started = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
@@ -43,13 +44,14 @@ def check_start_values(subject: Subject) -> Finding:
             )
             message += f" {subject.clause('2.2.7', '2.4.7')}"
             if not math.isclose(value, stated, rel_tol=_ROUND_OFF):
-                return Finding("start values", "bad", message)
+                return Finding("bad", message)
             rounded = rounded or message
     if rounded:
-        return Finding("start values", "note", rounded)
-    return Finding("start values", "good", f"{len(started)} read as they are described")
+        return Finding("note", rounded)
+    return Finding("good", f"{len(started)} read as they are described")
 
 
+@check("set values")
 def check_set_values(subject: Subject) -> Finding:
     """Whether real numbers set in initialisation mode are read back, and inputs keep their values over a step."""
     instance, count = _initialising_instance(subject), 0
@@ -68,8 +70,8 @@ def check_set_values(subject: Subject) -> Finding:
                 f"{v.name} was set to {value:.9g} without a message and reads {read_value:.9g}; take it or refuse it"
             )
             verdict: Literal["note", "bad"] = "note" if instance.messages else "bad"
-            return Finding("set values", verdict, f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
-    return _finding_of_changed_input(subject) or Finding("set values", "good", f"{count} are read back")
+            return Finding(verdict, f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
+    return _finding_of_changed_input(subject) or Finding("good", f"{count} are read back")
 
 
 def _finding_of_changed_input(subject: Subject) -> Finding | None:
@@ -83,10 +85,11 @@ def _finding_of_changed_input(subject: Subject) -> Finding | None:
             break
         if not math.isclose(after := instance.get([v])[0], value, rel_tol=_ROUND_OFF):
             message = f"{v.name} was set to {value:.9g} and reads {after:.9g} after a step; it stays until it is set"
-            return Finding("set values", "bad", f"{message} {subject.clause('4.2.1', '2.2.7.2')}")
+            return Finding("bad", f"{message} {subject.clause('4.2.1', '2.2.7.2')}")
     return None
 
 
+@check("ranges")
 def check_ranges(subject: Subject) -> Finding:
     """Whether outputs stay between their minimum and maximum."""
     bounded = [v for v in _scalars(subject, "output") if v.min or v.max]
@@ -99,10 +102,11 @@ def check_ranges(subject: Subject) -> Finding:
             low, high = float(v.min or -math.inf), float(v.max or math.inf)
             if not low <= value <= high and not math.isnan(value):
                 message = f"{v.name} is {value:g} at {(k + 1) * subject.step:g} s, beyond {low:g} to {high:g}; widen it"
-                return Finding("ranges", "bad", f"{message} {subject.clause('2.2.7', '2.4.7')}")
-    return Finding("ranges", "good", f"{len(bounded)} outputs with a range keep to it")
+                return Finding("bad", f"{message} {subject.clause('2.2.7', '2.4.7')}")
+    return Finding("good", f"{len(bounded)} outputs with a range keep to it")
 
 
+@check("reads twice")
 def check_repeated_reads(subject: Subject) -> Finding:
     """Whether values are the same in a second read and in a read with reversed references."""
     instance = Instance(subject).start()
@@ -113,34 +117,17 @@ def check_repeated_reads(subject: Subject) -> Finding:
         message = (
             f"an output reads {first[k]:g} and then {second[k]:g} with no call in between; a read must change nothing"
         )
-        return Finding("reads twice", "bad", f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
+        return Finding("bad", f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
     single = [v for v in _scalars(subject, "input", "output") if v.type in REAL]
     forward, backward = instance.get(single), instance.get(single[::-1])[::-1]
     for v, a, b in zip(single, forward, backward, strict=True):
         if a != b and a == a:
             message = f"{v.name} reads {a:.9g}, and {b:.9g} where the references are asked for the other way round"
-            return Finding("reads twice", "bad", f"{message}; give each its value {subject.clause('2.1.7', '2.2.7.2')}")
-    return Finding("reads twice", "good", "the same")
+            return Finding("bad", f"{message}; give each its value {subject.clause('2.1.7', '2.2.7.2')}")
+    return Finding("good", "the same")
 
 
-def check_termination(subject: Subject) -> Finding:
-    """Whether a run terminates without an error, and the library reports the version of the description."""
-    instance = Instance(subject).start()
-    instance.run(2)
-    name, version = _VERSION["3.0" if subject.is_fmi3 else "2.0"]
-    result = getattr(instance.slave, name)()
-    if result != version and not (subject.is_fmi3 and bytes(result).startswith(b"3.")):
-        message = f"{name} answers {bytes(result).decode(errors='replace')}, not {version.decode()}"
-        return Finding("end", "bad", f"{message} {subject.clause('2.1.4', '2.2.5')}")
-    if not instance.ended:
-        try:
-            instance.slave.terminate()
-        except FMICallException as error:
-            message = f"{error.function} answers with status {error.status} after good steps; it must be 0"
-            return Finding("end", "bad", f"{message} {subject.clause('4.2.1, 2.1.6', '2.3.4')}")
-    return Finding("end", "good", "terminates; the version is right")
-
-
+@check("start time")
 def check_start_time(subject: Subject) -> Finding:
     """Whether a run can begin at another time than zero."""
     instance, clause = Instance(subject), subject.clause("2.1.6", "2.3.3")
@@ -148,21 +135,22 @@ def check_start_time(subject: Subject) -> Finding:
         instance.start(start_time=_BEGIN)
     except FMICallException as error:
         message = f"{error.function} answers with status {error.status} to a start at {_BEGIN:g} s, as it may"
-        return Finding("start time", "note", f"{message} {clause}")
+        return Finding("note", f"{message} {clause}")
     try:
         count = len(instance.run(3, origin=_BEGIN))
     except FMICallException as error:
         message = (
             f"{error.function} answers with status {error.status} in a run that begins at {_BEGIN:g} s; begin there"
         )
-        return Finding("start time", "bad", f"{message} {clause}")
-    return Finding("start time", "good", f"{count} steps from {_BEGIN:g} s")
+        return Finding("bad", f"{message} {clause}")
+    return Finding("good", f"{count} steps from {_BEGIN:g} s")
 
 
+@check("answers of steps")
 def check_step_results(subject: Subject) -> Finding:
     """Whether a step of FMI 3.0 reports its end, and no early return or event that was not allowed."""
     if not subject.is_fmi3:
-        return Finding("answers of steps", "good", "of FMI 3.0 alone")
+        return Finding("good", "of FMI 3.0 alone")
     instance = Instance(subject).start()
     for k in range(4):
         event, end, early, last = instance.slave.doStep(k * subject.step, subject.step)
@@ -171,21 +159,29 @@ def check_step_results(subject: Subject) -> Finding:
         if end:
             break
         if early:
-            return Finding("answers of steps", "bad", f"a step returns early, which was not allowed {clause}")
+            return Finding("bad", f"a step returns early, which was not allowed {clause}")
         if event:
-            return Finding("answers of steps", "bad", f"a step asks for event mode, which was not allowed {clause}")
+            return Finding("bad", f"a step asks for event mode, which was not allowed {clause}")
         if abs(last - reached) > 1e-6 * subject.step + 1e-12 * reached:
             message = f"a step to {reached:g} s says that it reached {last:g} s; lastSuccessfulTime is its end"
-            return Finding("answers of steps", "bad", f"{message} {clause}")
-    return Finding("answers of steps", "good", "each says that its end was reached")
+            return Finding("bad", f"{message} {clause}")
+    return Finding("good", "each says that its end was reached")
 
 
-VALUE_CHECKS = (
-    Check("start values", check_start_values),
-    Check("set values", check_set_values),
-    Check("ranges", check_ranges),
-    Check("reads twice", check_repeated_reads),
-    Check("start time", check_start_time),
-    Check("answers of steps", check_step_results),
-    Check("end", check_termination),
-)
+@check("end")
+def check_termination(subject: Subject) -> Finding:
+    """Whether a run terminates without an error, and the library reports the version of the description."""
+    instance = Instance(subject).start()
+    instance.run(2)
+    name, version = _VERSION["3.0" if subject.is_fmi3 else "2.0"]
+    result = getattr(instance.slave, name)()
+    if result != version and not (subject.is_fmi3 and bytes(result).startswith(b"3.")):
+        message = f"{name} answers {bytes(result).decode(errors='replace')}, not {version.decode()}"
+        return Finding("bad", f"{message} {subject.clause('2.1.4', '2.2.5')}")
+    if not instance.ended:
+        try:
+            instance.slave.terminate()
+        except FMICallException as error:
+            message = f"{error.function} answers with status {error.status} after good steps; it must be 0"
+            return Finding("bad", f"{message} {subject.clause('4.2.1, 2.1.6', '2.3.4')}")
+    return Finding("good", "terminates; the version is right")

@@ -44,20 +44,13 @@ def parser_of(prog: str = "ali3 compare") -> Parser:
         "--seconds", metavar="A:B,...", help="compare and fit only these seconds of the log, such as 0:80,160:240"
     )
     parser.add_argument(
-        "--windows",
-        type=_SECONDS,
-        metavar="T",
-        help="drive windows of this length, each from its measured state, s",
+        "--windows", type=_SECONDS, metavar="T", help="drive windows of this length, each from its measured state, s"
     )
     parser.add_argument("--window-every", type=_SECONDS, metavar="T", help="from one window to the next, s; default: T")
     parser.add_argument("--skip", type=_SECONDS, default=0.0, metavar="T", help="first seconds, which are not compared")
     add_option(parser, "--step", "that of the FMU")
     parser.add_argument(
-        "--longest-gap",
-        type=_SECONDS,
-        default=0.2,
-        metavar="T",
-        help="without samples of an input, s; default 0.2",
+        "--longest-gap", type=_SECONDS, default=0.2, metavar="T", help="without samples of an input, s; default 0.2"
     )
     parser.add_argument("--longest-delay", type=_SECONDS, default=1.0, metavar="T", help="largest delay, s; default 1")
     parser.add_argument(

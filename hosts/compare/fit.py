@@ -124,18 +124,7 @@ def fit(
     _update_weights(residuals, residuals(point))
     r, jacobian, r_start = residuals(point), residuals.jacobian(point), residuals(start)  # with the last weights
     result = _evaluate_fit(
-        residuals,
-        unknowns,
-        point,
-        r,
-        jacobian,
-        r_start,
-        noise,
-        numeric_noise,
-        runs,
-        converged,
-        searches,
-        parts,
+        residuals, unknowns, point, r, jacobian, r_start, noise, numeric_noise, runs, converged, searches, parts
     )
     return replace(result, refused=refused)
 

@@ -12,11 +12,11 @@ from hosts.common.errors import HostError
 from hosts.compare.comparison import ComparedSignal, Comparison
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import Deviations, deviations
-from hosts.compare.plausibility import ALIKE, inverted_correlation
+from hosts.compare.plausibility import MIN_CORRELATION, inverted_correlation
 from hosts.compare.replay import Replay
 from hosts.compare.segments import Segment
 from hosts.compare.task import Task
-from hosts.measures.relations import SPEEDS
+from hosts.measures.log_signals import SPEEDS
 
 _SPEED = "initial.speed"
 _LATERAL_SPEED = "initial.lateral_speed"
@@ -66,7 +66,12 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
     speed = next((s.measured for n, s in compared.signals.items() if n in SPEEDS and n not in right), None)
     signals = {n: s for n, s in compared.signals.items() if n not in SPEEDS}
     begins = any(_SPEED in s.manoeuvre.start for s in task.segments)
-    if speed is None or not signals or not begins or any(s.deviations.correlation >= ALIKE for s in signals.values()):
+    if (
+        speed is None
+        or not signals
+        or not begins
+        or any(s.deviations.correlation >= MIN_CORRELATION for s in signals.values())
+    ):
         return ""
     alike: list[tuple[float, float, Misread]] = []
     for mistake in misread(speed.unit):
@@ -76,7 +81,7 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
         except HostError:  # the FMU does not start so fast
             continue
         found = [_deviations(s, Curve(result, n)) for n, s in signals.items()]
-        if not result.failed_steps and all(d.correlation >= ALIKE for d in found):
+        if not result.failed_steps and all(d.correlation >= MIN_CORRELATION for d in found):
             alike.append((max(d.normalised for d in found), min(d.correlation for d in found), mistake))
     if not alike:
         return ""

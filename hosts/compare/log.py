@@ -48,11 +48,7 @@ class Log(Summarised):
 
 
 def log_for(
-    fmu: NamedFmu,
-    raw: RawLog,
-    aliases: LogAliases,
-    overridden: Collection[str] = (),
-    noted: Collection[str] = (),
+    fmu: NamedFmu, raw: RawLog, aliases: LogAliases, overridden: Collection[str] = (), noted: Collection[str] = ()
 ) -> Log:
     """The signals that a log and an FMU have in common; tunable parameters of the FMU count as inputs.
 
@@ -98,11 +94,7 @@ def log_for(
 
 
 def _columns(
-    raw: RawLog,
-    aliases: LogAliases,
-    fmu: NamedFmu,
-    inputs: Collection[str],
-    outputs: Collection[str],
+    raw: RawLog, aliases: LogAliases, fmu: NamedFmu, inputs: Collection[str], outputs: Collection[str]
 ) -> Mapping[str, Column]:
     present = [str(c) for c in raw.table.columns]
     for name, column in aliases.columns.items():

@@ -17,7 +17,7 @@ MAX_GAP = 0.2
 """Default of the longest gap between samples of an input that is bridged, s."""
 _GAP = 5.0  # median intervals
 _RATIO_TOLERANCE = 1.12
-ALIKE = 0.8
+MIN_CORRELATION = 0.8
 """Correlation from which two signals are taken to be the same quantity."""
 
 
@@ -71,7 +71,7 @@ def scale_mistake(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
             f"{label} has the opposite sign of the simulation (correlation {inverted:.2f}): factor = -1.0 in the alias "
             "file turns it."
         )
-    if not abs(deviation.correlation) >= ALIKE:
+    if not abs(deviation.correlation) >= MIN_CORRELATION:
         return ""
     # The ratio of standard deviations; noise lowers the slope of a regression.
     ratio = float(np.std(y) / np.std(x))
@@ -95,5 +95,7 @@ def inverted_correlation(signal: Signal, curve: Curve, delay: float = 0.0) -> fl
     correlation = deviations(signal.time, y, simulated).correlation
     late = deviations(signal.time, y, x).correlation
     return (
-        correlation if correlation < -ALIKE and not late > 0.05 - correlation and float(y @ simulated) < 0.0 else None
+        correlation
+        if correlation < -MIN_CORRELATION and not late > 0.05 - correlation and float(y @ simulated) < 0.0
+        else None
     )

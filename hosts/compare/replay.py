@@ -114,13 +114,7 @@ class Replay(Closable):
         Number of runs by the messages that the FMU logged at warning or above.
     """
 
-    def __init__(
-        self,
-        fmu: FmuSource,
-        segments: Sequence[Segment],
-        step: float,
-        jobs: int = 1,
-    ) -> None:
+    def __init__(self, fmu: FmuSource, segments: Sequence[Segment], step: float, jobs: int = 1) -> None:
         self.segments, self.step = list(segments), step
         reads = files_of_drives(fmu.path, (segment.manoeuvre.start for segment in segments))
         segment_fmu = SegmentFmu(fmu, step, segments)

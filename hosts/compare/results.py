@@ -21,7 +21,6 @@ from hosts.compare.windows import bins, windows
 from hosts.fmu.fmu import described
 from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variables
-from hosts.measures.measure import Measure
 
 
 @dataclass(frozen=True)
@@ -85,14 +84,14 @@ def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
         "start": task.segments[0].manoeuvre.start,
         "notes": outcome.notes,
         "problems": outcome.problems,
-        "measures": measure_records(measures(outcome.before)),
+        "measures": [{"name": m.name, **m.record()} for m in measures(outcome.before)],
         "bins": [asdict(b) for b in bins(outcome.best, task.scales)],
     }
     if task.windowed:
         record["windows"] = [asdict(w) for w in windows(outcome.best, task.segments)]
     if outcome.fit is not None and outcome.after is not None:
         f = outcome.fit
-        record["fitted_measures"] = measure_records(measures(outcome.after))
+        record["fitted_measures"] = [{"name": m.name, **m.record()} for m in measures(outcome.after)]
         record["fit"] = {
             "found": [
                 {
@@ -141,10 +140,3 @@ def write_signals(before: Comparison, after: Comparison | None, file: Path) -> N
             columns[f"{name}.fitted [{s.measured.unit}]"] = pd.Series(after.signals[name].simulated(times), times)
     with atomic_file(file) as path:
         pd.DataFrame(columns, times).to_csv(path, index_label="time [s]", lineterminator="\r\n")
-
-
-def measure_records(measures: Sequence[Measure]) -> list[dict[str, Any]]:
-    """Measures for JSON, which has no NaN."""
-    return [
-        {"name": m.name, "value": or_null(m.value), "unit": m.unit, "text": m.text, "note": m.note} for m in measures
-    ]

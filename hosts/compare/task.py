@@ -2,7 +2,7 @@
 
 import argparse
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,7 +11,7 @@ from ali3.plausibility import Plausibility
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.road import options_with_road
-from hosts.compare.log import log_for
+from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.compare.log_selection import (
@@ -25,16 +25,9 @@ from hosts.compare.log_selection import (
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.road_wheels import ANGLES
 from hosts.compare.segment_maker import SegmentMaker, is_invertible
-from hosts.compare.segments import (
-    Segment,
-    Spans,
-    concatenated_signals,
-    parse_spans,
-    window_begins,
-    within_spans,
-)
+from hosts.compare.segments import Segment, Spans, concatenated_signals, parse_spans, window_begins, within_spans
 from hosts.compare.start_values import starting_pedals
-from hosts.compare.steering_input import WHEEL_ANGLE, add_steering_input
+from hosts.compare.steering_input import WHEEL_ANGLE, steering_input
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.run_checks import communication_step
@@ -80,6 +73,44 @@ class Task:
         return self.segments[-1].offset + self.segments[-1].length
 
 
+@dataclass(frozen=True)
+class _ReplayedSignals:
+    """The signals of a log between --from and --to that drive the FMU or are compared with it."""
+
+    inputs: dict[str, Signal]
+    outputs: dict[str, Signal]
+    speed: Signal | None
+    """Measured speed, if a driver holds it."""
+    frequencies: dict[str, float]
+    """Frequency of the filter behind an input, Hz, by input."""
+    unset: list[str]
+    """Inputs of the FMU that nothing drives."""
+    end: float
+    """Last common time of inputs and outputs, s after --from."""
+
+
+def _replayed_signals(
+    fmu: NamedFmu, log: Log, options: argparse.Namespace, set_values: Mapping[str, Value], fitted_names: Set[str]
+) -> _ReplayedSignals:
+    """Select the signals of a log and check them; adds to the notes of the log."""
+    inputs, outputs = selected_signals(log, fmu, options)
+    frequencies = {}
+    if (steering := steering_input(fmu, inputs, log.outputs, set_values, fitted_names)) is not None:
+        inputs[steering.signal.name] = steering.signal
+        outputs = {n: s for n, s in outputs.items() if n not in steering.sources}  # an input is not compared
+        log.notes.extend(steering.notes)
+        frequencies = {steering.signal.name: steering.frequency} if steering.frequency else {}
+    speed = speed_to_hold(fmu, log, inputs, log.notes) if options.hold_speed else None
+    unset = missing_inputs(fmu, inputs, speed is not None, options)
+    if unset:
+        log.notes.append(f"Not in the log, and held at their start values: {', '.join(unset)}.")
+    inputs, outputs, end = cut_inputs_and_outputs(inputs, outputs, options)
+    held_speed = None if speed is None else cut_to_options({"speed": speed}, options)["speed"]
+    check_inputs(fmu, inputs, options.longest_gap, log.notes)
+    note_gaps(outputs, log.notes)
+    return _ReplayedSignals(inputs, outputs, held_speed, frequencies, unset, end)
+
+
 def prepare(options: argparse.Namespace) -> Task:
     """Read log and FMU, and check them. Raises `HostError` with a sentence on the first mistake."""
     log_aliases = LogAliases() if options.log_aliases is None else read_log_aliases(options.log_aliases)
@@ -89,71 +120,60 @@ def prepare(options: argparse.Namespace) -> Task:
     with Fmu(options.fmu) as opened:
         source = FmuSource.named(opened.path, opened.table, options.aliases)
         fmu = source.around(opened)
-        set_values = settings_of(opened.table, options_with_road(options, options.out)).start
-        ali3_values = source.ali3_values(set_values)
+        set_values = source.ali3_values(settings_of(opened.table, options_with_road(options, options.out)).start)
         fitted_names = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
         # Steering angles, which may drive the car, and the initial speed are used with any selection of signals.
         used_names = {*options.signals, "speed", WHEEL_ANGLE, *ANGLES} if options.signals else ()
-        log = log_for(fmu, raw, log_aliases, {*ali3_values, *fitted_names}, used_names)
-        notes = log.notes
-        inputs, outputs = selected_signals(log, fmu, options)
-        frequencies = add_steering_input(fmu, log, inputs, outputs, notes, ali3_values, fitted_names)
-        measured_speed = speed_to_hold(fmu, log, inputs, notes) if options.hold_speed else None
-        unset_inputs = missing_inputs(fmu, inputs, measured_speed is not None, options)
-        if unset_inputs:
-            notes.append(f"Not in the log, and held at their start values: {', '.join(unset_inputs)}.")
-        inputs, outputs, end = cut_inputs_and_outputs(inputs, outputs, options)
-        held_speed = None if measured_speed is None else cut_to_options({"speed": measured_speed}, options)["speed"]
-        check_inputs(fmu, inputs, options.longest_gap, notes)
-        note_gaps(outputs, notes)
-        requested_spans = parse_spans(options.seconds)
-        windows = _driven_windows(options, requested_spans, end)
-        step = communication_step(
-            fmu, Manoeuvre("", np.zeros(0), {}, windows[0][1]), _preferred_step(fmu, inputs, options)
-        )
-        slopes = opened.follows_slopes
-        all_outputs = outputs | outputs_from_begin(log, options)
+        log = log_for(fmu, raw, log_aliases, {*set_values, *fitted_names}, used_names)
+        signals = _replayed_signals(fmu, log, options, set_values, fitted_names)
+        spans = parse_spans(options.seconds)
+        windows = _driven_windows(options, spans, signals.end)
+        driven = Manoeuvre("", np.zeros(0), {}, windows[0][1])
+        step = communication_step(fmu, driven, _preferred_step(fmu, signals.inputs, options))
+        all_outputs = signals.outputs | outputs_from_begin(log, options)
         maker = SegmentMaker(
-            options.log.stem,
-            source,
-            fmu,
-            inputs,
-            all_outputs,
-            held_speed,
-            log.held,
-            None if options.begin else log.run_start,
-            options.begin or 0.0,
-            ali3_values,
-            frequencies,
-            step,
-            slopes,
+            name=options.log.stem,
+            source=source,
+            fmu=fmu,
+            inputs=signals.inputs,
+            outputs=all_outputs,
+            speed=signals.speed,
+            held=log.held,
+            run_start=None if options.begin else log.run_start,
+            begin=options.begin or 0.0,
+            set_values=set_values,
+            frequencies=signals.frequencies,
+            step=step,
+            slopes=opened.follows_slopes,
         )
         segments, segment_notes = maker.segments(windows)
-        notes += segment_notes
-        invertible = [n for n in inputs if all(is_invertible(s.manoeuvre.inputs[n], fmu.table[n]) for s in segments)]
-        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in unset_inputs}
-    if held_speed is not None:
+        notes = log.notes + segment_notes
+        invertible = [
+            n for n in signals.inputs if all(is_invertible(s.manoeuvre.inputs[n], fmu.table[n]) for s in segments)
+        ]
+        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in signals.unset}
+    if signals.speed is not None:
         segments = starting_pedals(source, segments, step)
         pedal = segments[0].pedal
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
-    scales = scales_of(all_outputs)
+    outputs, scales = signals.outputs, scales_of(all_outputs)
     windowed = options.windows is not None
     if windowed:
         notes.append(
             f"Each of the {len(segments)} windows starts in its measured state; the one above is that of the first."
         )
-        outputs, scales = (concatenated_signals(signals, segments) for signals in (outputs, scales))
-    elif requested_spans is not None:
-        outputs = _within_requested_spans(outputs, requested_spans, options)
+        outputs, scales = (concatenated_signals(group, segments) for group in (outputs, scales))
+    elif spans is not None:
+        outputs = _within_requested_spans(outputs, spans, options)
     return Task(
         fmu=source,
-        inputs=inputs,
+        inputs=signals.inputs,
         outputs=outputs,
         segments=segments,
         step=step,
-        slopes=slopes,
+        slopes=maker.slopes,
         parameters=parameters,
-        set_values=ali3_values,
+        set_values=set_values,
         notes=notes,
         windowed=windowed,
         plausibility=log_plausibility(options.log.name, all_outputs),

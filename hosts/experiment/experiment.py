@@ -103,10 +103,7 @@ class Progress(Closable, Generic[T, R]):
         self._bar.close()
 
     def results(
-        self,
-        tasks: Iterable[T],
-        runner: Runner[T, R],
-        told: Callable[[int, float], None] = lambda number, done: None,
+        self, tasks: Iterable[T], runner: Runner[T, R], told: Callable[[int, float], None] = lambda number, done: None
     ) -> Generator[tuple[int, T, R | Lost]]:
         """Make runs as `Experiment.results`, without closing the runner."""
         pending: dict[int, tuple[T, float]] = {}

@@ -5,10 +5,10 @@ from pathlib import Path
 from shlex import quote
 from typing import Any
 
-from ali3.archives import Archive
+from ali3.archives import Archive, is_archive
 from ali3.json_reading import LARGEST_JSON, read_json
 from ali3.processes import command_name
-from ali3.reading import is_file
+from ali3.reading import is_file, missing_file_text
 from ali3.scene.errors import SceneError
 from ali3.scene.scene import read_scene
 from ali3.temporary_folder import temporary_folder
@@ -124,3 +124,17 @@ def _command_text(road: Path) -> str:
     """A sentence with the command that makes the world of a road file again."""
     line = f"{command_name('road')} --world {quote(road.stem)} --out {quote(str(road.parent))}"
     return f"that of a world is made again by: {line}"
+
+
+def scene_from(
+    path: Path, settings: Mapping[str, Value] | None = None, world: str | None = None
+) -> dict[str, Any] | None:
+    """The scene of an FMU, or of a JSON file; see `scene_of`."""
+    if not is_file(path):
+        raise HostError(missing_file_text(path))
+    if not is_archive(path):
+        try:
+            return read_scene(path)
+        except SceneError as error:
+            raise HostError(f"{path} is neither an FMU nor a scene: {error}") from None
+    return scene_of(path, settings, world)

@@ -21,8 +21,7 @@ from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_STATE
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.fmu.array_values import ArrayValues
-from hosts.fmu.scalars import Scalar
+from hosts.fmu.scalars import ArrayValues, Scalar
 
 _WARNING = 1
 _MAX_RAW_MESSAGES = 256
@@ -32,10 +31,7 @@ State: TypeAlias = ctypes.c_void_p
 
 # By version of FMI and type of a variable: the suffix of its functions, and its type in C.
 _NUMBERS: dict[int, dict[str, tuple[str, Any]]] = {
-    2: {
-        "Real": ("Real", ctypes.c_double),
-        **dict.fromkeys(("Integer", "Enumeration"), ("Integer", ctypes.c_int32)),
-    },
+    2: {"Real": ("Real", ctypes.c_double), **dict.fromkeys(("Integer", "Enumeration"), ("Integer", ctypes.c_int32))},
     3: {
         "Float64": ("Float64", ctypes.c_double),
         "Float32": ("Float32", ctypes.c_float),

@@ -2,8 +2,9 @@
 
 import copy
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -98,3 +99,39 @@ def scalar_variables(
             variables.append(element)
             addresses[name] = Scalar(v.valueReference, v.type, index, len(indexed_names) or 1)
     return variables, addresses
+
+
+class ArrayValues:
+    """The last values of arrays, because FMI sets all elements of an array at once.
+
+    `variables`: all scalars, elements of an array in their order; `read`: reads the values of an array from the FMU.
+    """
+
+    def __init__(self, variables: Sequence[ScalarVariable], read: Callable[[Scalar], list[Any]]) -> None:
+        self._starts: dict[int, list[Any]] = {}
+        for v in variables:
+            self._starts.setdefault(v.valueReference, []).append(0 if v.start is None else v.start)
+        self._read, self._rows, self._from_fmu = read, dict[int, list[Any]](), False
+
+    def row(self, scalar: Scalar) -> list[Any]:
+        """A copy of the last values of the variable of a scalar; ``[None]`` for a variable with one value."""
+        if scalar.size == 1:
+            return [None]
+        values = self._rows.get(scalar.reference)
+        if values is None:
+            values = self._read(scalar) if self._from_fmu else self._starts[scalar.reference]
+        return list(values)
+
+    def keep(self, rows: Mapping[int, list[Any]]) -> None:
+        """Store values that the FMU has accepted, by value reference."""
+        self._rows.update({reference: row for reference, row in rows.items() if len(row) > 1})
+
+    def reset(self) -> None:
+        """Return to the start values."""
+        self._rows.clear()
+        self._from_fmu = False
+
+    def forget(self) -> None:
+        """Forget the values: the FMU has another state, so that they are read from it."""
+        self._rows.clear()
+        self._from_fmu = True

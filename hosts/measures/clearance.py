@@ -16,9 +16,7 @@ def outline(
     ahead, aside = np.stack([np.cos(yaw), np.sin(yaw)], -1), np.stack([-np.sin(yaw), np.cos(yaw)], -1)
     signs = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * 0.5 * np.array([length, width])
     centre = np.stack([x, y], -1)
-    return np.asarray(
-        centre[:, None] + signs[:, :1] * ahead[:, None] + signs[:, 1:] * aside[:, None],
-    )
+    return np.asarray(centre[:, None] + signs[:, :1] * ahead[:, None] + signs[:, 1:] * aside[:, None])
 
 
 def clearance(

@@ -12,7 +12,9 @@ import numpy as np
 
 from ali3.plausibility import Mistake, Plausibility, Value, far_values
 from ali3.units import misread, typeset
-from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, STEERING, WHEELS, Signals, log_values
+from hosts.measures.agreement import DELAY_RESOLUTION
+from hosts.measures.log_signals import PATH, QUANTITIES, SPEEDS, STEERING, WHEELS, Signals
+from hosts.measures.relations import RELATIONS, log_values
 from hosts.measures.samples import joint_sample_values, sample_values
 from hosts.measures.signal import Signal
 
@@ -25,7 +27,10 @@ TIMES = (
     (60.0, "minutes instead of s"),
 )
 RIM = ((1.0 / 0.31, "m/s of the rim instead of rad/s"),)  # of a wheel of usual radius, m
-_RATIOS, _ALIKE = ([QUANTITIES[key + part] for key in RELATIONS if key + part in QUANTITIES] for part in ("", "_alike"))
+_RATIOS, _CORRELATIONS = (
+    [quantity for key in RELATIONS if (quantity := QUANTITIES.get(f"{key}.{part}")) is not None]
+    for part in ("ratio", "correlation")
+)
 PAIRS = (("chassis.ax", "chassis.ay"), PATH, *pairwise(WHEELS))
 
 
@@ -64,7 +69,7 @@ def _plausibility(
 
 def consistent(plausibility: Plausibility) -> set[str]:
     """Names of signals with a ratio, all ratios and correlations of which are plausible: factor and sign are right."""
-    ratios = [v for v in plausibility.values if v.quantity in (*_RATIOS, *_ALIKE)]
+    ratios = [v for v in plausibility.values if v.quantity in (*_RATIOS, *_CORRELATIONS)]
     contradicted = {name for v in ratios if not v.inside(plausibility.kind) for name in v.keys}
     return {name for v in ratios if v.quantity in _RATIOS for name in v.keys} - contradicted
 
@@ -110,12 +115,12 @@ def _corrected_logs(signals: Signals, plausibility: Plausibility) -> Iterator[tu
 def _relations_with_powers(
     plausibility: Plausibility, part: str, group: Collection[str]
 ) -> Iterator[tuple[Value, int]]:
-    """Values of the relations of a signal, with its exponent. `part`: "" for ratios, "_late" for delays, ..."""
+    """Values of the relations of a signal, with its exponent. `part`: of their `Agreement`."""
     names = {"speed" if n in SPEEDS else n for n in group}
-    for key, powers in RELATIONS.items():
-        power = next((powers[n] for n in names if n in powers), 0)
+    for key, relation in RELATIONS.items():
+        power = next((relation.exponents[n] for n in names if n in relation.exponents), 0)
         for v in plausibility.values if power else ():
-            if v.quantity is QUANTITIES.get(key + part) and v.keys.keys() & set(group):
+            if v.quantity is QUANTITIES.get(f"{key}.{part}") and v.keys.keys() & set(group):
                 yield v, power
 
 
@@ -127,13 +132,13 @@ def _correcting_factors(
     A signal without relations may have any of the known `factors`.
     """
     low, high, has_ratio = 0.0, np.inf, False
-    for v, power in _relations_with_powers(plausibility, "", group):
+    for v, power in _relations_with_powers(plausibility, "ratio", group):
         bounds = v.quantity.near or v.quantity.range(plausibility.kind)
         if bounds is None or not v.value > 0.0:
             continue
         ends = sorted((bound / v.value) ** (1.0 / power) for bound in bounds)
         low, high, has_ratio = max(low, ends[0]), min(high, ends[1]), True
-    is_inverted = any(v.value < 0.0 for v, _ in _relations_with_powers(plausibility, "_alike", group))
+    is_inverted = any(v.value < 0.0 for v, _ in _relations_with_powers(plausibility, "correlation", group))
     sign = -1.0 if is_inverted else 1.0
     if is_inverted and low <= 1.0 <= high:
         yield "the other sign", -1.0, False
@@ -151,12 +156,12 @@ def _shifted_logs(
     signals: Signals, s: Signal, label: str, plausibility: Plausibility
 ) -> Iterator[tuple[str, set[str], Signals, bool]]:
     """The log without the delay of a signal, if all its relations agree on it, and without the offset of a rate."""
-    delays = [-power * v.value for v, power in _relations_with_powers(plausibility, "_late", (s.name,))]
+    delays = [-power * v.value for v, power in _relations_with_powers(plausibility, "delay", (s.name,))]
     if delays and min(map(abs, delays)) > MIN_DELAY and np.ptp(delays) <= 2.0 * MIN_DELAY:
         delay = float(np.mean(delays))
-        message = f"a delay of {delay:.2f} s (within {FINE:g} s) of {label}"
+        message = f"a delay of {delay:.2f} s (within {DELAY_RESOLUTION:g} s) of {label}"
         yield message, {s.name}, {**signals, s.name: replace(s, time=s.time - delay)}, False
-    offsets = [v.value for v, power in _relations_with_powers(plausibility, "_off", (s.name,)) if power < 0]
+    offsets = [v.value for v, power in _relations_with_powers(plausibility, "offset", (s.name,)) if power < 0]
     if offsets:
         message = f"an offset of {-offsets[-1]:.3g} {typeset(s.unit)} in {label}"
         yield message, {s.name}, {**signals, s.name: replace(s, values=s.values + offsets[-1])}, False

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 from hosts.common.display_units import shown_in
-from hosts.common.numbers import is_round_off
+from hosts.common.numbers import is_round_off, or_null
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,10 @@ class Measure:
     def is_kept(self) -> bool | None:
         """Whether the limit is kept; None if there is no limit, or the number does not exist."""
         return self.limit.holds(self.value) if self.limit is not None and self.exists else None
+
+    def record(self) -> dict[str, Any]:
+        """The measure for JSON, which has no NaN."""
+        return {"value": or_null(self.value), "unit": self.unit, "text": self.text, "note": self.note}
 
     def displayed(self) -> Measure:
         """The measure in the unit of reports, with rounding errors set to 0."""

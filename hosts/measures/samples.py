@@ -6,7 +6,18 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ali3.plausibility import Value, far_values
-from hosts.measures.relations import MIN_VALUES, PATH, QUANTITIES, SPEEDS, WHEELS, Array, Signals, keys_of, speed_of
+from hosts.measures.log_signals import (
+    MIN_LONGITUDINAL_ACCELERATION,
+    MIN_SPEED,
+    PATH,
+    QUANTITIES,
+    SPEEDS,
+    WHEELS,
+    Array,
+    Signals,
+    columns_of,
+    speed_of,
+)
 from hosts.measures.signal import Signal
 
 MIN_EQUAL_SAMPLES = 10  # samples
@@ -26,18 +37,12 @@ def sample_values(signals: Signals) -> Iterator[Value]:
     """Values for missing samples, samples at the ends of a range and constant stretches of each signal."""
     speed_name = speed_of(signals)
     for name, s in signals.items():
-        yield Value(QUANTITIES["sentinel"], float(far_values(s.values).sum()), keys_of(signals, name), f"'{s.source}',")
+        columns = columns_of(signals, name)
+        yield Value(QUANTITIES["sentinel"], float(far_values(s.values).sum()), columns, f"'{s.source}',")
         if name in CLIPPED:
-            yield Value(
-                QUANTITIES["clipped"], float(_clipped_count(s.values)), keys_of(signals, name), f"'{s.source}',"
-            )
+            yield Value(QUANTITIES["clipped"], float(_clipped_count(s.values)), columns, f"'{s.source}',")
         if speed_name is not None:
-            yield Value(
-                QUANTITIES["stands"],
-                _longest_constant(s, signals, speed_name),
-                keys_of(signals, name),
-                f"'{s.source}',",
-            )
+            yield Value(QUANTITIES["stands"], _longest_constant(s, signals, speed_name), columns, f"'{s.source}',")
 
 
 def joint_sample_values(signals: Sequence[Signal]) -> Iterator[Value]:
@@ -88,7 +93,7 @@ def _changes(signal: Signal, signals: Signals, speed_name: str, begin: float, en
     if signal.name in WHEELS:
         return len(speed) > 0 and float(np.ptp(speed)) > MOVED["speed"]
     if signal.name == "chassis.ax":
-        least = MOVED["speed"] + MIN_VALUES["accelerate"] * duration  # a sensor has an offset
+        least = MOVED["speed"] + MIN_LONGITUDINAL_ACCELERATION * duration  # a sensor has an offset
         return len(speed) > 0 and abs(float(speed[-1] - speed[0]) - value * duration) > least
     if signal.name == "chassis.wz":
         return len(ay) > 0 and float(np.ptp(ay)) > MOVED["ay"]
@@ -98,9 +103,8 @@ def _changes(signal: Signal, signals: Signals, speed_name: str, begin: float, en
         return len(wz) > 0 and abs(float(wz.mean())) * duration > MOVED["yaw"]
     if signal.name in PATH and len(speed) > 0:
         other_axes = [float(np.ptp(of(n))) for n in PATH if n != signal.name and len(of(n))]
-        rolling_speed = np.where(
-            np.abs(speed) > MIN_VALUES["move"], np.abs(speed), 0.0
-        )  # a sensor may drift at standstill
+        # a sensor may drift at standstill
+        rolling_speed = np.where(np.abs(speed) > MIN_SPEED, np.abs(speed), 0.0)
         return float(rolling_speed.mean()) * duration > MOVED["way"] + 1.5 * sum(other_axes)
     return False
 
@@ -134,9 +138,8 @@ def _joint_jump_count(signals: Sequence[Signal]) -> int:
         steps = np.abs(np.diff(s.values))
         usual = float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else np.inf
         padded = np.pad(steps, 2)
-        neighbours = np.max(
-            [padded[:-4], padded[1:-3], padded[3:-1], padded[4:]], axis=0
-        )  # a quick motion takes several steps
+        # a quick motion takes several steps
+        neighbours = np.max([padded[:-4], padded[1:-3], padded[3:-1], padded[4:]], axis=0)
         for t in s.time[1:][(steps > 30.0 * usual) & (steps > 5.0 * neighbours)].tolist():
             times[t] = times.get(t, 0) + 1
     return sum(count > 0.6 * len(changing) for count in times.values())

@@ -15,11 +15,7 @@ from hosts.common.errors import HostError
 from hosts.measures.library import LIBRARY
 
 # Those of simpleeval check the lengths of operands, which arrays have, too.
-_OPERATORS = simpleeval.DEFAULT_OPERATORS | {
-    ast.Add: operator.add,
-    ast.Mult: operator.mul,
-    ast.Pow: operator.pow,
-}
+_OPERATORS = simpleeval.DEFAULT_OPERATORS | {ast.Add: operator.add, ast.Mult: operator.mul, ast.Pow: operator.pow}
 
 
 class Scope:

@@ -38,10 +38,7 @@ def mean_between(
 
 
 def reference_time(
-    time: NDArray[np.float64],
-    steering: NDArray[np.float64],
-    before: tuple[float, float],
-    steady: tuple[float, float],
+    time: NDArray[np.float64], steering: NDArray[np.float64], before: tuple[float, float], steady: tuple[float, float]
 ) -> float:
     """Time at which the steering has passed half of its step, s; NaN if there is no step.
 

@@ -15,7 +15,7 @@ from hosts.driving.course import Course
 SPACING = 0.5  # m between points of the centre line, among which the nearest is the first estimate
 REACH = 50.0  # m along the lane, before and behind the last place, in which the nearest point is searched
 ITERATIONS = 3  # largest number of iterations of Newton's method from this estimate
-NEAR = 1e-7  # m: the last iteration moves less
+TOLERANCE = 1e-7  # m: the last iteration moves less
 FARTHEST = 1e9  # m, of coordinates and ways along a lane: doubles still resolve a micrometre there
 
 
@@ -87,7 +87,7 @@ class Lane:
                 break
             change = (error_x * ahead_x + error_y * ahead_y) / slope
             s = self._on(s - change)
-            if abs(change) < NEAR:
+            if abs(change) < TOLERANCE:
                 break
         self._last = s
         return s

@@ -9,7 +9,7 @@ from ali3.archives import is_archive
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
-from hosts.fmu.scene_file import scene_from
+from hosts.fmu.geometry import scene_from
 from hosts.fmu.variables import Variables
 from hosts.recordings.recorded_drive import read_recording
 

@@ -16,7 +16,12 @@ from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.run.plot_panels import draw_lines, draw_table
 
-_STANDING = 0.5
+_STANDING = 0.5  # m/s: below it a car has no direction of travel
+_MAX_DOTS = 20  # of a path
+_MIN_WIDTH = 4.0  # m, of a path
+_MIN_SLENDERNESS = 0.02
+_MAX_SLENDERNESS = 0.12
+"""`_MIN_SLENDERNESS`, `_MAX_SLENDERNESS`: range of the height over the width of a path whose y is stretched."""
 
 
 @dataclass(frozen=True)
@@ -72,26 +77,28 @@ def car_page(result: Result, rows: Sequence[tuple[str, str]], gates: NDArray[np.
     layout = ConstrainedLayoutEngine(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
     figure = plt.figure(figsize=(16, height), layout=layout)
     grid = figure.add_gridspec(lines + 1, 3, height_ratios=(1.2, *[1.0] * lines))
-    _path(figure.add_subplot(grid[0, :2]), result, np.zeros((0, 4)) if gates is None else gates)
+    _draw_path(figure.add_subplot(grid[0, :2]), result, np.zeros((0, 4)) if gates is None else gates)
     draw_table(figure.add_subplot(grid[0, 2]), rows)
     first: Axes | None = None
     for k, panel in enumerate(panels):
         axes = figure.add_subplot(grid[1 + k // 3, k % 3], sharex=first)
         first = first or axes
-        lines_of_result = [line for line in panel.lines if line[1] in result]
-        series = [
-            (label, panel.factor * _drawn_values(result, name), colour) for label, name, colour in lines_of_result
-        ]
-        draw_lines(axes, result.time, series, panel.title, panel.unit, steps=panel.title == "Inputs")
+        _draw_panel(axes, panel, result)
         if k >= len(panels) - 3:
             axes.set_xlabel("time, s")
-        low, high = axes.get_ylim()
-        if high - low < panel.smallest_span:
-            middle = 0.5 * (low + high)
-            axes.set_ylim(middle - 0.5 * panel.smallest_span, middle + 0.5 * panel.smallest_span)
-        if panel.title == "Speed":
-            axes.set_ylim(min(0.0, low), 1.05 * high)
     return figure
+
+
+def _draw_panel(axes: Axes, panel: _Panel, result: Result) -> None:
+    """Draw the lines of a panel whose variables the result has."""
+    series = [(label, panel.factor * _drawn_values(result, n), c) for label, n, c in panel.lines if n in result]
+    draw_lines(axes, result.time, series, panel.title, panel.unit, steps=panel.title == "Inputs")
+    low, high = axes.get_ylim()
+    if high - low < panel.smallest_span:
+        middle = 0.5 * (low + high)
+        axes.set_ylim(middle - 0.5 * panel.smallest_span, middle + 0.5 * panel.smallest_span)
+    if panel.title == "Speed":
+        axes.set_ylim(min(0.0, low), 1.05 * high)
 
 
 def _has_stresses(result: Result) -> bool:
@@ -107,7 +114,8 @@ def _drawn_values(result: Result, name: str) -> np.ndarray:
     return np.where(np.abs(result["chassis.vx"]) < _STANDING, np.nan, values)
 
 
-def _path(axes: Axes, result: Result, gates: NDArray[np.float64]) -> None:
+def _draw_path(axes: Axes, result: Result, gates: NDArray[np.float64]) -> None:
+    """Draw the path from above, with gates between cones and a dot at whole seconds."""
     x, y = result["chassis.x"], result["chassis.y"]
     for first, last, right, left in gates:
         axes.add_patch(Rectangle((first, right), last - first, left - right, facecolor="#f6e7c1", edgecolor="none"))
@@ -115,26 +123,30 @@ def _path(axes: Axes, result: Result, gates: NDArray[np.float64]) -> None:
         for edge in (right, left):
             axes.plot(cones, np.full(6, edge), "^", color=ORANGE, markersize=5, zorder=3)
     axes.plot(x, y, color=BLUE, linewidth=2.2, zorder=4)
-    seconds = np.arange(0.0, result.time[-1] + 1e-9, max(1.0, np.ceil(result.time[-1] / 20.0)))
-    marks = np.clip(np.searchsorted(result.time, seconds), 0, len(x) - 1)
-    axes.plot(x[marks], y[marks], "o", color=BLUE, markersize=4, zorder=5)
+    interval = max(1.0, np.ceil(result.time[-1] / _MAX_DOTS))
+    seconds = np.arange(0.0, result.time[-1] + 1e-9, interval)
+    dots = np.clip(np.searchsorted(result.time, seconds), 0, len(x) - 1)
+    axes.plot(x[dots], y[dots], "o", color=BLUE, markersize=4, zorder=5)
     axes.annotate("start", (x[0], y[0]), textcoords="offset points", xytext=(0, 8), ha="center", color=BLUE)
-    # A long course with small turns would be a needle on equal scales.
-    width, height = max(float(np.ptp(x)), 4.0), float(np.ptp(y))
-    reached = np.append(gates[:, 2:], y)
-    low, high = float(reached.min()), float(reached.max())
-    stretched = height > 0.02 * width and high - low < 0.12 * width
-    middle = 0.5 * float(x.min() + x.max())
-    if not stretched:
-        across = 0.5 * float(y.min() + y.max())  # a car that stands still or straight has no height
-        axes.update_datalim([(middle + s * width, across + 0.1 * s * width) for s in (-0.5, 0.5)])
-        axes.autoscale_view()
-        axes.set_aspect("equal", adjustable="datalim")
-    else:
-        pad = 0.25 * (high - low)
-        axes.set_ylim(low - pad, high + pad)
-    note = "y stretched" if stretched else "same scale on both axes"
-    interval = seconds[1] - seconds[0] if len(seconds) > 1 else 1.0
+    note = _set_scales(axes, x, y, gates)
+    interval = interval if len(seconds) > 1 else 1.0
     axes.set_title(f"Path seen from above ({note}; a dot every {interval:g} s)")
     axes.set_xlabel("x, m")
     axes.set_ylabel("y, m")
+
+
+def _set_scales(axes: Axes, x: np.ndarray, y: np.ndarray, gates: NDArray[np.float64]) -> str:
+    """Give both axes the same scale, or stretch y of a long course with small turns; returns a note on it."""
+    width, height = max(float(np.ptp(x)), _MIN_WIDTH), float(np.ptp(y))
+    reached = np.append(gates[:, 2:], y)
+    low, high = float(reached.min()), float(reached.max())
+    if height > _MIN_SLENDERNESS * width and high - low < _MAX_SLENDERNESS * width:
+        pad = 0.25 * (high - low)
+        axes.set_ylim(low - pad, high + pad)
+        return "y stretched"
+    # a car that stands still or drives straight has no height
+    middle, across = 0.5 * float(x.min() + x.max()), 0.5 * float(y.min() + y.max())
+    axes.update_datalim([(middle + s * width, across + 0.1 * s * width) for s in (-0.5, 0.5)])
+    axes.autoscale_view()
+    axes.set_aspect("equal", adjustable="datalim")
+    return "same scale on both axes"

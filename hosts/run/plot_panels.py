@@ -27,12 +27,7 @@ def draw_table(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
 
 
 def draw_lines(
-    axes: Axes,
-    t: np.ndarray,
-    series: Sequence[tuple[str, np.ndarray, str]],
-    title: str,
-    unit: str,
-    steps: bool = False,
+    axes: Axes, t: np.ndarray, series: Sequence[tuple[str, np.ndarray, str]], title: str, unit: str, steps: bool = False
 ) -> None:
     """Curves of one unit over time t, s, each by label, values and colour; `steps` where each value ends a step."""
     for label, values, colour in series:

@@ -13,8 +13,7 @@ from hosts.fmu.fmu import described
 from hosts.fmu.scalars import constants_of
 from hosts.fmu.steering_ratios import steering_as_set
 from hosts.fmu.variables import Variables
-from hosts.recordings.recorded_columns import recorded_columns
-from hosts.recordings.recording import Recorder, recording_meta
+from hosts.recordings.recording import Recorder, recorded_columns, recording_meta
 from hosts.simulator.car_events import CarSettings, CarState, Event
 from hosts.simulator.car_process import COMMANDS, Order
 from hosts.simulator.process import Process

@@ -27,7 +27,7 @@ class CarSettings:
     """Whether steps are made in real time, otherwise as fast as possible."""
     record: Path | None = None
     interval: float | None = None
-    """Between recorded outputs, s; default: see `hosts.recordings.recorded_columns`."""
+    """Between recorded outputs, s; default: see `hosts.recordings.recording`."""
     priority: bool = True
     """Whether to request real-time priority; an event reports the result."""
     world: str | None = None

@@ -52,12 +52,7 @@ class PageServer:
         return f"http://{name}:{port}/?token={self.access.token}"
 
 
-def drive_with_pages(
-    car: AliasedCar,
-    content: Content,
-    page_server: PageServer,
-    report: RunReport,
-) -> None:
+def drive_with_pages(car: AliasedCar, content: Content, page_server: PageServer, report: RunReport) -> None:
     """Serve pages until Ctrl-C. `car`: paused; the first frame of the first page starts it.
 
     Raises `HostError` if the car has ended.

@@ -213,11 +213,7 @@ def _check_space(needed: float, folder: Path) -> None:
 
 
 def _write_outcomes(
-    folder: Path,
-    table: OutcomeTable,
-    store: ResultStore[Row],
-    outcomes: Generator[Row],
-    scheduler: str | None,
+    folder: Path, table: OutcomeTable, store: ResultStore[Row], outcomes: Generator[Row], scheduler: str | None
 ) -> StudyOutcome:
     begin, is_lost, counts = clock.monotonic(), False, Counts()
     try:

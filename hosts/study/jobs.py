@@ -79,12 +79,7 @@ def checked_test(
     return test.name, settings
 
 
-def perform_test(
-    job: Job,
-    name: str,
-    fmu: FmuSource,
-    values: Mapping[str, Value],
-) -> TestRecord:
+def perform_test(job: Job, name: str, fmu: FmuSource, values: Mapping[str, Value]) -> TestRecord:
     """Run the test of a job. `name`: name of the FMU in messages; `values`: values of the parameters."""
     step = None if math.isnan(job.step) else job.step
     car = TestedCar(name, fmu, {**job.start, **values}, step)

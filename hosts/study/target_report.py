@@ -135,12 +135,7 @@ def search_figure(runs: TargetRuns, search: SearchResult) -> Figure:
     with plt.rc_context(STYLE):
         figure, axes = plt.subplots(figsize=(8.0, 4.5), layout="constrained")
         axes.plot(
-            [r.x for r in finished],
-            [factor * r.y for r in finished],
-            "o-",
-            color=BLUE,
-            label="runs",
-            linewidth=1.0,
+            [r.x for r in finished], [factor * r.y for r in finished], "o-", color=BLUE, label="runs", linewidth=1.0
         )
         target = runs.y_text(runs.target_value)
         axes.axhline(factor * runs.target_value, color="#555555", linestyle="--", label=f"wanted: {target}")

@@ -10,7 +10,7 @@ from hosts.measures.limits import column_of
 from hosts.study.jobs import Job
 from hosts.study.plan import Plan
 from hosts.study.study_runs import SingleProcess
-from hosts.study.target_search import SearchResult, seek
+from hosts.study.target_search import SearchResult, TargetSearch
 from hosts.study.worker_data import Outcome
 from hosts.study.worker_data import Run as StudyRun
 
@@ -78,7 +78,7 @@ class TargetRuns:
         low, high, log = self.parameter.low, self.parameter.high, self.parameter.log
         if self.job.manoeuvre is None:
             self._read_columns(low)
-        return seek(self.measure, self.target_value, low, high, log, start)
+        return TargetSearch(self.measure, self.target_value, (low, high), log, start).search()
 
     def _read_columns(self, low: float) -> None:
         """Make the run at an end of the range, from which the measures of a test and their units are known."""
@@ -96,7 +96,7 @@ class TargetRuns:
         return self._outcomes[x]
 
     def measure(self, x: float) -> tuple[float, str]:
-        """The measure at a value of the parameter, or NaN and the reason; see `seek`."""
+        """The measure at a value of the parameter, or NaN and the reason; see `TargetSearch`."""
         outcome = self._outcome_at(x)
         y = outcome.measures.get(self.column, math.nan)
         reason = "" if math.isfinite(y) else outcome.reason or "there is no such measure in the run"

@@ -63,59 +63,39 @@ class _UnexpectedRun(Exception):  # noqa: N818
     """A run that ends a method: it failed, or is on the other side of the target value."""
 
 
-def seek(
-    measure: Callable[[float], tuple[float, str]],
-    target: float,
-    low: float,
-    high: float,
-    log: bool = False,
-    start: float = math.nan,
-    most_runs: int = MAX_RUNS,
-) -> SearchResult:
-    """Seek a value of a parameter.
+class TargetSearch:
+    """A search for the value of a parameter at which a measure has a target value, by few runs.
 
     The first runs are at the ends of the range. If their measures bracket the target, Brent's root finding follows;
     else Brent's minimisation of the distance from the target, and root finding if a run is beyond the target. A further
     run beside the solution yields the slope.
 
-    Parameters
-    ----------
-    measure : callable
-        Function of the parameter: the measure, or NaN, and the reason for a NaN.
-    low, high : float
-        Range of the parameter.
-    log : bool
-        Whether the range is divided by the logarithm.
-    start : float
-        Of several solutions the bracket nearest to this value is taken; NaN: nearest to the middle.
-    most_runs : int
-        Largest number of runs.
+    `measure`: function of the parameter: the measure, or NaN, and the reason for a NaN; `ends`: range of the parameter;
+    `log`: whether it is divided by the logarithm; `start`: of several solutions the bracket nearest to this value is
+    taken; NaN: nearest to the middle.
 
     Notes
     -----
     R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapters 4 and 5, by SciPy.
     """
-    return _Search(measure, target, (low, high), log, start, most_runs).search()
-
-
-class _Search:
-    """A search whose runs are at positions 0 to 1 in the range."""
 
     def __init__(
         self,
         measure: Callable[[float], tuple[float, str]],
         target: float,
         ends: tuple[float, float],
-        log: bool,
-        start: float,
-        most_runs: int,
+        log: bool = False,
+        start: float = math.nan,
+        most_runs: int = MAX_RUNS,
     ) -> None:
+        # runs are at positions 0 to 1 in the range
         self._measure, self._target, self._ends, self._log, self._most_runs = measure, target, ends, log, most_runs
         self._runs: dict[float, Run] = {}
         self._tolerance = TOLERANCE * abs(target)
         self._start = self._position(start) if math.isfinite(start) and (start > 0.0 or not log) else 0.5
 
     def search(self) -> SearchResult:
+        """Make the runs."""
         with contextlib.suppress(_SearchEnd):
             self._search_from_ends()
         if (best := self._best()) is None or not self._meets(best):

@@ -61,15 +61,7 @@ def write_ssp(
     FileError
         The file cannot be written; an older one is then unchanged.
     """
-    if not isinstance(file, (str, PathLike)):
-        raise HostError(f"The file of an SSP is {brief(file)}; it must be a path.")
-    if (file := Path(file)).suffix != ".ssp":
-        raise HostError(f"{file}: the name of an SSP ends in .ssp.")
-    if not isinstance(name, str) or not name.isprintable():
-        raise HostError(f"The name of the system is {brief(name)}; it must be a text that can be printed.")
-    if version not in _VERSIONS:
-        raise HostError(f"The version of SSP is {brief(version)}; it must be {' or '.join(_VERSIONS)}.")
-    check_writable(file)
+    file = _checked_file(file, name, version)
     with ExitStack() as stack:
         folder = stack.enter_context(temporary_folder())
         fmus = fmus_of(parts, stack)
@@ -84,6 +76,20 @@ def write_ssp(
             archive.writestr("SystemStructure.ssd", document)
             for member, path in content.items():
                 archive.write(path, member)
+    return file
+
+
+def _checked_file(file: Path, name: str, version: str) -> Path:
+    """The path of the archive. Raises `HostError` if an argument of `write_ssp` is wrong, or `FileError`."""
+    if not isinstance(file, (str, PathLike)):
+        raise HostError(f"The file of an SSP is {brief(file)}; it must be a path.")
+    if (file := Path(file)).suffix != ".ssp":
+        raise HostError(f"{file}: the name of an SSP ends in .ssp.")
+    if not isinstance(name, str) or not name.isprintable():
+        raise HostError(f"The name of the system is {brief(name)}; it must be a text that can be printed.")
+    if version not in _VERSIONS:
+        raise HostError(f"The version of SSP is {brief(version)}; it must be {' or '.join(_VERSIONS)}.")
+    check_writable(file)
     return file
 
 

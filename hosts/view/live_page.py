@@ -24,8 +24,7 @@ from hosts.fmu.settings import settings_of
 from hosts.recordings.format import is_recording
 from hosts.recordings.load_manoeuvre import check_manoeuvre_option, load_manoeuvre
 from hosts.view.open_page import open_page
-from hosts.view.page_parts import PLATFORM, build_command, fmu_parts
-from hosts.view.page_text import page_text, script_of
+from hosts.view.page_parts import PLATFORM, build_command, fmu_parts, page_text, script_of
 from hosts.view.view_sources import ViewRunOptions, recordings_of
 
 if TYPE_CHECKING:

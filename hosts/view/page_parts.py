@@ -1,9 +1,10 @@
-"""Parts of an FMU for a page: its binary in WebAssembly, its drawing, its resources and its variables."""
+"""A page that runs FMUs: binary in WebAssembly, drawing, resources and variables of each, and the text of the page."""
 
 import base64
 import gzip
 import json
 import re
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,15 +16,19 @@ from fmpy.model_description import ModelDescription
 from ali3.archives import LARGEST_UNPACKED
 from ali3.processes import command_name
 from ali3.reading import is_file, read_bytes
+from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import ROAD
+from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.description_file import opened
 from hosts.fmu.description_record import description_record
 from hosts.fmu.fmu import described
 from hosts.fmu.fmu_file import snake_case
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.variables import Variables
+from viewer.html_document import html_document
+from viewer.page_data import page_data
 
 PLATFORM = "wasm32"
 _RESOURCES = "resources/"
@@ -136,3 +141,49 @@ def _check_kind(path: Path, description: ModelDescription) -> None:
 def packed(content: bytes) -> str:
     """Bytes as text of a page: base64 of gzip."""
     return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
+
+
+def page_text(
+    title: str,
+    fmus: Sequence[tuple[str, FmuParts]],
+    options: Mapping[str, Any],
+    manoeuvre: Manoeuvre | None = None,
+    recordings: Sequence[Recording] = (),
+    ends: Sequence[str] = (),
+) -> str:
+    """The HTML file of a page. Raises `ViewerError`: the script of the viewer is not there and cannot be built.
+
+    Parameters
+    ----------
+    fmus : sequence of (str, FmuParts)
+        FMUs with their titles and binaries; they run in step, with the same inputs.
+    options : mapping
+        Of the page: ``name`` of what it records, ``run`` at once, ``start`` values, ``step``, ``plots``.
+    manoeuvre : Manoeuvre, optional
+        Inputs over time, until the user takes over.
+    recordings : sequence of Recording
+        Drawn beside the FMUs at the same time.
+    ends : sequence of str
+        Messages of the page at the end of each recording.
+    """
+    data: dict[str, Any] = {"fmus": [fmu.record(name) for name, fmu in fmus], "options": dict(options)}
+    if manoeuvre is not None:
+        data["script"] = packed(json.dumps(script_of(manoeuvre)).encode())
+    if recordings:
+        data["beside"] = page_data([recording.thinned() for recording in recordings], {})
+        data["ends"] = list(ends)
+    return html_document(title, data, "Drive")
+
+
+def script_of(manoeuvre: Manoeuvre) -> dict[str, Any]:
+    """Inputs over time as the page reads them.
+
+    Raises `HostError`: the manoeuvre has a driver, whom a page does not have.
+    """
+    if manoeuvre.driver:
+        raise HostError(
+            f"The manoeuvre {manoeuvre.name} has a driver, who steers by what the car does; in a page a person drives. "
+            "Give a table of inputs."
+        )
+    columns = {name: values.tolist() for name, values in manoeuvre.inputs.items()}
+    return {"t": manoeuvre.time.tolist(), "columns": columns}

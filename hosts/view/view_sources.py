@@ -22,8 +22,7 @@ from hosts.driving.pilots.pilot import ACTS, OBSERVED
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu, described
-from hosts.fmu.geometry import RESOURCE, scene_of
-from hosts.fmu.scene_file import scene_from
+from hosts.fmu.geometry import RESOURCE, scene_from, scene_of
 from hosts.fmu.variables import Variables
 from hosts.recordings.format import is_recording
 from hosts.recordings.load_manoeuvre import manoeuvre_of

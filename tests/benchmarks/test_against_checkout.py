@@ -6,7 +6,7 @@ import pytest
 
 from benchmarks import cost
 from benchmarks.car.against_checkout import ROOT, measure
-from benchmarks.car.scene_instructions import SCENES
+from benchmarks.car.step_scenes import SCENES
 from tests.unoptimised import unoptimised
 
 

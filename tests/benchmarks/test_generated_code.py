@@ -4,7 +4,8 @@ import pytest
 
 from benchmarks.car.generated_code import blocks, measure
 from benchmarks.car.operations import disassembler
-from benchmarks.car.scene_instructions import SCENES, find_valgrind
+from benchmarks.car.scene_instructions import find_valgrind
+from benchmarks.car.step_scenes import SCENES
 from benchmarks.shared.figures import rows_of
 from tests.unoptimised import unoptimised
 

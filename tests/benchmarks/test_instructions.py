@@ -5,7 +5,7 @@ import json
 import pytest
 
 from benchmarks import cost
-from benchmarks.car import scene_instructions
+from benchmarks.car import scene_instructions, step_scenes
 from benchmarks.car.scene_instructions import find_valgrind
 from benchmarks.shared.figures import between, read, rows_of
 from mbs import simulate
@@ -15,10 +15,10 @@ from tests.unoptimised import unoptimised
 @pytest.mark.slow
 @unoptimised()
 def test_counts_are_those_of_a_run_and_a_dearer_step_is_reported(tmp_path, capsys, monkeypatch):
-    scene = scene_instructions.SCENES[0]._replace(steps=20)
-    program = scene_instructions.compile_program(tmp_path)
-    monkeypatch.setattr(scene_instructions, "SCENES", [scene])
-    monkeypatch.setattr(scene_instructions, "compile_program", lambda folder: program)
+    scene = step_scenes.SCENES[0]._replace(steps=20)
+    program = step_scenes.compile_program(tmp_path)
+    monkeypatch.setattr(step_scenes, "SCENES", [scene])
+    monkeypatch.setattr(step_scenes, "compile_program", lambda folder: program)
     table = tmp_path / "table.json"
     assert cost.main(["instructions", "--json", str(table)]) == 0
     stored = json.loads(table.read_text("utf-8"))
@@ -40,4 +40,4 @@ def test_counts_are_those_of_a_run_and_a_dearer_step_is_reported(tmp_path, capsy
 def test_the_table_of_the_page_has_every_scene():
     rows = rows_of(between(read(scene_instructions.PAGE), "instructions"))
     written = {(row["scene"], float(row["step, ms"])) for row in rows}
-    assert written == {(scene.name, 1e3 * scene.step) for scene in scene_instructions.SCENES}
+    assert written == {(scene.name, 1e3 * scene.step) for scene in step_scenes.SCENES}

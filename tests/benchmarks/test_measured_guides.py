@@ -43,7 +43,7 @@ def test_the_weight_of_a_pitched_chassis_is_in_its_signals() -> None:
     n = 1001
     names = {f"accelerometer_{place}.a{c}": np.zeros(n) for place in guides.POSITIONS for c in "xyz"}
     values = names | {"chassis.pitch": np.full(n, 0.1), "chassis.roll": np.full(n, 0.0)}
-    still = type("Still", (), {"t": np.arange(n) * guides.FINE, "__getitem__": lambda self, name: values[name]})()
+    still = type("Still", (), {"t": np.arange(n) * guides.FINE_STEP, "__getitem__": lambda self, name: values[name]})()
     seen = guides.accelerometer_signals(still, noise=0.0, offset=0.0, drift=0.0)
     np.testing.assert_allclose(
         seen.force[100, 0], guides.GRAVITY * np.array([-np.sin(0.1), 0.0, np.cos(0.1)]), atol=1e-9

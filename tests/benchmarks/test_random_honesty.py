@@ -10,16 +10,8 @@ from scipy.special import ellipj, ellipk
 import mbs
 from benchmarks import honesty
 from benchmarks.methods import families, random_cars, random_honesty, random_mechanisms
-from benchmarks.references.newton_euler import (
-    GROUND,
-    INSTANTS,
-    Dynamics,
-    Joint,
-    Link,
-    Mechanism,
-    NoReferenceError,
-    motion,
-)
+from benchmarks.references.newton_euler import INSTANTS, Dynamics, NoReferenceError, motion
+from benchmarks.references.rigid_mechanism import GROUND, Joint, Link, Mechanism
 from mbs.results.comparison import compared_sensors, differences, sizes_of
 from mbs.simulation.prepared_system import length_of
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.validation.curves import (
-    ENOUGH,
+    MIN_SECONDS,
     acceleration_error,
     curves,
     lateral_acceleration,
@@ -29,7 +29,7 @@ def drive() -> Drive:
 def test_understeer_and_sideslip_are_binned_over_the_measured_acceleration(drive: Drive) -> None:
     rows = window_rows(drive)
     actual = curves(drive, L, drive.vy[rows] + 0.1, 0.9 * drive.yaw_rate[rows])
-    judged = [c for c in actual if c.seconds >= ENOUGH]
+    judged = [c for c in actual if c.seconds >= MIN_SECONDS]
     assert {c.quantity for c in judged} == {"understeer angle", "sideslip"}
     assert min(c.acceleration for c in judged) < -0.5
     assert max(c.acceleration for c in judged) > 0.5

@@ -95,5 +95,5 @@ def test_the_bounds_of_a_fit_are_read_and_a_number_near_one_is_reported(tmp_path
     results = {"name": "a.b", "value": 1.5, "half_width_95": 0.1, "folds": [1.4, 1.6], "without": 1.02}
     rows = [refit.row_of(results | {"value": value}, 1.0, 2.0) for value in (1.015, 1.5, 1.985)]
     assert [row["near a bound"] for row in rows] == ["yes", "no", "yes"]
-    assert [line.split()[0] for line in refit.problems(rows)] == ["`a.b`", "`a.b`"]
+    assert [line.split()[0] for line in refit.bound_notes(rows)] == ["`a.b`", "`a.b`"]
     assert rows[1]["without it"] == pytest.approx(2.0)

@@ -13,7 +13,8 @@ import pytest
 from numpy.typing import NDArray
 
 from ali3.low_pass import low_pass
-from benchmarks.car import accuracy, fidelity_runs, manoeuvres, statics, trajectories
+from benchmarks.car import fidelity_runs, manoeuvres, statics, trajectories
+from benchmarks.car.fmu_runs import run_of_fmu, start_of_fmu
 from fmu_src.build.build import build_fmu
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
@@ -124,7 +125,7 @@ def held(fmu: Path, name: str) -> Columns:
         str(fmu),
         stop_time=manoeuvre.stop_time,
         output_interval=H,
-        start_values=accuracy.start_of_fmu(name) | {"step_size": H},
+        start_values=start_of_fmu(name) | {"step_size": H},
         input=signals,
         output=list(dict.fromkeys(places.get(n, (n, 0))[0] for n in trajectories.SENSORS)),
     )
@@ -163,7 +164,7 @@ def of_kinds(first: str, *others: str) -> pytest.MarkDecorator:
 @pytest.mark.parametrize("name", quick(FEW, manoeuvres.NAMES))
 def test_with_input_derivatives_an_fmu_is_as_accurate_as_the_kernel(car: Road, name: str) -> None:
     _, reference, length = trajectories.read(name)
-    found = errors(accuracy.run_of_fmu(car(name), name, H, follow=True), reference, length)
+    found = errors(run_of_fmu(car(name), name, H, follow=True), reference, length)
     assert beyond(name, found, BOUNDS[name]) == []
 
 
@@ -173,9 +174,7 @@ def test_with_input_derivatives_the_hatchback_is_as_accurate(built: Callable[...
     for name in manoeuvres.NAMES:
         _, reference, length = trajectories.read(name, "hatchback")
         fmu = built("native", name if name in manoeuvres.OTHER_ROAD else "", "hatchback")
-        wrong += beyond(
-            name, errors(accuracy.run_of_fmu(fmu, name, H, True, "hatchback"), reference, length), HATCHBACK[name]
-        )
+        wrong += beyond(name, errors(run_of_fmu(fmu, name, H, True, "hatchback"), reference, length), HATCHBACK[name])
     assert not wrong, "\n".join(wrong)
 
 
@@ -186,8 +185,7 @@ def test_with_input_derivatives_errors_fall_with_the_square_of_the_step(car: Roa
     for name in ("slalom", "double_lane_change_replay"):
         _, reference, length = trajectories.read(name)
         coarse, fine = (
-            errors(accuracy.run_of_fmu(car(name), name, h, follow=True), reference, length)["wheel load"]
-            for h in (H, 0.25 * H)
+            errors(run_of_fmu(car(name), name, h, follow=True), reference, length)["wheel load"] for h in (H, 0.25 * H)
         )
         order = float(np.log2(coarse / fine)) / 2.0
         if not 1.7 < order < 2.4:
@@ -235,7 +233,7 @@ def test_wheel_loads_at_rest_are_those_of_the_lever_rule(car: Road) -> None:
 def test_a_steady_turn_is_a_circle_with_its_centripetal_acceleration(car: Road) -> None:
     """The circle through the last places; speed, yaw rate and lateral acceleration are outputs of their own."""
     names = ("chassis.x", "chassis.y", "speed", "chassis.wz", "chassis.ay")
-    rows = accuracy.run_of_fmu(car("steady_cornering"), "steady_cornering", H, follow=False)
+    rows = run_of_fmu(car("steady_cornering"), "steady_cornering", H, follow=False)
     x, y, speed, rate, lateral = (np.asarray(rows[n])[-60:] for n in names)
     unit = np.column_stack([x, y, np.ones_like(x)])
     (a, b, c), *_ = np.linalg.lstsq(unit, x**2 + y**2, rcond=None)
@@ -317,7 +315,7 @@ def test_a_host_in_c_and_libcosim_run_the_references_of_constant_inputs(car: Roa
     for name in CONSTANT:
         _, reference, length = trajectories.read(name)
         manoeuvre = manoeuvres.load(name)
-        start = {**accuracy.start_of_fmu(name), **manoeuvre.at(0.0), "step_size": H}
+        start = {**start_of_fmu(name), **manoeuvre.at(0.0), "step_size": H}
         steps = round(manoeuvre.stop_time / H)
         through = {"C": by_c_host(car("drop"), tmp_path, start, trajectories.SENSORS, steps, H)}
         if importlib.util.find_spec("libcosimpy") is not None:
@@ -336,7 +334,7 @@ def test_inputs_that_are_given_within_steps_of_fmi_3_are_as_right_as_derivatives
     _, reference, length = trajectories.read("slalom")
     results = {}
     for kind, follow in (("native", True), ("fmi3_scalar", True), ("fmi3_scalar", False)):
-        columns = accuracy.run_of_fmu(built(kind, ""), "slalom", 0.01, follow)
+        columns = run_of_fmu(built(kind, ""), "slalom", 0.01, follow)
         results[kind, follow] = trajectories.path_error(columns, reference) / length
     assert results["fmi3_scalar", True] < 2.0 * results["native", True]
     assert results["fmi3_scalar", True] < 0.1 * results["fmi3_scalar", False]

@@ -18,8 +18,8 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
-from hosts.driving.pilots.fixed_steering import FixedSteering
 from hosts.driving.pilots.run_up_pilot import RunUpPilot
+from hosts.driving.pilots.steering_table import FixedSteering
 from hosts.driving.result import Result
 from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu

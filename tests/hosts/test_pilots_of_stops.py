@@ -8,9 +8,9 @@ import pytest
 
 from hosts.driving.course import course_of
 from hosts.driving.pilots.braking_pilot import Braking
-from hosts.driving.pilots.fixed_steering import FixedSteering
 from hosts.driving.pilots.line_follower import LineFollower
 from hosts.driving.pilots.run_up_pilot import RunUpPilot
+from hosts.driving.pilots.steering_table import FixedSteering
 from hosts.driving.planned_course import planned
 
 

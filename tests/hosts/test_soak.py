@@ -28,8 +28,8 @@ from hosts.recordings.replay import replay
 from hosts.soak import drive as drive_module
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Watch
 from hosts.soak.drive import Failure, Memory, Outcome, Task, drive
+from hosts.soak.soak import is_good, print_outcomes
 from hosts.soak.soak_roads import Ground, jump_ground, jump_heights
-from hosts.soak.table import is_good, print_outcomes
 
 STEP = 0.002
 

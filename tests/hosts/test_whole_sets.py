@@ -10,7 +10,7 @@ import pytest
 from fmpy.util import read_csv
 
 from ali3.write_parameter_set import write_parameter_set
-from hosts.catalogue.cars import cars_of
+from hosts.catalogue.car import cars_of
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.parameters_as_set import parameter_set_of

@@ -102,9 +102,7 @@ def _value_texts(variables: Variables, name: str, value: Value) -> _ValueTexts:
 
 
 def overview_tables(
-    tests: Sequence[StandardTest],
-    labels: Sequence[str],
-    records: Mapping[str, Mapping[str, TestRecord | str]],
+    tests: Sequence[StandardTest], labels: Sequence[str], records: Mapping[str, Mapping[str, TestRecord | str]]
 ) -> list[HtmlElement]:
     """The table of the outcomes of tests by car, and the table of all measures by car."""
     outcome_rows: list[list[Content]] = [

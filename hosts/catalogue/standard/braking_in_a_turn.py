@@ -4,13 +4,13 @@ import math
 from collections.abc import Mapping, Sequence
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
+from hosts.catalogue.circle_stop import COMPARED, STEADY_TIME, Stop
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import StopConditions, constant_inputs, start_at_speed
 from hosts.common.errors import HostError
 from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
-from hosts.driving.pilots.fixed_steering import FixedSteering
+from hosts.driving.pilots.steering_table import FixedSteering
 
 STEP = 0.005  # s; the yaw acceleration is a finite difference
 ON_CIRCLE = 12.0  # s, after which the steering is fixed
@@ -56,13 +56,13 @@ def drive_stop(car: TestedCar, settings: Mapping[str, float], pedal: float, long
         radius, speed, constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"], horizon=HORIZON
     )
     pilot = Braking(
-        FixedSteering(circle, begin, STEADY),
-        lambda time, observation: time >= begin + 1.5 * STEADY - 1e-9,
+        FixedSteering(circle, begin, STEADY_TIME),
+        lambda time, observation: time >= begin + 1.5 * STEADY_TIME - 1e-9,
         pedal,
         settings["rise_time"],
     )
     # Long enough for a deceleration of 0.5 m/s2.
-    stop_time = begin + 1.5 * STEADY + min(longest_stop, settings["rise_time"] + speed / 0.5)
+    stop_time = begin + 1.5 * STEADY_TIME + min(longest_stop, settings["rise_time"] + speed / 0.5)
     conditions = StopConditions(stands=0.05)
 
     def is_over(time: float, outputs: Mapping[str, float]) -> bool:

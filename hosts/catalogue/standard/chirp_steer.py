@@ -1,6 +1,6 @@
 """Sinusoidal steering of increasing frequency: frequency responses, after ISO 7401."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -37,22 +37,29 @@ def drive(sheet: Sheet) -> None:
     sheet.runs["chirp"] = run.thinned()
     sheet.progress(0.95)
     sheet.add("run", run=run, speed=ramp.speed, amplitude=amplitude)
-    responses: list[dict[str, Any]] = []
-    for name, (signal, word, unit, zeros) in _QUANTITIES.items():
-        response = _response(run, getattr(run, signal), low, high)
-        missing = "" if len(response.frequency) else f"The run does not show the {word}."
-        names = {"name": name, "word": word, "unit": unit, "response": response, "band": bandwidth(response)}
-        reason = missing or "Not within the range of frequencies."
-        sheet.add("quantity", why_none=reason, should_be=bool(missing), frequency=response.frequency, **names)
-        responses += [] if missing else [{**names, "zeros": zeros}]
-    fitted_responses = [q for q in responses if q["zeros"] is not None]
-    fits = fit_second_order([q["response"] for q in fitted_responses], [q["zeros"] for q in fitted_responses]) or [
-        SecondOrder()
-    ]
-    fitted_names = " and ".join(q["word"] for q in fitted_responses)
-    reason = "The fit does not converge." if fitted_responses else "There is no response."
-    sheet.add("mode", why_none=reason, fit=fits[0], misfit=max(f.misfit for f in fits), words=fitted_names or "nothing")
+    responses = [names for name in _QUANTITIES if (names := _add_quantity(sheet, name, run)) is not None]
+    _add_mode(sheet, [names for names in responses if names["zeros"] is not None])
     sheet.add("pictures", run=run, responses=responses)
+
+
+def _add_quantity(sheet: Sheet, name: str, run: SteeredRun) -> dict[str, Any] | None:
+    """Add the measures of a quantity. Returns the names of its plots; None if the run does not show it."""
+    low, high = sheet.settings["lowest_frequency"], sheet.settings["highest_frequency"]
+    signal, word, unit, zeros = _QUANTITIES[name]
+    response = _response(run, getattr(run, signal), low, high)
+    is_shown = len(response.frequency) > 0
+    reason = "Not within the range of frequencies." if is_shown else f"The run does not show the {word}."
+    names = {"name": name, "word": word, "unit": unit, "response": response, "band": bandwidth(response)}
+    sheet.add("quantity", why_none=reason, should_be=not is_shown, frequency=response.frequency, **names)
+    return {**names, "zeros": zeros} if is_shown else None
+
+
+def _add_mode(sheet: Sheet, fitted: Sequence[dict[str, Any]]) -> None:
+    """Add the measures of the natural mode of the bicycle model that is fitted to responses."""
+    fits = fit_second_order([q["response"] for q in fitted], [q["zeros"] for q in fitted]) or [SecondOrder()]
+    reason = "The fit does not converge." if fitted else "There is no response."
+    words = " and ".join(q["word"] for q in fitted) or "nothing"
+    sheet.add("mode", why_none=reason, fit=fits[0], misfit=max(f.misfit for f in fits), words=words)
 
 
 def _table(

@@ -54,11 +54,7 @@ class Passage:
         x0, y0, yaw0 = self.pose
         dx, dy = self.result["chassis.x"][self.after] - x0, self.result["chassis.y"][self.after] - y0
         yaw = angle_difference(self.result["chassis.yaw"][self.after], yaw0)
-        return (
-            math.cos(yaw0) * dx + math.sin(yaw0) * dy,
-            math.cos(yaw0) * dy - math.sin(yaw0) * dx,
-            yaw,
-        )
+        return (math.cos(yaw0) * dx + math.sin(yaw0) * dy, math.cos(yaw0) * dy - math.sin(yaw0) * dx, yaw)
 
     @cached_property
     def least_clearance(self) -> float:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
+from hosts.catalogue.circle_stop import COMPARED, STEADY_TIME, Stop
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.standard.braking_in_a_turn import STEP, drive_stop
 
@@ -16,7 +16,9 @@ def drive(sheet: Sheet) -> None:
     levels, released = round(settings["levels"]), list[tuple[float, Stop]]()
     for k in range(1, levels + 1):
         requested = settings["lowest"] + (settings["highest"] - settings["lowest"]) * (k - 1) / max(levels - 1, 1)
-        release = drive_stop(car, settings | {"lateral_acceleration": requested, "rise_time": 0.0}, 0.0, AFTER + STEADY)
+        release = drive_stop(
+            car, settings | {"lateral_acceleration": requested, "rise_time": 0.0}, 0.0, AFTER + STEADY_TIME
+        )
         sheet.add_run(f"{requested:.6g}_m_s2", release.result)
         if math.isnan(release.onset):
             sheet.add("off_circle", last=release, requested=requested)

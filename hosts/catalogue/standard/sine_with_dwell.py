@@ -147,11 +147,7 @@ def filtered_run(run: SteeredRun) -> SteeredRun:
 
 
 def drive_series(
-    car: TestedCar,
-    speed: float,
-    side: float,
-    amplitudes: list[float],
-    progress: Callable[[float], None],
+    car: TestedCar, speed: float, side: float, amplitudes: list[float], progress: Callable[[float], None]
 ) -> list[DwellRun]:
     """Drive runs with increasing amplitudes until the car is lost.
 

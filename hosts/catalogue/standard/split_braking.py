@@ -10,8 +10,8 @@ ROAD = "split.road"  # a resource of the FMU of a car: friction 1.0 on the left,
 def drive(sheet: Sheet) -> None:
     """Drive one stop, with the left and the right wheels on different friction."""
     car = sheet.with_step_up_to(STEP, "the rise of the yaw rate")
-    run, onset, notes = drive_stop(car, sheet.settings, {"road.file": ROAD})
-    sheet.runs["split_braking"] = run
-    sheet.notes += notes
+    stop = drive_stop(car, sheet.settings, {"road.file": ROAD})
+    sheet.runs["split_braking"] = stop.run
+    sheet.notes += stop.notes
     sheet.progress(1.0)
-    sheet.add("stop", run=run, onset=onset)
+    sheet.add("stop", **stop.names)

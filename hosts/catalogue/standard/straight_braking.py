@@ -2,6 +2,8 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 from hosts.catalogue.car import TestedCar
@@ -17,44 +19,59 @@ from hosts.driving.result import Result
 
 STEP = 0.005  # s; a fraction of the rise time of the pedal
 RESOLUTION = 0.01  # of the largest pedal without locked wheels
+MIN_DECELERATION = 1.0  # m/s2, for which a run is long enough
+
+
+@dataclass(frozen=True)
+class Stop:
+    """A stop from the speed of the test, with the names that the measures read."""
+
+    run: Result
+    onset: float
+    """Time of the first pedal motion, s; NaN if the speed was not reached."""
+    notes: tuple[str, ...]
+
+    @property
+    def names(self) -> dict[str, Any]:
+        """Values for the expressions of the file."""
+        return {"run": self.run, "onset": self.onset}
 
 
 def drive(sheet: Sheet) -> None:
     """Drive a stop; if wheels lock, also stops with less pedal until none locks."""
     car, settings = sheet.with_step_up_to(STEP, "the rise of the deceleration"), sheet.settings
     sheet.add("selector")
-    run, onset, notes = drive_stop(car, settings)
-    sheet.runs["straight_braking"] = run
-    sheet.notes += notes
+    stop = drive_stop(car, settings)
+    sheet.runs["straight_braking"] = stop.run
+    sheet.notes += stop.notes
     sheet.progress(0.2)
-    sheet.add("stop", run=run, onset=onset)
+    sheet.add("stop", **stop.names)
     best_pedal: float = settings["pedal"]
-    stop_names: dict[str, Any] = {"run": run, "onset": onset}
-    if sheet.value("locking", **stop_names):
-        sheet.add("locked", **stop_names)
-        best_pedal, stop_names = _best_unlocked(sheet, car)
-        sheet.runs |= {"unlocked": stop_names["run"]} if stop_names else {}
-    error = HostError("wheels lock at every pedal")
-    if stop_names and not sheet.value("locks_known", **stop_names):
-        error, stop_names = HostError("the car does not provide the slip of its wheels, or did not brake"), {}
-    missing = {} if stop_names else dict.fromkeys(("best", "run", "onset"), error)
-    sheet.add("unlocked", **{"best": best_pedal, "resolution": RESOLUTION, **stop_names, **missing})
-    sheet.add("pictures", run=run, onset=onset)
+    best: Stop | None = stop
+    if sheet.value("locking", **stop.names):
+        sheet.add("locked", **stop.names)
+        best_pedal, best = _best_unlocked(sheet, car)
+        sheet.runs |= {} if best is None else {"unlocked": best.run}
+    _add_unlocked(sheet, best_pedal, best)
+    sheet.add("pictures", **stop.names)
     sheet.progress(1.0)
 
 
-def drive_stop(
-    car: TestedCar, settings: Mapping[str, float], start: Mapping[str, Value] | None = None
-) -> tuple[Result, float, tuple[str, ...]]:
-    """Drive straight and brake to rest. `start`: start values of the car in addition to its speed.
+def _add_unlocked(sheet: Sheet, pedal: float, stop: Stop | None) -> None:
+    """Add the measures of the largest pedal without locked wheels. `stop`: None if wheels lock at every pedal."""
+    error = None
+    if stop is None:
+        error = HostError("wheels lock at every pedal")
+    elif not sheet.value("locks_known", **stop.names):
+        error = HostError("the car does not provide the slip of its wheels, or did not brake")
+    names = {"best": pedal, **stop.names} if stop is not None and error is None else {}
+    sheet.add("unlocked", resolution=RESOLUTION, **(names or dict.fromkeys(("best", "run", "onset"), error)))
 
-    Returns
-    -------
-    result : Result
-    onset : float
-        Time of the first pedal motion, s; NaN if the speed was not reached.
-    notes : tuple of str
-    """
+
+def drive_stop(
+    car: TestedCar, settings: Mapping[str, float], start: Mapping[str, Value] = MappingProxyType({})
+) -> Stop:
+    """Drive straight and brake to rest. `start`: start values of the car in addition to its speed."""
     speed = settings["speed"] / 3.6
     neutral = settings["neutral"] >= 0.5 and "selector" in car.facts.inputs
     run_up = RunUp(car, speed)
@@ -65,8 +82,7 @@ def drive_stop(
         settings["rise_time"],
         {"selector": (1.0, 0.0)} if neutral else {},
     )
-    # Long enough for a deceleration of 1 m/s2.
-    stop_time = run_up.longest + settings["rise_time"] + speed / 1.0
+    stop_time = run_up.longest + settings["rise_time"] + speed / MIN_DECELERATION
     conditions = StopConditions(stands=0.02)
 
     def is_over(time: float, outputs: Mapping[str, float]) -> bool:
@@ -74,35 +90,36 @@ def drive_stop(
             return (conditions(outputs) and conditions.reason != "stands") or time > run_up.longest
         return conditions(outputs)
 
-    result = car.drive(
-        constant_inputs(car, "straight_braking", stop_time, {}, {**run_up.start, **(start or {})}), pilot, is_over
-    )
-    end_time, notes = result.time[-1], early_end_notes("straight braking", result)
-    if math.isnan(pilot.onset):
-        notes += (
-            f"The car did not hold {settings['speed']:g} km/h: after {end_time:.4g} s it has "
-            f"{3.6 * result['speed'][-1]:.4g} km/h; take a lower speed.",
-        )
-    elif conditions.reason in ("spun", "rolled"):
-        notes += (f"The car has {conditions.reason} at {end_time:.4g} s; the run ends there.",)
-    elif not conditions.reason and not result.failed_steps:
-        notes += (
-            f"The car has not stopped after {end_time:.4g} s; its speed is {3.6 * result['speed'][-1]:.3g} km/h.",
-        )
-    return result, pilot.onset, notes
+    manoeuvre = constant_inputs(car, "straight_braking", stop_time, {}, {**run_up.start, **start})
+    result = car.drive(manoeuvre, pilot, is_over)
+    notes = early_end_notes("straight braking", result)
+    return Stop(result, pilot.onset, (*notes, *_end_notes(settings, result, pilot.onset, conditions.reason)))
 
 
-def _best_unlocked(sheet: Sheet, car: TestedCar) -> tuple[float, dict[str, Any]]:
-    """The largest pedal without locked wheels, to `RESOLUTION`, with its run; an empty run: there is none."""
+def _end_notes(settings: Mapping[str, float], result: Result, onset: float, reason: str) -> list[str]:
+    """A sentence if the car has not come to rest after braking. `reason`: of the `StopConditions`."""
+    end, speed = result.time[-1], 3.6 * result["speed"][-1]
+    if math.isnan(onset):
+        held = f"The car did not hold {settings['speed']:g} km/h"
+        return [f"{held}: after {end:.4g} s it has {speed:.4g} km/h; take a lower speed."]
+    if reason in ("spun", "rolled"):
+        return [f"The car has {reason} at {end:.4g} s; the run ends there."]
+    if not reason and not result.failed_steps:
+        return [f"The car has not stopped after {end:.4g} s; its speed is {speed:.3g} km/h."]
+    return []
+
+
+def _best_unlocked(sheet: Sheet, car: TestedCar) -> tuple[float, Stop | None]:
+    """The largest pedal without locked wheels, to `RESOLUTION`, with its stop; None: there is none."""
     low, high = 0.0, sheet.settings["pedal"]
-    best: dict[str, Any] = {}
+    best: Stop | None = None
     run_count = math.ceil(math.log2(max(high / RESOLUTION, 1.0)))
     for k in range(run_count):
         pedal = 0.5 * (low + high)
-        run, onset, _ = drive_stop(car, {**sheet.settings, "pedal": pedal})
-        if math.isnan(onset) or sheet.value("locking", run=run, onset=onset):
+        stop = drive_stop(car, {**sheet.settings, "pedal": pedal})
+        if math.isnan(stop.onset) or sheet.value("locking", **stop.names):
             high = pedal
         else:
-            low, best = pedal, {"run": run, "onset": onset}
+            low, best = pedal, stop
         sheet.progress(0.2 + 0.8 * (k + 1) / run_count)
     return low, best

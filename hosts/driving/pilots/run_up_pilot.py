@@ -77,8 +77,4 @@ class RunUpPilot:
         x0, y0, yaw0 = self.pose
         dx, dy = observation["chassis.x"] - x0, observation["chassis.y"] - y0
         turned = math.remainder(observation["chassis.yaw"] - yaw0, 2.0 * math.pi)
-        return (
-            math.cos(yaw0) * dx + math.sin(yaw0) * dy,
-            math.cos(yaw0) * dy - math.sin(yaw0) * dx,
-            turned,
-        )
+        return (math.cos(yaw0) * dx + math.sin(yaw0) * dy, math.cos(yaw0) * dy - math.sin(yaw0) * dx, turned)

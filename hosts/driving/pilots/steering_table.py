@@ -1,4 +1,4 @@
-"""A pilot that steers by a table, whatever the car does."""
+"""Pilots that steer by a table or hold an angle, whatever the car does."""
 
 from collections.abc import Mapping
 
@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hosts.common.errors import HostError
+from hosts.driving.ground_marks import Mark, marks_of
+from hosts.driving.pilots.pilot import Pilot
 
 
 class SteeringTable:
@@ -34,3 +36,35 @@ class SteeringTable:
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         # Times are sums with rounding errors, which must not hide a step.
         return {self.name: float(np.interp(time + 1e-9, self.time, self.values))}
+
+
+class FixedSteering:
+    """Drives as another pilot, but with a fixed steering from a time on.
+
+    `fixed_at`: s; `mean_over`: duration before it, s, over which the fixed steering is the mean; `value`: the fixed
+    steering; None before.
+    """
+
+    def __init__(self, pilot: Pilot, fixed_at: float, mean_over: float) -> None:
+        self.pilot = pilot
+        self.fixed_at = fixed_at
+        self.mean_over = mean_over
+        self.value: float | None = None
+        self._sum = 0.0
+        self._count = 0
+
+    @property
+    def marks(self) -> list[Mark]:
+        """Marks of the other pilot."""
+        return marks_of(self.pilot)
+
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
+        acts = dict(self.pilot.act(time, observation))
+        if self.value is None and time >= self.fixed_at - 1e-9 and self._count:
+            self.value = self._sum / self._count
+        if self.value is not None:
+            return {**acts, "steering": self.value}
+        if time >= self.fixed_at - self.mean_over - 1e-9:
+            self._sum += acts["steering"]
+            self._count += 1
+        return acts

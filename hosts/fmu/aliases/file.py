@@ -10,8 +10,7 @@ from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.aliases.checks import check_unit, declared, factor_of_unit, is_si
-from hosts.fmu.aliases.derived_entry import parse_derived
-from hosts.fmu.aliases.derived_variable import Derived, sort_derived
+from hosts.fmu.aliases.derived_variable import Derived, parse_derived, sort_derived
 from hosts.fmu.variables import Variable, Variables
 
 _RECORDED = ("input", "output")

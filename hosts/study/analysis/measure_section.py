@@ -30,12 +30,7 @@ _MAX_EXTREMES = 5
 
 
 def measure_section(
-    data: StudyData,
-    response: Response,
-    number: int,
-    plots: Plots,
-    commands: Commands,
-    numbers: list[dict[str, object]],
+    data: StudyData, response: Response, number: int, plots: Plots, commands: Commands, numbers: list[dict[str, object]]
 ) -> Section:
     """The section of a measure: distribution, indices, main effects, runs, and the highest and lowest runs.
 

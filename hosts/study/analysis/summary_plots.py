@@ -77,10 +77,7 @@ def plot_indices(axes: Axes, indices: Indices) -> None:
         if np.isfinite(values).any():
             value, half = values[order], np.nan_to_num(conf[order])
             may_be_zero = (value - half <= 0.0) & (half > 0.0)
-            for rows, fill, message in (
-                (~may_be_zero, colour, label),
-                (may_be_zero, "white", f"{label}, may be 0"),
-            ):
+            for rows, fill, message in ((~may_be_zero, colour, label), (may_be_zero, "white", f"{label}, may be 0")):
                 if rows.any():
                     axes.errorbar(
                         value[rows], at[rows] + shift, xerr=half[rows], fmt="o", color=colour, markerfacecolor=fill,

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from hosts.common.errors import HostError
 from hosts.fmu.aliases.derivation import Derivation
-from hosts.fmu.aliases.derived_entry import parse_derived
+from hosts.fmu.aliases.derived_variable import parse_derived
 from hosts.fmu.aliases.file import read_aliases
 from hosts.fmu.aliases.formulas import FORMULAS
 

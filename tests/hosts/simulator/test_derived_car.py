@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hosts.fmu.aliases.alias import Alias, Aliases
-from hosts.fmu.aliases.derived_entry import parse_derived
+from hosts.fmu.aliases.derived_variable import parse_derived
 from hosts.fmu.fmu_source import FmuSource
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.car_events import CarState

@@ -15,9 +15,8 @@ from hosts.fmu.fmu import Fmu
 from hosts.recordings.last_drive import last_drive
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.recordings.manoeuvre_export import export_manoeuvre
-from hosts.recordings.recorded_columns import recorded_columns
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording
-from hosts.recordings.recording import Recorder, recording_meta
+from hosts.recordings.recording import Recorder, recorded_columns, recording_meta
 from hosts.recordings.replay import replay
 from hosts.recordings.tables import joined
 from tests.hosts.simulator.recorded_sledge import STEP, TABLES, Drive, whole_drive
@@ -123,7 +122,7 @@ def test_outputs_are_recorded_seldom(fmus: dict[str, Path], tmp_path: Path) -> N
 def test_what_of_a_car_is_recorded(fmus: dict[str, Path], monkeypatch: pytest.MonkeyPatch) -> None:
     """Inputs at every step, what the scene draws often, amplitudes too; or all of them by an interval."""
     scene = {"frames": {"a": {"position": ["x", "y", "z"]}}, "flexible": [{"amplitudes": ["q1"]}]}
-    monkeypatch.setattr("hosts.recordings.recorded_columns.scene_of", lambda fmu: scene)
+    monkeypatch.setattr("hosts.recordings.recording.scene_of", lambda fmu: scene)
     arguments = fmus["sledge"], ["u"], ["x", "y", "speed", "q1"], 0.002
     assert recorded_columns(*arguments) == {"u": 1, "x": 12, "y": 12, "speed": 48, "q1": 12}
     assert recorded_columns(*arguments, 0.01) == {"u": 1, "x": 5, "y": 5, "speed": 5, "q1": 5}

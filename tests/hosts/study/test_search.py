@@ -5,11 +5,14 @@ from collections.abc import Callable
 
 import pytest
 
-from hosts.study.target_search import SearchResult, seek
+from hosts.study.target_search import SearchResult, TargetSearch
 
 
 def sought(function: Callable[[float], float], target: float, low: float, high: float, **more: float) -> SearchResult:
-    result = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), target, low, high, **more)
+    def measure(x: float) -> tuple[float, str]:
+        return function(x), "" if math.isfinite(function(x)) else "failed"
+
+    result = TargetSearch(measure, target, (low, high), **more).search()
     assert len({run.x for run in result.runs}) == len(result.runs)  # no run twice
     return result
 
