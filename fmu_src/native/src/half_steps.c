@@ -26,7 +26,7 @@ static double counted_length(int64_t n, double h) { return (double)n * h / stret
 
 /* Whether the second motion has used its budget up to a step. */
 static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *step) {
-  return t->spent > BUDGET + step->simulated / (double)ALI3_MOST_PARTS;
+  return t->kept.spent > BUDGET + step->simulated / (double)ALI3_MOST_PARTS;
 }
 
 /* Richardson extrapolation: error of a motion from its difference to one with 1/n of the step, for order two as of
@@ -47,18 +47,24 @@ static int64_t abrupt_steps(const ali3_report *report) { return report->abrupt_s
 static bool disagree(double difference) { return difference > ALI3_AGREED * ALI3_WRONG_ERROR; }
 
 /* Whether an output is compared: the loaded System computes it, and it has a comparison in the table. */
-static bool is_compared(const slave *s, const slave_variable *v) {
-  return v->judged.unit >= 0 && !(v->uncomputed >> s->fidelity.number & 1);
+static bool is_compared(const slave_fidelity *f, const slave_variable *v) {
+  return v->judged.unit >= 0 && !(v->uncomputed >> f->number & 1);
+}
+
+/* Number of compared outputs of a fidelity. */
+static size_t compared_count(const slave_fidelity *f) {
+  const slave_table *table = &slave_the_table;
+  size_t n = 0;
+  for (size_t i = table->n_known; i < table->n_variables; i++) n += is_compared(f, table->variable + i);
+  return n;
 }
 
 /* Allocates one block for the compared outputs; false if there are none or no memory. */
 static bool begin_comparison(slave *s) {
   slave_half_steps *t = &s->half_steps;
   const slave_table *table = &slave_the_table;
-  size_t n = 0;
-  if (t->compared != NULL) return true;
-  for (size_t i = table->n_known; i < table->n_variables; i++) n += is_compared(s, table->variable + i);
-  if (n == 0) return false;
+  const size_t n = compared_count(&s->fidelity);
+  if (t->compared != NULL || n == 0) return t->compared != NULL;
   t->compared = s->memory.allocate(
       1, n * (sizeof(ali3_compared) + 2 * sizeof(double) + sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)));
   if (t->compared == NULL) return false;
@@ -69,7 +75,7 @@ static bool begin_comparison(slave *s) {
   t->judged = (ali3_judged *)(t->variable + n);
   t->sensor = (int32_t *)(t->judged + n);
   for (size_t i = table->n_known, k = 0; k < n; i++) {
-    if (!is_compared(s, table->variable + i)) continue;
+    if (!is_compared(&s->fidelity, table->variable + i)) continue;
     t->variable[k] = i;
     t->judged[k] = table->variable[i].judged;
     t->sensor[k++] = table->variable[i].index;
@@ -82,63 +88,38 @@ static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system
 
 /* Clears the largest differences seen so far. */
 static void reset_difference(slave_half_steps *t) {
-  t->difference = 0.0;
+  t->kept.difference = 0.0;
   for (int32_t i = 0; i < t->n; i++) t->compared[i].gap = 0.0;
 }
 
-/* Logged for hosts that ask for all messages, as it is no sign of an error. `goes_on`: from there. */
-static void log_unchecked(slave *s, double time, const char *why, bool goes_on) {
+/* Logged for hosts that ask for all messages, as it is no sign of an error. */
+static void log_unchecked(slave *s, double time, const char *why) {
   if (s->error_warned || s->unchecked_logged) return;
   s->unchecked_logged = true;
-  slave_log(s, SLAVE_OK, "From %.4g s on %s: %s. This is reported once.", time,
-            goes_on ? "the second motion begins at the first one, so that errors of earlier steps are not seen to grow"
-                    : "no second motion is computed, so that the error is unknown",
-            why);
+  slave_log(s, SLAVE_OK,
+            "From %.4g s on no second motion is computed, so that the error is unknown: %s. This is reported once.",
+            time, why);
 }
 
-/* Forgets the differences after a time, as a state from then was set. */
-static void forget_after(slave *s, double time) {
+/* Takes the counts of the first motion from its report. */
+static void take_counts(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  int32_t worst;
-  for (int32_t i = 0; i < t->n; i++)
-    if (t->compared[i].time > time) t->compared[i].gap = 0.0;
-  if (!(t->time > time)) return;
-  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
-  t->difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst);
-  t->time = worst < 0 ? time : t->compared[worst].time;
-}
-
-void slave_half_steps_begin(slave *s) {
-  slave_half_steps *t = &s->half_steps;
-  const double now = ali3_time(s->fidelity.kernel);
-  t->at_start = s->completed.n == 0;
-  /* without a road the error of a start is extrapolated from its growth, which has no part that could go on */
-  t->resumed =
-      has_road(s) && !t->at_start && now >= t->since ? fmin(SPAN, (t->scheduled - now) / stretch(s->completed.h)) : 0.0;
-  if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, now, "a state was set", t->resumed > 0.0);
-  t->remaining = 0.0;
-  /* a start may have any time; time that is left stays until a step succeeds, as another state may be set before */
-  if (!(t->resumed > 0.0)) t->scheduled = -HUGE_VAL;
-  t->n_late = 0;
-  t->cost = 0;
-  t->n_made = 0;
-  t->early_difference = t->late_difference = 0.0;
-  t->origin = t->simulated;
-  t->predicted = HUGE_VAL;
-  t->checked = -HUGE_VAL;
-  if (!begin_comparison(s)) return;
-  if (t->at_start) {
-    reset_difference(t);
-    memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
-  } else {
-    forget_after(s, now);
-  }
-  if (t->at_start && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
-    ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
   const ali3_report report = get_report(s);
   t->abrupt = abrupt_steps(&report);
   t->halvings = report.halvings;
   t->iterations = report.iterations;
+}
+
+void slave_half_steps_begin(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  t->kept = (slave_second_motion){.scheduled = -HUGE_VAL, .predicted = HUGE_VAL, .checked = -HUGE_VAL};
+  t->n_late = 0;
+  t->n_made = 0;
+  take_counts(s);
+  if (!begin_comparison(s)) return;
+  memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
+  if (ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
+    ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
 }
 
 void slave_half_steps_observe(slave *s) {
@@ -208,37 +189,37 @@ static ali3_status make_inner_step(slave *s, const slave_late_step *step) {
  * abrupt step or difference, within the budget. */
 static bool begin_late_step(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
-  const bool rests = !(t->remaining > 0.0);
+  const bool rests = !(t->kept.remaining > 0.0);
   t->start_needed = t->start_needed && !step->starts;
   if (step->span > 0.0 && budget_is_spent(t, step)) {
-    log_unchecked(s, step->end, "the time of the second motion is spent", false);
+    log_unchecked(s, step->end, "the time of the second motion is spent");
   } else if (step->span > 0.0 && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
-    t->remaining = fmax(t->remaining, step->span);
+    t->kept.remaining = fmax(t->kept.remaining, step->span);
   }
-  return t->remaining > 0.0;
+  return t->kept.remaining > 0.0;
 }
 
 /* Logs the result when the second motion ends. Without a road and abrupt forces, also predicts when the error is large,
  * from its growth between two windows of a start as a power of time. */
 static void log_conclusion(slave *s, const slave_late_step *step, double difference) {
   slave_half_steps *t = &s->half_steps;
-  const double error = extrapolated_error(t->late_difference, step->ratio);
+  const double error = extrapolated_error(t->kept.late_difference, step->ratio);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
   if (has_road(s) && !disagree(difference)) return; /* until the next abrupt force */
-  const bool first = t->checked == -HUGE_VAL; /* later windows follow an abrupt force and are short */
-  if (first) t->checked = step->end;
-  if (first && !has_road(s) && t->abrupt == 0 && t->early_difference > 0.0 &&
-      t->late_difference > t->early_difference) {
-    const double length = step->simulated - t->origin,
-                 power = log(t->late_difference / t->early_difference) / log(2.0 * length / start_span(s, step->h));
-    t->predicted = step->end + stretch(step->h) * length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
+  const bool first = t->kept.checked == -HUGE_VAL; /* later windows follow an abrupt force and are short */
+  if (first) t->kept.checked = step->end;
+  if (first && !has_road(s) && t->abrupt == 0 && t->kept.early_difference > 0.0 &&
+      t->kept.late_difference > t->kept.early_difference) {
+    const double length = step->simulated, power = log(t->kept.late_difference / t->kept.early_difference) /
+                                                   log(2.0 * length / start_span(s, step->h));
+    t->kept.predicted = step->end + stretch(step->h) * length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
     snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
   }
   snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
            disagree(difference) ? "the time of the second motion is spent; " : "", (double)step->parts,
            100.0 * difference, grows);
-  log_unchecked(s, step->end, why, false);
+  log_unchecked(s, step->end, why);
 }
 
 /* Compares both motions at the end of a late step. */
@@ -250,24 +231,24 @@ static void compare(slave *s, const slave_late_step *step) {
   ali3_compare(t->judged, t->n, 1, &step->end, step->values + input_count(s), t->output, t->compared);
   ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
   const double difference = ali3_compared_error(t->n, t->compared, t->size, 1, &worst);
-  if (difference > t->difference) {
-    t->difference = difference;
-    t->time = step->end;
-    t->h = step->h;
-    t->parts = step->parts;
-    t->ratio = step->ratio;
+  if (difference > t->kept.difference) {
+    t->kept.difference = difference;
+    t->kept.time = step->end;
+    t->kept.h = step->h;
+    t->kept.parts = step->parts;
+    t->kept.ratio = step->ratio;
   }
-  if (step->simulated - t->origin <= 0.5 * start) {
-    if (step->simulated - t->origin > 0.25 * start) t->early_difference = fmax(t->early_difference, difference);
-  } else if (difference > t->late_difference) {
-    t->late_difference = difference;
-    t->worst = worst;
+  if (step->simulated <= 0.5 * start) {
+    if (step->simulated > 0.25 * start) t->kept.early_difference = fmax(t->kept.early_difference, difference);
+  } else if (difference > t->kept.late_difference) {
+    t->kept.late_difference = difference;
+    t->kept.worst = worst;
   }
-  t->remaining -= length;
+  t->kept.remaining -= length;
   if (disagree(difference) && !budget_is_spent(t, step))
-    t->remaining = fmax(t->remaining, SPAN); /* it may still grow, as with a spinning wheel */
-  t->spent += length;
-  if (!(t->remaining > 0.0)) log_conclusion(s, step, difference);
+    t->kept.remaining = fmax(t->kept.remaining, SPAN); /* it may still grow, as with a spinning wheel */
+  t->kept.spent += length;
+  if (!(t->kept.remaining > 0.0)) log_conclusion(s, step, difference);
 }
 
 /* One inner step of the second motion in the first late step; none where it rests. Returns the iterations. */
@@ -283,8 +264,8 @@ static int64_t advance_second(slave *s) {
     if (good) {
       compare(s, step);
     } else {
-      t->remaining = 0.0;
-      log_unchecked(s, step->end, "a step of it failed", false);
+      t->kept.remaining = 0.0;
+      log_unchecked(s, step->end, "a step of it failed");
     }
   }
   t->n_made = 0;
@@ -322,13 +303,12 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   const int64_t n_parts = (int64_t)fmax((double)nominal_parts(s, s->completed.h), ceil(2.0 * made - 1e-9));
   const double begin = now - (double)s->completed.n * s->completed.h;
   const bool starts =
-      span > 0.0 && !(begin < t->scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
+      span > 0.0 && !(begin < t->kept.scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
   if (starts && t->n_late > 0 && t->start_needed) run_second(s, 0, 0, 0); /* `start` is still needed */
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->start_needed = starts || (t->start_needed && t->n_late > 1);
-  if (starts) t->since = begin;
-  if (span > 0.0) t->scheduled = fmax(t->scheduled, begin + span * stretch(s->completed.h));
+  if (span > 0.0) t->kept.scheduled = fmax(t->kept.scheduled, begin + span * stretch(s->completed.h));
   slave_read_step(s, step->parameter, step->values);
   slave_inputs_at(s, 0.0, step->values);
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, step->values + input_count(s));
@@ -338,7 +318,7 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
                             .parts = n_parts,
                             .ratio = (double)n_parts / made,
                             .span = span,
-                            .simulated = t->simulated,
+                            .simulated = t->kept.simulated,
                             .values = step->values,
                             .parameter = step->parameter,
                             .sloped = s->completed.sloped,
@@ -350,10 +330,11 @@ static slave_status report_difference(slave *s) {
   slave_half_steps *t = &s->half_steps;
   int32_t worst;
   ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
-  const double h = t->h / (double)t->parts, difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
-               error = extrapolated_error(difference, t->ratio);
+  const double h = t->kept.h / (double)t->kept.parts,
+               difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
+               error = extrapolated_error(difference, t->kept.ratio);
   const bool met =
-      error <= t->ratio * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
+      error <= t->kept.ratio * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
   if (!(error > ALI3_WRONG_ERROR)) {
     reset_difference(t);
     return SLAVE_OK;
@@ -367,9 +348,9 @@ static slave_status report_difference(slave *s) {
       "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
       "%.*g%s, %.2g %% of the largest %s in its unit at communication points. Run again with a step_size of %.2g s%s. "
       "This is reported once.",
-      t->compared[worst].time, (double)t->parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
+      t->compared[worst].time, (double)t->kept.parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
       large ? round(off) : off, v->unit, 100.0 * error, v->judged.kind & ALI3_JUDGED_LOAD ? "load" : "range",
-      h / ceil(error / (t->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
+      h / ceil(error / (t->kept.ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
 }
 
 /* Logs the predicted error of a start. */
@@ -380,20 +361,61 @@ static slave_status report_prediction(slave *s, double now) {
                    "At %.4g s %s may be off by %.0f %% of the largest range in its unit: computed again with 1/%.0f of "
                    "the step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a "
                    "run of half the step_size, %g s. This is reported once.",
-                   now, slave_the_table.variable[t->variable[t->worst]].name, 100.0 * ALI3_WRONG_ERROR,
-                   (double)t->parts, t->checked, 100.0 * extrapolated_error(t->late_difference, t->ratio), 0.5 * t->h);
+                   now, slave_the_table.variable[t->variable[t->kept.worst]].name, 100.0 * ALI3_WRONG_ERROR,
+                   (double)t->kept.parts, t->kept.checked,
+                   100.0 * extrapolated_error(t->kept.late_difference, t->kept.ratio), 0.5 * t->kept.h);
 }
 
 /* Logs a difference after SPAN, or at the end of the run, and a prediction at its time. */
 static slave_status report_motion(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  const slave_status judged =
-      t->difference > 0.0 && (ended || now > t->time + SPAN * stretch(t->h)) ? report_difference(s) : SLAVE_OK;
-  return s->error_warned || now < t->predicted ? judged : report_prediction(s, now);
+  const slave_status judged = t->kept.difference > 0.0 && (ended || now > t->kept.time + SPAN * stretch(t->kept.h))
+                                  ? report_difference(s)
+                                  : SLAVE_OK;
+  return s->error_warned || now < t->kept.predicted ? judged : report_prediction(s, now);
 }
 
 void slave_half_steps_settle(slave *s) {
   if (!s->error_warned && s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
+}
+
+size_t slave_half_steps_size(const slave_fidelity *f) {
+  return sizeof(slave_second_motion) + compared_count(f) * sizeof(ali3_compared) + ali3_snapshot_size(f->system);
+}
+
+void slave_half_steps_write(const slave *s, unsigned char *bytes) {
+  const slave_half_steps *t = &s->half_steps;
+  slave_second_motion kept = t->kept;
+  const size_t compared = (size_t)t->n * sizeof *t->compared;
+  memset(bytes, 0, slave_half_steps_size(&s->fidelity));
+  if (s->error_warned) kept.remaining = 0.0; /* it was not computed any more */
+  memcpy(bytes, &kept, sizeof kept);
+  if (t->compared != NULL) memcpy(bytes + sizeof kept, t->compared, compared);
+  if (kept.remaining > 0.0) memcpy(bytes + sizeof kept + compared, t->second, ali3_snapshot_size(s->fidelity.system));
+}
+
+ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes) {
+  const size_t n = compared_count(f);
+  slave_second_motion kept;
+  memcpy(&kept, bytes, sizeof kept);
+  if (kept.worst < 0 || (kept.worst > 0 && (size_t)kept.worst >= n)) return ALI3_BAD_STATE;
+  if (!(kept.remaining > 0.0)) return ALI3_OK;
+  return ali3_snapshot_check(f->kernel, bytes + sizeof kept + n * sizeof(ali3_compared));
+}
+
+void slave_half_steps_read(slave *s, const unsigned char *bytes) {
+  slave_half_steps *t = &s->half_steps;
+  const size_t size = slave_half_steps_size(&s->fidelity);
+  slave_half_steps_begin(s);
+  memcpy(&t->kept, bytes, sizeof t->kept);
+  if (t->compared == NULL) return;
+  memcpy(t->compared, bytes + sizeof t->kept, (size_t)t->n * sizeof *t->compared);
+  if (!(t->kept.remaining > 0.0)) return;
+  const size_t second = ali3_snapshot_size(s->fidelity.system);
+  if (allocate(s))
+    memcpy(t->second, bytes + size - second, second);
+  else
+    t->kept.remaining = 0.0;
 }
 
 void slave_half_steps_end(slave *s) {
@@ -404,26 +426,19 @@ void slave_half_steps_end(slave *s) {
 
 slave_status slave_half_steps_advance(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  ali3_report report;
-  if (s->error_warned || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
+  if (s->error_warned) return SLAVE_OK;
+  const ali3_report report = get_report(s);
   /* a mechanism without a road swings; driven tyres slip at once, which long steps miss */
-  const bool at_start = t->at_start && (!has_road(s) || 2.0 * s->completed.h > (double)ALI3_MOST_PARTS * SHORT),
-             abrupt = abrupt_steps(&report) > t->abrupt || at_start;
-  const int64_t made = report.iterations - t->iterations;
+  const bool at_start =
+      !(t->kept.simulated > 0.0) && (!has_road(s) || 2.0 * s->completed.h > (double)ALI3_MOST_PARTS * SHORT);
+  const int64_t made = report.iterations - t->iterations, halvings = report.halvings - t->halvings;
   const double length = counted_length(s->completed.n, s->completed.h), now = ali3_time(s->fidelity.kernel);
-  const int64_t halvings = report.halvings - t->halvings;
-  const double span = at_start ? start_span(s, s->completed.h) : abrupt ? SPAN : t->resumed;
-  if (t->resumed > 0.0) t->scheduled = -HUGE_VAL; /* the second motion begins with this step */
-  t->resumed = 0.0;
-  t->abrupt = abrupt_steps(&report);
-  t->halvings = report.halvings;
-  t->iterations = report.iterations;
-  t->at_start = false;
-  if (at_start && !(t->simulated > 0.0))
-    t->spent = -start_span(s, s->completed.h); /* besides the budget of abrupt forces */
-  t->simulated += length;
+  const double span = at_start ? start_span(s, s->completed.h) : abrupt_steps(&report) > t->abrupt ? SPAN : 0.0;
+  take_counts(s);
+  if (at_start) t->kept.spent = -span; /* besides the budget of abrupt forces */
+  t->kept.simulated += length;
   if (span > 0.0 && !allocate(s)) return SLAVE_OK;
-  if (t->end != NULL && (span > 0.0 || t->remaining > 0.0 || t->n_late > 0)) {
+  if (t->end != NULL && (span > 0.0 || t->kept.remaining > 0.0 || t->n_late > 0)) {
     const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
     store_late_step(s, now, span, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ALI3_MOST_PARTS * s->completed.n);
