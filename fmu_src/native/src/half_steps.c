@@ -71,9 +71,9 @@ static bool begin_comparison(slave *s) {
   t->n = (int32_t)n;
   t->output = (double *)(t->compared + n);
   t->size = t->output + n;
-  t->variable = (size_t *)(t->size + n);
-  t->judged = (ali3_judged *)(t->variable + n);
-  t->sensor = (int32_t *)(t->judged + n);
+  t->judged = (ali3_judged *)(t->size + n);
+  t->variable = (size_t *)(t->judged + n);
+  t->sensor = (int32_t *)(t->variable + n);
   for (size_t i = table->n_known, k = 0; k < n; i++) {
     if (!is_compared(&s->fidelity, table->variable + i)) continue;
     t->variable[k] = i;
@@ -340,7 +340,7 @@ static slave_status report_difference(slave *s) {
     return SLAVE_OK;
   }
   const slave_variable *v = slave_the_table.variable + t->variable[worst];
-  const double off = fabs(v->scale) * error * t->size[worst];
+  const double off = fabs(v->scale) * error * t->size[worst] / v->judged.factor;
   s->error_warned = true;
   const bool large = off >= 999.5; /* shown without an exponent */
   return slave_log(
