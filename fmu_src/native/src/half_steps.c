@@ -26,7 +26,7 @@ static double counted_length(int64_t n, double h) { return (double)n * h / stret
 
 /* Whether the second motion has used its budget up to a step. */
 static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *step) {
-  return t->kept.spent > BUDGET + step->simulated / (double)ALI3_MOST_PARTS;
+  return t->kept->spent > BUDGET + step->simulated / (double)ALI3_MOST_PARTS;
 }
 
 /* Richardson extrapolation: error of a motion from its difference to one with 1/n of the step, for order two as of
@@ -59,19 +59,36 @@ static size_t compared_count(const slave_fidelity *f) {
   return n;
 }
 
-/* Allocates one block for the compared outputs; false if there are none or no memory. */
-static bool begin_comparison(slave *s) {
+/* Number of inputs of the kernel. */
+static size_t input_count(const slave *s) { return (size_t)ali3_system_sizes(s->fidelity.system).nu; }
+
+/* Allocates one block: what is part of a state; two snapshots; inputs, and of each late step its inputs, compared
+ * outputs and parameters; work and the comparison of each output. False: nothing is compared, or there is no memory. */
+static bool allocate(slave *s) {
   slave_half_steps *t = &s->half_steps;
   const slave_table *table = &slave_the_table;
-  const size_t n = compared_count(&s->fidelity);
-  if (t->compared != NULL || n == 0) return t->compared != NULL;
-  t->compared = s->memory.allocate(
-      1, n * (sizeof(ali3_compared) + 2 * sizeof(double) + sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)));
-  if (t->compared == NULL) return false;
+  const size_t n = compared_count(&s->fidelity), kept = slave_half_steps_size(&s->fidelity), nu = input_count(s),
+               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + n + np,
+               snapshot = ali3_snapshot_size(s->fidelity.system);
+  if (t->kept != NULL || n == 0) return t->kept != NULL;
+  t->kept = s->memory.allocate(1, kept + 2 * snapshot + MOST_LATE * sizeof(slave_late_step) +
+                                      (nu + MOST_LATE * each + 2 * n) * sizeof(double) +
+                                      n * (sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)));
+  if (t->kept == NULL) return false;
   t->n = (int32_t)n;
-  t->output = (double *)(t->compared + n);
+  t->compared = (ali3_compared *)(t->kept + 1);
+  t->second = t->compared + n;
+  t->end = (unsigned char *)t->second + snapshot;
+  t->start = (unsigned char *)t->end + snapshot;
+  t->late = (slave_late_step *)((unsigned char *)t->start + snapshot);
+  t->input = (double *)(t->late + MOST_LATE);
+  t->output = t->input + nu;
   t->size = t->output + n;
-  t->judged = (ali3_judged *)(t->size + n);
+  for (size_t i = 0; i < MOST_LATE; i++) {
+    t->late[i].values = t->size + n + i * each;
+    t->late[i].parameter = t->late[i].values + each - np;
+  }
+  t->judged = (ali3_judged *)(t->size + n + MOST_LATE * each);
   t->variable = (size_t *)(t->judged + n);
   t->sensor = (int32_t *)(t->variable + n);
   for (size_t i = table->n_known, k = 0; k < n; i++) {
@@ -88,7 +105,7 @@ static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system
 
 /* Clears the largest differences seen so far. */
 static void reset_difference(slave_half_steps *t) {
-  t->kept.difference = 0.0;
+  t->kept->difference = 0.0;
   for (int32_t i = 0; i < t->n; i++) t->compared[i].gap = 0.0;
 }
 
@@ -112,12 +129,13 @@ static void take_counts(slave *s) {
 
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  t->kept = (slave_second_motion){.scheduled = -HUGE_VAL, .predicted = HUGE_VAL, .checked = -HUGE_VAL};
   t->n_late = 0;
   t->n_made = 0;
   take_counts(s);
-  if (!begin_comparison(s)) return;
+  if (!allocate(s)) return;
+  *t->kept = (slave_second_motion){.scheduled = -HUGE_VAL, .predicted = HUGE_VAL, .checked = -HUGE_VAL};
   memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
+  ali3_snapshot_take(s->fidelity.kernel, t->second); /* a valid one until the second motion starts */
   if (ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
     ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
 }
@@ -128,33 +146,8 @@ void slave_half_steps_observe(slave *s) {
   ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
 }
 
-/* Number of inputs of the kernel. */
-static size_t input_count(const slave *s) { return (size_t)ali3_system_sizes(s->fidelity.system).nu; }
-
-/* Allocates one block: three snapshots, inputs, and of each late step its inputs, compared outputs and parameters. */
-static bool allocate(slave *s) {
-  slave_half_steps *t = &s->half_steps;
-  const size_t size = ali3_snapshot_size(s->fidelity.system), nu = input_count(s),
-               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + (size_t)t->n + np;
-  if (t->end != NULL || t->compared == NULL) return t->end != NULL;
-  t->end =
-      s->memory.allocate(1, 3 * size + (nu + MOST_LATE * each) * sizeof(double) + MOST_LATE * sizeof(slave_late_step));
-  if (t->end == NULL) return false;
-  t->second = (unsigned char *)t->end + size;
-  t->start = (unsigned char *)t->second + size;
-  t->late = (slave_late_step *)((unsigned char *)t->start + size);
-  t->input = (double *)(t->late + MOST_LATE);
-  for (size_t i = 0; i < MOST_LATE; i++) {
-    t->late[i].values = t->input + nu + i * each;
-    t->late[i].parameter = t->late[i].values + each - np;
-  }
-  ali3_snapshot_take(s->fidelity.kernel, t->second); /* a valid snapshot until the second motion starts */
-  return true;
-}
-
 void slave_half_steps_free(slave *s) {
-  if (s->half_steps.end != NULL) s->memory.release(s->half_steps.end);
-  if (s->half_steps.compared != NULL) s->memory.release(s->half_steps.compared);
+  if (s->half_steps.kept != NULL) s->memory.release(s->half_steps.kept);
   memset(&s->half_steps, 0, sizeof s->half_steps);
 }
 
@@ -189,31 +182,31 @@ static ali3_status make_inner_step(slave *s, const slave_late_step *step) {
  * abrupt step or difference, within the budget. */
 static bool begin_late_step(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
-  const bool rests = !(t->kept.remaining > 0.0);
+  const bool rests = !(t->kept->remaining > 0.0);
   t->start_needed = t->start_needed && !step->starts;
   if (step->span > 0.0 && budget_is_spent(t, step)) {
     log_unchecked(s, step->end, "the time of the second motion is spent");
   } else if (step->span > 0.0 && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
-    t->kept.remaining = fmax(t->kept.remaining, step->span);
+    t->kept->remaining = fmax(t->kept->remaining, step->span);
   }
-  return t->kept.remaining > 0.0;
+  return t->kept->remaining > 0.0;
 }
 
 /* Logs the result when the second motion ends. Without a road and abrupt forces, also predicts when the error is large,
  * from its growth between two windows of a start as a power of time. */
 static void log_conclusion(slave *s, const slave_late_step *step, double difference) {
   slave_half_steps *t = &s->half_steps;
-  const double error = extrapolated_error(t->kept.late_difference, step->ratio);
+  const double error = extrapolated_error(t->kept->late_difference, step->ratio);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
   if (has_road(s) && !disagree(difference)) return; /* until the next abrupt force */
-  const bool first = t->kept.checked == -HUGE_VAL; /* later windows follow an abrupt force and are short */
-  if (first) t->kept.checked = step->end;
-  if (first && !has_road(s) && t->abrupt == 0 && t->kept.early_difference > 0.0 &&
-      t->kept.late_difference > t->kept.early_difference) {
-    const double length = step->simulated, power = log(t->kept.late_difference / t->kept.early_difference) /
+  const bool first = t->kept->checked == -HUGE_VAL; /* later windows follow an abrupt force and are short */
+  if (first) t->kept->checked = step->end;
+  if (first && !has_road(s) && t->abrupt == 0 && t->kept->early_difference > 0.0 &&
+      t->kept->late_difference > t->kept->early_difference) {
+    const double length = step->simulated, power = log(t->kept->late_difference / t->kept->early_difference) /
                                                    log(2.0 * length / start_span(s, step->h));
-    t->kept.predicted = step->end + stretch(step->h) * length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
+    t->kept->predicted = step->end + stretch(step->h) * length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
     snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
   }
   snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
@@ -231,24 +224,24 @@ static void compare(slave *s, const slave_late_step *step) {
   ali3_compare(t->judged, t->n, 1, &step->end, step->values + input_count(s), t->output, t->compared);
   ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
   const double difference = ali3_compared_error(t->n, t->compared, t->size, 1, &worst);
-  if (difference > t->kept.difference) {
-    t->kept.difference = difference;
-    t->kept.time = step->end;
-    t->kept.h = step->h;
-    t->kept.parts = step->parts;
-    t->kept.ratio = step->ratio;
+  if (difference > t->kept->difference) {
+    t->kept->difference = difference;
+    t->kept->time = step->end;
+    t->kept->h = step->h;
+    t->kept->parts = step->parts;
+    t->kept->ratio = step->ratio;
   }
   if (step->simulated <= 0.5 * start) {
-    if (step->simulated > 0.25 * start) t->kept.early_difference = fmax(t->kept.early_difference, difference);
-  } else if (difference > t->kept.late_difference) {
-    t->kept.late_difference = difference;
-    t->kept.worst = worst;
+    if (step->simulated > 0.25 * start) t->kept->early_difference = fmax(t->kept->early_difference, difference);
+  } else if (difference > t->kept->late_difference) {
+    t->kept->late_difference = difference;
+    t->kept->worst = worst;
   }
-  t->kept.remaining -= length;
+  t->kept->remaining -= length;
   if (disagree(difference) && !budget_is_spent(t, step))
-    t->kept.remaining = fmax(t->kept.remaining, SPAN); /* it may still grow, as with a spinning wheel */
-  t->kept.spent += length;
-  if (!(t->kept.remaining > 0.0)) log_conclusion(s, step, difference);
+    t->kept->remaining = fmax(t->kept->remaining, SPAN); /* it may still grow, as with a spinning wheel */
+  t->kept->spent += length;
+  if (!(t->kept->remaining > 0.0)) log_conclusion(s, step, difference);
 }
 
 /* One inner step of the second motion in the first late step; none where it rests. Returns the iterations. */
@@ -264,7 +257,7 @@ static int64_t advance_second(slave *s) {
     if (good) {
       compare(s, step);
     } else {
-      t->kept.remaining = 0.0;
+      t->kept->remaining = 0.0;
       log_unchecked(s, step->end, "a step of it failed");
     }
   }
@@ -303,12 +296,12 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   const int64_t n_parts = (int64_t)fmax((double)nominal_parts(s, s->completed.h), ceil(2.0 * made - 1e-9));
   const double begin = now - (double)s->completed.n * s->completed.h;
   const bool starts =
-      span > 0.0 && !(begin < t->kept.scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
+      span > 0.0 && !(begin < t->kept->scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
   if (starts && t->n_late > 0 && t->start_needed) run_second(s, 0, 0, 0); /* `start` is still needed */
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->start_needed = starts || (t->start_needed && t->n_late > 1);
-  if (span > 0.0) t->kept.scheduled = fmax(t->kept.scheduled, begin + span * stretch(s->completed.h));
+  if (span > 0.0) t->kept->scheduled = fmax(t->kept->scheduled, begin + span * stretch(s->completed.h));
   slave_read_step(s, step->parameter, step->values);
   slave_inputs_at(s, 0.0, step->values);
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, step->values + input_count(s));
@@ -318,7 +311,7 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
                             .parts = n_parts,
                             .ratio = (double)n_parts / made,
                             .span = span,
-                            .simulated = t->kept.simulated,
+                            .simulated = t->kept->simulated,
                             .values = step->values,
                             .parameter = step->parameter,
                             .sloped = s->completed.sloped,
@@ -330,11 +323,12 @@ static slave_status report_difference(slave *s) {
   slave_half_steps *t = &s->half_steps;
   int32_t worst;
   ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
-  const double h = t->kept.h / (double)t->kept.parts,
+  const double h = t->kept->h / (double)t->kept->parts,
                difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
-               error = extrapolated_error(difference, t->kept.ratio);
+               error = extrapolated_error(difference, t->kept->ratio);
   const bool met =
-      error <= t->kept.ratio * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
+      error <=
+      t->kept->ratio * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
   if (!(error > ALI3_WRONG_ERROR)) {
     reset_difference(t);
     return SLAVE_OK;
@@ -348,9 +342,9 @@ static slave_status report_difference(slave *s) {
       "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
       "%.*g%s, %.2g %% of the largest %s in its unit at communication points. Run again with a step_size of %.2g s%s. "
       "This is reported once.",
-      t->compared[worst].time, (double)t->kept.parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
+      t->compared[worst].time, (double)t->kept->parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
       large ? round(off) : off, v->unit, 100.0 * error, v->judged.kind & ALI3_JUDGED_LOAD ? "load" : "range",
-      h / ceil(error / (t->kept.ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
+      h / ceil(error / (t->kept->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
 }
 
 /* Logs the predicted error of a start. */
@@ -361,21 +355,22 @@ static slave_status report_prediction(slave *s, double now) {
                    "At %.4g s %s may be off by %.0f %% of the largest range in its unit: computed again with 1/%.0f of "
                    "the step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a "
                    "run of half the step_size, %g s. This is reported once.",
-                   now, slave_the_table.variable[t->variable[t->kept.worst]].name, 100.0 * ALI3_WRONG_ERROR,
-                   (double)t->kept.parts, t->kept.checked,
-                   100.0 * extrapolated_error(t->kept.late_difference, t->kept.ratio), 0.5 * t->kept.h);
+                   now, slave_the_table.variable[t->variable[t->kept->worst]].name, 100.0 * ALI3_WRONG_ERROR,
+                   (double)t->kept->parts, t->kept->checked,
+                   100.0 * extrapolated_error(t->kept->late_difference, t->kept->ratio), 0.5 * t->kept->h);
 }
 
 /* Logs a difference after SPAN, or at the end of the run, and a prediction at its time. */
 static slave_status report_motion(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  const slave_status judged = t->kept.difference > 0.0 && (ended || now > t->kept.time + SPAN * stretch(t->kept.h))
+  const slave_status judged = t->kept->difference > 0.0 && (ended || now > t->kept->time + SPAN * stretch(t->kept->h))
                                   ? report_difference(s)
                                   : SLAVE_OK;
-  return s->error_warned || now < t->kept.predicted ? judged : report_prediction(s, now);
+  return s->error_warned || now < t->kept->predicted ? judged : report_prediction(s, now);
 }
 
 void slave_half_steps_settle(slave *s) {
+  if (s->error_warned && s->half_steps.kept != NULL) s->half_steps.kept->remaining = 0.0; /* it was left behind */
   if (!s->error_warned && s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
 }
 
@@ -384,14 +379,11 @@ size_t slave_half_steps_size(const slave_fidelity *f) {
 }
 
 void slave_half_steps_write(const slave *s, unsigned char *bytes) {
-  const slave_half_steps *t = &s->half_steps;
-  slave_second_motion kept = t->kept;
-  const size_t compared = (size_t)t->n * sizeof *t->compared;
-  memset(bytes, 0, slave_half_steps_size(&s->fidelity));
-  if (s->error_warned) kept.remaining = 0.0; /* it was not computed any more */
-  memcpy(bytes, &kept, sizeof kept);
-  if (t->compared != NULL) memcpy(bytes + sizeof kept, t->compared, compared);
-  if (kept.remaining > 0.0) memcpy(bytes + sizeof kept + compared, t->second, ali3_snapshot_size(s->fidelity.system));
+  const size_t size = slave_half_steps_size(&s->fidelity);
+  if (s->half_steps.kept != NULL)
+    memcpy(bytes, s->half_steps.kept, size);
+  else
+    memset(bytes, 0, size);
 }
 
 ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes) {
@@ -399,46 +391,38 @@ ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char 
   slave_second_motion kept;
   memcpy(&kept, bytes, sizeof kept);
   if (kept.worst < 0 || (kept.worst > 0 && (size_t)kept.worst >= n)) return ALI3_BAD_STATE;
-  if (!(kept.remaining > 0.0)) return ALI3_OK;
-  return ali3_snapshot_check(f->kernel, bytes + sizeof kept + n * sizeof(ali3_compared));
+  return kept.remaining > 0.0 ? ali3_snapshot_check(f->kernel, bytes + sizeof kept + n * sizeof(ali3_compared))
+                              : ALI3_OK;
 }
 
 void slave_half_steps_read(slave *s, const unsigned char *bytes) {
   slave_half_steps *t = &s->half_steps;
-  const size_t size = slave_half_steps_size(&s->fidelity);
   slave_half_steps_begin(s);
-  memcpy(&t->kept, bytes, sizeof t->kept);
-  if (t->compared == NULL) return;
-  memcpy(t->compared, bytes + sizeof t->kept, (size_t)t->n * sizeof *t->compared);
-  if (!(t->kept.remaining > 0.0)) return;
-  const size_t second = ali3_snapshot_size(s->fidelity.system);
-  if (allocate(s))
-    memcpy(t->second, bytes + size - second, second);
-  else
-    t->kept.remaining = 0.0;
+  if (t->kept == NULL) return;
+  memcpy(t->kept, bytes, sizeof *t->kept + (size_t)t->n * sizeof *t->compared);
+  if (t->kept->remaining > 0.0) memcpy(t->kept, bytes, slave_half_steps_size(&s->fidelity));
 }
 
 void slave_half_steps_end(slave *s) {
-  if (s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
+  if (s->half_steps.kept == NULL || s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
   slave_half_steps_settle(s);
   report_motion(s, ali3_time(s->fidelity.kernel), true);
 }
 
 slave_status slave_half_steps_advance(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  if (s->error_warned) return SLAVE_OK;
+  if (t->kept == NULL || s->error_warned) return SLAVE_OK;
   const ali3_report report = get_report(s);
   /* a mechanism without a road swings; driven tyres slip at once, which long steps miss */
   const bool at_start =
-      !(t->kept.simulated > 0.0) && (!has_road(s) || 2.0 * s->completed.h > (double)ALI3_MOST_PARTS * SHORT);
+      !(t->kept->simulated > 0.0) && (!has_road(s) || 2.0 * s->completed.h > (double)ALI3_MOST_PARTS * SHORT);
   const int64_t made = report.iterations - t->iterations, halvings = report.halvings - t->halvings;
   const double length = counted_length(s->completed.n, s->completed.h), now = ali3_time(s->fidelity.kernel);
   const double span = at_start ? start_span(s, s->completed.h) : abrupt_steps(&report) > t->abrupt ? SPAN : 0.0;
   take_counts(s);
-  if (at_start) t->kept.spent = -span; /* besides the budget of abrupt forces */
-  t->kept.simulated += length;
-  if (span > 0.0 && !allocate(s)) return SLAVE_OK;
-  if (t->end != NULL && (span > 0.0 || t->kept.remaining > 0.0 || t->n_late > 0)) {
+  if (at_start) t->kept->spent = -span; /* besides the budget of abrupt forces */
+  t->kept->simulated += length;
+  if (span > 0.0 || t->kept->remaining > 0.0 || t->n_late > 0) {
     const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
     store_late_step(s, now, span, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ALI3_MOST_PARTS * s->completed.n);

@@ -140,7 +140,7 @@ typedef struct { /* a communication step that the second motion has not computed
   int64_t parts; /* of an inner step in the second motion */
   double ratio; /* mean step of the first motion, halved or not, divided by the step of the second */
   double span; /* s, for which the second motion runs from its start, as a force changed abruptly; 0: it did not */
-  double simulated; /* s, as in slave_half_steps */
+  double simulated; /* s, as in slave_second_motion */
   double *values; /* inputs at its start, then compared outputs at its end */
   double *parameter;
   bool sloped, starts; /* inputs have slopes; the second motion may start here from `start` */
@@ -158,8 +158,8 @@ typedef struct { /* numbers of the second motion, which states have beside its s
 } slave_second_motion;
 
 typedef struct { /* the second motion, with at most half the step, see half_steps.c */
-  void *end, *second, *start; /* snapshots: the first motion after the step, the second motion, its next start;
-                                 NULL: not needed yet */
+  slave_second_motion *kept; /* NULL: nothing is compared; `compared` and `second` follow it */
+  void *second, *end, *start; /* snapshots: the second motion, the first one after the step, the next start */
   double *input; /* work: nu */
   /* n compared outputs: how they are compared, differences so far, sensor, variable; work: values, reference sizes */
   int32_t n, *sensor;
@@ -169,10 +169,9 @@ typedef struct { /* the second motion, with at most half the step, see half_step
   double *output, *size;
   slave_late_step *late; /* ring of n_late late steps; the oldest is `first` */
   size_t first, n_late;
-  slave_second_motion kept;
   int64_t n_made; /* inner steps of the second motion in the first late step */
   int64_t iterations, cost; /* of the first motion so far; of the last inner step of the second motion */
-  int64_t abrupt, halvings; /* abrupt steps so far; halvings */
+  int64_t abrupt, halvings; /* of the first motion so far: abrupt steps, halvings */
   bool start_needed; /* a late step may use `start` */
 } slave_half_steps;
 
@@ -419,7 +418,7 @@ size_t slave_half_steps_size(const slave_fidelity *f);
 void slave_half_steps_write(const slave *s, unsigned char *bytes);
 /* checks it, with the parameters that it has in the kernel, */
 ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes);
-/* and reads it, after the kernel and the last communication step; without memory the second motion ends. */
+/* and reads it, after the kernel and the last communication step. */
 void slave_half_steps_read(slave *s, const unsigned char *bytes);
 /* Updates the ranges of the compared outputs. */
 void slave_half_steps_observe(slave *s);
