@@ -544,20 +544,18 @@ class Simulation(SteppedSystem):
             The saved state is damaged or of another System; the present state is not changed.
         """
         instance_of((bytes, bytearray), state, "The saved state", "the bytes that save() gave")
-        size, subject = self.instance.system.state_size, "The saved state was refused"
+        size = self.instance.system.state_size
         refined, sum_of_kept, kept = state[size : 2 * size], state[2 * size : 2 * size + 8], state[2 * size + 8 :]
-        restored = list[SteppedSystem]()
 
-        def restore_refined() -> None:
-            if sum_of_kept != b"%08x" % crc32(kept):
+        def restore_both() -> None:
+            if refined and sum_of_kept != b"%08x" % crc32(kept):
                 raise KernelError(Status.BAD_STATE, "the bytes of its refined run were altered.")
-            restored.append(self._restored(bytes(refined)))
+            other = self._restored(bytes(refined)) if refined else None
+            self.instance.restore(bytes(state[:size]))
+            self._refined = other
 
+        self._call("The saved state was refused", restore_both)
         if refined:
-            self._call(subject, restore_refined)
-        self._call(subject, lambda: self.instance.restore(bytes(state[:size])))
-        self._refined = restored[0] if restored else None
-        if restored:
             self._divisor, ends = json.loads(kept)
             self._extremes = {n: ComparedFields.from_buffer_copy(bytes.fromhex(text)) for n, text in ends.items()}
 

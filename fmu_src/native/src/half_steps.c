@@ -378,14 +378,6 @@ size_t slave_half_steps_size(const slave_fidelity *f) {
   return sizeof(slave_second_motion) + compared_count(f) * sizeof(ali3_compared) + ali3_snapshot_size(f->system);
 }
 
-void slave_half_steps_write(const slave *s, unsigned char *bytes) {
-  const size_t size = slave_half_steps_size(&s->fidelity);
-  if (s->half_steps.kept != NULL)
-    memcpy(bytes, s->half_steps.kept, size);
-  else
-    memset(bytes, 0, size);
-}
-
 ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes) {
   const size_t n = compared_count(f);
   slave_second_motion kept;

@@ -412,13 +412,9 @@ slave_status slave_half_steps_advance(slave *s);
 void slave_half_steps_begin(slave *s);
 /* Before a state is saved and at the end: computes the late steps. */
 void slave_half_steps_settle(slave *s);
-/* Part of a state, from which the second motion goes on as it was: its size in bytes, */
+/* Bytes of `kept` that are part of a state, from which the second motion goes on as it was; checks and reads it. */
 size_t slave_half_steps_size(const slave_fidelity *f);
-/* writes it, */
-void slave_half_steps_write(const slave *s, unsigned char *bytes);
-/* checks it, with the parameters that it has in the kernel, */
 ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes);
-/* and reads it, after the kernel and the last communication step. */
 void slave_half_steps_read(slave *s, const unsigned char *bytes);
 /* Updates the ranges of the compared outputs. */
 void slave_half_steps_observe(slave *s);
