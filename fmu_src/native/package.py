@@ -110,7 +110,7 @@ class NativeContents:
     def table_c(self, identity: str, token: str) -> str:
         """The table of the shell in C, with 32 hexadecimal digits and the GUID or instantiation token."""
         sensors = [sensor["name"] for sensor in self.system.meta["sensors"]]
-        judged = compared_sensors(self.system, converted=False)
+        judged = compared_sensors(self.system)
         judged_sensors = {number: judged[name] for number, name in enumerate(sensors) if name in judged}
         length = length_of(self.system)
         code = [name for name, _ in self.code]

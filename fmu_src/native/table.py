@@ -96,9 +96,11 @@ def c_table(
 
 
 def _comparison_row(variable: Variable, judged: Mapping[int, Compared]) -> str:
-    """Unit and kind by which a variable is compared, as C; -1: it is not."""
+    """Unit, kind and factor by which a variable is compared, as C; -1: it is not."""
     comparison = judged.get(variable.index) if variable.source == "sensor" else None
-    return "{-1, 0}" if comparison is None else f"{{{comparison.fields.unit:d}, {comparison.fields.kind}}}"
+    if comparison is None:
+        return "{-1, 0, 0.0}"
+    return f"{{{comparison.fields.unit:d}, {comparison.fields.kind}, {comparison.factor!r}}}"
 
 
 def _texts(texts: Sequence[TextVariable]) -> str:

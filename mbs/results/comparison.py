@@ -72,7 +72,7 @@ class Compared:
             JudgedKind.ALWAYS: self.always,
             JudgedKind.WRAPPED: self.wrapped,
         }
-        return JudgedFields(UNITS[self.unit], sum(bit for bit, is_set in bits.items() if is_set))
+        return JudgedFields(UNITS[self.unit], sum(bit for bit, is_set in bits.items() if is_set), self.factor)
 
     def gap(self, one: Array, other: Array) -> float:
         """Largest difference of samples (n,), of angles along the smaller arc."""
@@ -129,7 +129,7 @@ class Comparison:
         load_library().ali3_compare(self._judged, len(self._judged), len(fine_rows), None, *pointers, self._extremes)
 
     def _samples(self, motion: Mapping[str, Array]) -> Array:
-        return np.column_stack([q.factor * np.asarray(motion[name], float) for name, q in self.compared.items()])
+        return np.column_stack([np.asarray(motion[name], float) for name in self.compared])
 
     def widen(self, gaps: Mapping[str, float]) -> None:
         """Raise the largest differences to at least `gaps`, by name."""
@@ -166,29 +166,23 @@ class Comparison:
         return {name: float(size) / quantity.factor for (name, quantity), size in each if size > 0.0}
 
 
-def compared_sensors(system: System, converted: bool = True) -> Mapping[str, Compared]:
+def compared_sensors(system: System) -> Mapping[str, Compared]:
     """Sensors of the System that can be compared, by name.
 
     Gears, energies and accelerations are excluded: they jump, and a small shift in time makes a large difference.
-
-    `converted`: whether also sensors whose values are converted to one of `UNITS`, which an FMU does not do.
     """
-    if not converted:
-        return _find_compared_sensors(system, False)
     if system not in _COMPARED:
-        _COMPARED[system] = _find_compared_sensors(system, True)
+        _COMPARED[system] = _find_compared_sensors(system)
     return _COMPARED[system]
 
 
-def _find_compared_sensors(system: System, converted: bool) -> dict[str, Compared]:
+def _find_compared_sensors(system: System) -> dict[str, Compared]:
     arrays, compared, torques = system.arrays, dict[str, Compared](), dict[str, Compared]()
     driven = set(np.asarray(arrays["gterm_row"]).tolist())
     for i, sensor in enumerate(system.meta["sensors"]):
         if not sensor.get("computed", True):
             continue
         kind, (unit, factor) = SensorType(arrays["sen_type"][i]), _compared_unit(sensor["unit"])
-        if factor != 1.0 and not converted:
-            continue
         own = {"own_unit": sensor["unit"], "factor": factor} if factor != 1.0 else {}
         integers = np.asarray(arrays["sen_int"][slice(*arrays["sen_int_ptr"][i : i + 2])]).tolist()
         order = integers[0] if kind in WITH_ORDER and integers else 0

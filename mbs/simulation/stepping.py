@@ -1,11 +1,13 @@
 """Stepping of a System by the caller (`Simulation`)."""
 
+import json
 import math
 import os
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import astuple
 from typing import Any
+from zlib import crc32
 
 from ali3.message_text import unit_text
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
@@ -525,9 +527,13 @@ class Simulation(SteppedSystem):
         Returns
         -------
         bytes
-            For `restore`.
+            For `restore`; with the refined run of checked runs, if there is one.
         """
-        return self.instance.save()
+        if self._refined is None:
+            return self.instance.save()
+        ends = {name: bytes(fields).hex() for name, fields in self._extremes.items()}
+        kept = json.dumps([self._divisor, ends]).encode()
+        return self.instance.save() + self._refined.instance.save() + b"%08x" % crc32(kept) + kept
 
     def restore(self, state: bytes) -> None:
         """Continue from a saved state of the same System.
@@ -538,8 +544,20 @@ class Simulation(SteppedSystem):
             The saved state is damaged or of another System; the present state is not changed.
         """
         instance_of((bytes, bytearray), state, "The saved state", "the bytes that save() gave")
-        self._refined = None
-        self._call("The saved state was refused", lambda: self.instance.restore(bytes(state)))
+        size = self.instance.system.state_size
+        refined, sum_of_kept, kept = state[size : 2 * size], state[2 * size : 2 * size + 8], state[2 * size + 8 :]
+
+        def restore_both() -> None:
+            if refined and sum_of_kept != b"%08x" % crc32(kept):
+                raise KernelError(Status.BAD_STATE, "the bytes of its refined run were altered.")
+            other = self._restored(bytes(refined)) if refined else None
+            self.instance.restore(bytes(state[:size]))
+            self._refined = other
+
+        self._call("The saved state was refused", restore_both)
+        if refined:
+            self._divisor, ends = json.loads(kept)
+            self._extremes = {n: ComparedFields.from_buffer_copy(bytes.fromhex(text)) for n, text in ends.items()}
 
     def _index(self, kind: str, name: str) -> int:
         """Index of an input, parameter or switch; `kind`: key of the metadata. Raises `ValueError` if there is none."""

@@ -140,15 +140,18 @@ def hopper() -> mbs.Model:
     return m
 
 
-def double_pendulum(name: str = "double_pendulum", order: int = 0) -> mbs.Model:
+def double_pendulum(name: str = "double_pendulum", order: int = 0, unit: str = "m") -> mbs.Model:
     """Two rods of 0.1 m that are let go as they lie; the tip moves, the pin rests."""
     m = mbs.Model(name, dimension=2, gravity=(0.0, -9.81))
     m.step = 2e-3
     rods = [m.body(f"rod {k}", mass=1.0, com=(0.05 + 0.1 * k, 0.0), inertia=0.01 / 12.0) for k in range(2)]
     m.revolute("pin", m.ground, rods[0], point=(0.0, 0.0))
     m.revolute("elbow", rods[0], rods[1], point=(0.1, 0.0))
-    for c in "xy":
-        m.sense_position(f"tip.{c}", rods[1], (0.2, 0.0), c, order=order)
+    for k, c in enumerate("xy"):
+        if unit == "m":
+            m.sense_position(f"tip.{c}", rods[1], (0.2, 0.0), c, order=order)
+        else:
+            m.sense_coordinate(f"tip.{c}", 1000.0 * rods[1].point((0.2, 0.0))[k], unit=unit)
         m.sense_position(f"pin.{c}", rods[0], (0.0, 0.0), c, order=order)
     return m
 
@@ -156,6 +159,11 @@ def double_pendulum(name: str = "double_pendulum", order: int = 0) -> mbs.Model:
 def double_pendulum_rates() -> mbs.Model:
     """The same with no output but rates."""
     return double_pendulum("double_pendulum_rates", 1)
+
+
+def double_pendulum_mm() -> mbs.Model:
+    """The same with its tip in mm."""
+    return double_pendulum("double_pendulum_mm", unit="mm")
 
 
 def slow_stops() -> mbs.Model:

@@ -6,7 +6,7 @@ from scipy.interpolate import CubicSpline, PPoly
 
 import mbs
 from mbs.elements import ScalarSpringDamper
-from mbs.results.comparison import Compared, Comparison, compared_sensors, differences, select_compared, sizes_of
+from mbs.results.comparison import Compared, Comparison, differences, select_compared, sizes_of
 
 RATE, PLACE = Compared("rad/s", always=False), Compared("m", place=True)
 T = np.linspace(0.0, 1.0, 101)
@@ -161,19 +161,6 @@ def test_sensors_in_other_units_of_a_quantity_are_compared_and_the_rest_have_an_
     for name, error in (run.accuracy.sensors | run.accuracy.others).items():
         if name != "hub":
             assert error == pytest.approx(np.abs(run[name] - fine[name]).max(), rel=0.3)
-
-
-def test_an_fmu_which_converts_no_sensor_compares_torques_where_the_motion_is_in_mm_alone() -> None:
-    """It compared nothing: the torque was left out beside the position, and the position as it is in mm."""
-    m = mbs.Model("pendulum", dimension=2)
-    body = m.body("body", mass=1.0, com=(0.1, 0.0), inertia=0.1)
-    m.revolute("pin", m.ground, body, point=(0.0, 0.0))
-    angle = m.relative_angle("angle", m.ground, body)
-    m.sense_element("torque", m.torsional_spring_damper("spring", angle, stiffness=5.0), "force")
-    m.sense_coordinate("tip", 1000.0 * body.point((0.2, 0.0))[1], unit="mm")
-    system = mbs.compile(m)
-    assert set(compared_sensors(system)) == {"tip"}
-    assert set(compared_sensors(system, converted=False)) == {"torque"}
 
 
 @pytest.mark.parametrize(("largest", "judged"), [(1e-6, {"x", "spring"}), (1.0, {"x", "spring", "motor"})])

@@ -32,7 +32,7 @@ def test_a_checked_run_continues_bit_for_bit() -> None:
         simulation.run(0.6, 0.005, estimate_error=estimate, **QUIET)
         simulation.set_switch("hold", False)
         simulation.run(1.0, 0.005, inputs={"push": lambda t: np.sin(t)}, estimate_error=estimate, **QUIET)
-    assert checked.save() == plain.save()
+    assert checked.instance.save() == plain.instance.save()
 
 
 def test_the_refined_instance_continues_from_run_to_run() -> None:
@@ -43,6 +43,23 @@ def test_the_refined_instance_continues_from_run_to_run() -> None:
     whole = mbs.simulate(swing(), 2.0, 0.01, estimate_error=True, **QUIET)
     assert second.accuracy.sensors == pytest.approx(whole.accuracy.sensors, rel=1e-3)
     assert 0.0 < first.accuracy.error < whole.accuracy.error
+
+
+@pytest.mark.parametrize("another", [False, True])
+def test_the_refined_instance_continues_from_a_saved_state(another: bool) -> None:
+    """Here and in another Simulation, after runs that are made again; damaged bytes change nothing."""
+    simulation = Simulation(swing())
+    simulation.run(1.0, 0.01, estimate_error=True, **QUIET)
+    state = simulation.save()
+    second = simulation.run(2.0, 0.01, estimate_error=True, **QUIET)
+    other = Simulation(swing()) if another else simulation
+    for bad in (state[:-300], state[: len(state) // 2], state[:-1]):
+        with pytest.raises(mbs.SimulationError, match="saved state was refused"):
+            other.restore(bad)
+    other.restore(state)
+    assert other.save() == state
+    again = other.run(2.0, 0.01, estimate_error=True, **QUIET)
+    assert again.accuracy.sensors == second.accuracy.sensors
 
 
 @pytest.mark.parametrize("ends", [[1.0, 1.05, 2.0], list(0.05 * np.arange(1, 41))])

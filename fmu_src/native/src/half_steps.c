@@ -26,7 +26,7 @@ static double counted_length(int64_t n, double h) { return (double)n * h / stret
 
 /* Whether the second motion has used its budget up to a step. */
 static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *step) {
-  return t->spent > BUDGET + step->simulated / (double)ALI3_MOST_PARTS;
+  return t->saved->spent > BUDGET + step->simulated / (double)ALI3_MOST_PARTS;
 }
 
 /* Richardson extrapolation: error of a motion from its difference to one with 1/n of the step, for order two as of
@@ -47,29 +47,52 @@ static int64_t abrupt_steps(const ali3_report *report) { return report->abrupt_s
 static bool disagree(double difference) { return difference > ALI3_AGREED * ALI3_WRONG_ERROR; }
 
 /* Whether an output is compared: the loaded System computes it, and it has a comparison in the table. */
-static bool is_compared(const slave *s, const slave_variable *v) {
-  return v->judged.unit >= 0 && !(v->uncomputed >> s->fidelity.number & 1);
+static bool is_compared(const slave_fidelity *f, const slave_variable *v) {
+  return v->judged.unit >= 0 && !(v->uncomputed >> f->number & 1);
 }
 
-/* Allocates one block for the compared outputs; false if there are none or no memory. */
-static bool begin_comparison(slave *s) {
-  slave_half_steps *t = &s->half_steps;
+/* Number of compared outputs of a fidelity. */
+static size_t compared_count(const slave_fidelity *f) {
   const slave_table *table = &slave_the_table;
   size_t n = 0;
-  if (t->compared != NULL) return true;
-  for (size_t i = table->n_known; i < table->n_variables; i++) n += is_compared(s, table->variable + i);
-  if (n == 0) return false;
-  t->compared = s->memory.allocate(
-      1, n * (sizeof(ali3_compared) + 2 * sizeof(double) + sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)));
-  if (t->compared == NULL) return false;
+  for (size_t i = table->n_known; i < table->n_variables; i++) n += is_compared(f, table->variable + i);
+  return n;
+}
+
+/* Number of inputs of the kernel. */
+static size_t input_count(const slave *s) { return (size_t)ali3_system_sizes(s->fidelity.system).nu; }
+
+/* Allocates one block: what is part of a state; two snapshots; inputs, and of each late step its inputs, compared
+ * outputs and parameters; work and the comparison of each output. False: nothing is compared, or there is no memory. */
+static bool allocate(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  const slave_table *table = &slave_the_table;
+  const size_t n = compared_count(&s->fidelity), saved = slave_half_steps_size(&s->fidelity), nu = input_count(s),
+               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + n + np,
+               snapshot = ali3_snapshot_size(s->fidelity.system);
+  if (t->saved != NULL || n == 0) return t->saved != NULL;
+  t->saved = s->memory.allocate(1, saved + 2 * snapshot + MOST_LATE * sizeof(slave_late_step) +
+                                      (nu + MOST_LATE * each + 2 * n) * sizeof(double) +
+                                      n * (sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)));
+  if (t->saved == NULL) return false;
   t->n = (int32_t)n;
-  t->output = (double *)(t->compared + n);
+  t->compared = (ali3_compared *)(t->saved + 1);
+  t->second = t->compared + n;
+  t->end = (unsigned char *)t->second + snapshot;
+  t->start = (unsigned char *)t->end + snapshot;
+  t->late = (slave_late_step *)((unsigned char *)t->start + snapshot);
+  t->input = (double *)(t->late + MOST_LATE);
+  t->output = t->input + nu;
   t->size = t->output + n;
-  t->variable = (size_t *)(t->size + n);
-  t->judged = (ali3_judged *)(t->variable + n);
-  t->sensor = (int32_t *)(t->judged + n);
+  for (size_t i = 0; i < MOST_LATE; i++) {
+    t->late[i].values = t->size + n + i * each;
+    t->late[i].parameter = t->late[i].values + each - np;
+  }
+  t->judged = (ali3_judged *)(t->size + n + MOST_LATE * each);
+  t->variable = (size_t *)(t->judged + n);
+  t->sensor = (int32_t *)(t->variable + n);
   for (size_t i = table->n_known, k = 0; k < n; i++) {
-    if (!is_compared(s, table->variable + i)) continue;
+    if (!is_compared(&s->fidelity, table->variable + i)) continue;
     t->variable[k] = i;
     t->judged[k] = table->variable[i].judged;
     t->sensor[k++] = table->variable[i].index;
@@ -82,7 +105,7 @@ static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system
 
 /* Clears the largest differences seen so far. */
 static void reset_difference(slave_half_steps *t) {
-  t->difference = 0.0;
+  t->saved->difference = 0.0;
   for (int32_t i = 0; i < t->n; i++) t->compared[i].gap = 0.0;
 }
 
@@ -90,56 +113,31 @@ static void reset_difference(slave_half_steps *t) {
 static void log_unchecked(slave *s, double time, const char *why) {
   if (s->error_warned || s->unchecked_logged) return;
   s->unchecked_logged = true;
-  slave_log(s, SLAVE_OK, "From %.4g s on %s: %s. This is reported once.", time,
-            s->half_steps.resumed > 0.0
-                ? "the second motion begins at the first one, so that errors of earlier steps are not seen to grow"
-                : "no second motion is computed, so that the error is unknown",
-            why);
+  slave_log(s, SLAVE_OK,
+            "From %.4g s on no second motion is computed, so that the error is unknown: %s. This is reported once.",
+            time, why);
 }
 
-/* Forgets the differences after a time, as a state from then was set. */
-static void forget_after(slave *s, double time) {
+/* Takes the counts of the first motion from its report. */
+static void take_counts(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  int32_t worst;
-  for (int32_t i = 0; i < t->n; i++)
-    if (t->compared[i].time > time) t->compared[i].gap = 0.0;
-  if (!(t->time > time)) return;
-  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
-  t->difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst);
-  t->time = worst < 0 ? time : t->compared[worst].time;
-}
-
-void slave_half_steps_begin(slave *s) {
-  slave_half_steps *t = &s->half_steps;
-  const double now = ali3_time(s->fidelity.kernel);
-  t->at_start = s->completed.n == 0;
-  /* without a road the error of a start is extrapolated from its growth, which has no part that could go on */
-  t->resumed =
-      has_road(s) && !t->at_start && now >= t->since ? fmin(SPAN, (t->scheduled - now) / stretch(s->completed.h)) : 0.0;
-  if (t->remaining > 0.0 || t->n_late > 0) log_unchecked(s, now, "a state was set");
-  t->remaining = 0.0;
-  /* a start may have any time; time that is left stays until a step succeeds, as another state may be set before */
-  if (!(t->resumed > 0.0)) t->scheduled = -HUGE_VAL;
-  t->n_late = 0;
-  t->cost = 0;
-  t->n_made = 0;
-  t->early_difference = t->late_difference = 0.0;
-  t->origin = t->simulated;
-  t->predicted = HUGE_VAL;
-  t->checked = -HUGE_VAL;
-  if (!begin_comparison(s)) return;
-  if (t->at_start) {
-    reset_difference(t);
-    memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
-  } else {
-    forget_after(s, now);
-  }
-  if (t->at_start && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
-    ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
   const ali3_report report = get_report(s);
   t->abrupt = abrupt_steps(&report);
   t->halvings = report.halvings;
   t->iterations = report.iterations;
+}
+
+void slave_half_steps_begin(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  t->n_late = 0;
+  t->n_made = 0;
+  take_counts(s);
+  if (!allocate(s)) return;
+  *t->saved = (slave_second_motion){.scheduled = -HUGE_VAL, .predicted = HUGE_VAL, .checked = -HUGE_VAL};
+  memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
+  ali3_snapshot_take(s->fidelity.kernel, t->second); /* a valid one until the second motion starts */
+  if (ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
+    ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
 }
 
 void slave_half_steps_observe(slave *s) {
@@ -148,33 +146,8 @@ void slave_half_steps_observe(slave *s) {
   ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
 }
 
-/* Number of inputs of the kernel. */
-static size_t input_count(const slave *s) { return (size_t)ali3_system_sizes(s->fidelity.system).nu; }
-
-/* Allocates one block: three snapshots, inputs, and of each late step its inputs, compared outputs and parameters. */
-static bool allocate(slave *s) {
-  slave_half_steps *t = &s->half_steps;
-  const size_t size = ali3_snapshot_size(s->fidelity.system), nu = input_count(s),
-               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + (size_t)t->n + np;
-  if (t->end != NULL || t->compared == NULL) return t->end != NULL;
-  t->end =
-      s->memory.allocate(1, 3 * size + (nu + MOST_LATE * each) * sizeof(double) + MOST_LATE * sizeof(slave_late_step));
-  if (t->end == NULL) return false;
-  t->second = (unsigned char *)t->end + size;
-  t->start = (unsigned char *)t->second + size;
-  t->late = (slave_late_step *)((unsigned char *)t->start + size);
-  t->input = (double *)(t->late + MOST_LATE);
-  for (size_t i = 0; i < MOST_LATE; i++) {
-    t->late[i].values = t->input + nu + i * each;
-    t->late[i].parameter = t->late[i].values + each - np;
-  }
-  ali3_snapshot_take(s->fidelity.kernel, t->second); /* a valid snapshot until the second motion starts */
-  return true;
-}
-
 void slave_half_steps_free(slave *s) {
-  if (s->half_steps.end != NULL) s->memory.release(s->half_steps.end);
-  if (s->half_steps.compared != NULL) s->memory.release(s->half_steps.compared);
+  if (s->half_steps.saved != NULL) s->memory.release(s->half_steps.saved);
   memset(&s->half_steps, 0, sizeof s->half_steps);
 }
 
@@ -209,31 +182,31 @@ static ali3_status make_inner_step(slave *s, const slave_late_step *step) {
  * abrupt step or difference, within the budget. */
 static bool begin_late_step(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
-  const bool rests = !(t->remaining > 0.0);
+  const bool rests = !(t->saved->remaining > 0.0);
   t->start_needed = t->start_needed && !step->starts;
   if (step->span > 0.0 && budget_is_spent(t, step)) {
     log_unchecked(s, step->end, "the time of the second motion is spent");
   } else if (step->span > 0.0 && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
-    t->remaining = fmax(t->remaining, step->span);
+    t->saved->remaining = fmax(t->saved->remaining, step->span);
   }
-  return t->remaining > 0.0;
+  return t->saved->remaining > 0.0;
 }
 
 /* Logs the result when the second motion ends. Without a road and abrupt forces, also predicts when the error is large,
  * from its growth between two windows of a start as a power of time. */
 static void log_conclusion(slave *s, const slave_late_step *step, double difference) {
   slave_half_steps *t = &s->half_steps;
-  const double error = extrapolated_error(t->late_difference, step->ratio);
+  const double error = extrapolated_error(t->saved->late_difference, step->ratio);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
   if (has_road(s) && !disagree(difference)) return; /* until the next abrupt force */
-  const bool first = t->checked == -HUGE_VAL; /* later windows follow an abrupt force and are short */
-  if (first) t->checked = step->end;
-  if (first && !has_road(s) && t->abrupt == 0 && t->early_difference > 0.0 &&
-      t->late_difference > t->early_difference) {
-    const double length = step->simulated - t->origin,
-                 power = log(t->late_difference / t->early_difference) / log(2.0 * length / start_span(s, step->h));
-    t->predicted = step->end + stretch(step->h) * length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
+  const bool first = t->saved->checked == -HUGE_VAL; /* later windows follow an abrupt force and are short */
+  if (first) t->saved->checked = step->end;
+  if (first && !has_road(s) && t->abrupt == 0 && t->saved->early_difference > 0.0 &&
+      t->saved->late_difference > t->saved->early_difference) {
+    const double length = step->simulated, power = log(t->saved->late_difference / t->saved->early_difference) /
+                                                   log(2.0 * length / start_span(s, step->h));
+    t->saved->predicted = step->end + stretch(step->h) * length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
     snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
   }
   snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
@@ -251,24 +224,24 @@ static void compare(slave *s, const slave_late_step *step) {
   ali3_compare(t->judged, t->n, 1, &step->end, step->values + input_count(s), t->output, t->compared);
   ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
   const double difference = ali3_compared_error(t->n, t->compared, t->size, 1, &worst);
-  if (difference > t->difference) {
-    t->difference = difference;
-    t->time = step->end;
-    t->h = step->h;
-    t->parts = step->parts;
-    t->ratio = step->ratio;
+  if (difference > t->saved->difference) {
+    t->saved->difference = difference;
+    t->saved->time = step->end;
+    t->saved->h = step->h;
+    t->saved->parts = step->parts;
+    t->saved->ratio = step->ratio;
   }
-  if (step->simulated - t->origin <= 0.5 * start) {
-    if (step->simulated - t->origin > 0.25 * start) t->early_difference = fmax(t->early_difference, difference);
-  } else if (difference > t->late_difference) {
-    t->late_difference = difference;
-    t->worst = worst;
+  if (step->simulated <= 0.5 * start) {
+    if (step->simulated > 0.25 * start) t->saved->early_difference = fmax(t->saved->early_difference, difference);
+  } else if (difference > t->saved->late_difference) {
+    t->saved->late_difference = difference;
+    t->saved->worst = worst;
   }
-  t->remaining -= length;
+  t->saved->remaining -= length;
   if (disagree(difference) && !budget_is_spent(t, step))
-    t->remaining = fmax(t->remaining, SPAN); /* it may still grow, as with a spinning wheel */
-  t->spent += length;
-  if (!(t->remaining > 0.0)) log_conclusion(s, step, difference);
+    t->saved->remaining = fmax(t->saved->remaining, SPAN); /* it may still grow, as with a spinning wheel */
+  t->saved->spent += length;
+  if (!(t->saved->remaining > 0.0)) log_conclusion(s, step, difference);
 }
 
 /* One inner step of the second motion in the first late step; none where it rests. Returns the iterations. */
@@ -284,7 +257,7 @@ static int64_t advance_second(slave *s) {
     if (good) {
       compare(s, step);
     } else {
-      t->remaining = 0.0;
+      t->saved->remaining = 0.0;
       log_unchecked(s, step->end, "a step of it failed");
     }
   }
@@ -323,13 +296,12 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   const int64_t n_parts = (int64_t)fmax((double)nominal_parts(s, s->completed.h), ceil(2.0 * made - 1e-9));
   const double begin = now - (double)s->completed.n * s->completed.h;
   const bool starts =
-      span > 0.0 && !(begin < t->scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
+      span > 0.0 && !(begin < t->saved->scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
   if (starts && t->n_late > 0 && t->start_needed) run_second(s, 0, 0, 0); /* `start` is still needed */
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->start_needed = starts || (t->start_needed && t->n_late > 1);
-  if (starts) t->since = begin;
-  if (span > 0.0) t->scheduled = fmax(t->scheduled, begin + span * stretch(s->completed.h));
+  if (span > 0.0) t->saved->scheduled = fmax(t->saved->scheduled, begin + span * stretch(s->completed.h));
   slave_read_step(s, step->parameter, step->values);
   slave_inputs_at(s, 0.0, step->values);
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, step->values + input_count(s));
@@ -339,7 +311,7 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
                             .parts = n_parts,
                             .ratio = (double)n_parts / made,
                             .span = span,
-                            .simulated = t->simulated,
+                            .simulated = t->saved->simulated,
                             .values = step->values,
                             .parameter = step->parameter,
                             .sloped = s->completed.sloped,
@@ -351,16 +323,18 @@ static slave_status report_difference(slave *s) {
   slave_half_steps *t = &s->half_steps;
   int32_t worst;
   ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
-  const double h = t->h / (double)t->parts, difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
-               error = extrapolated_error(difference, t->ratio);
+  const double h = t->saved->h / (double)t->saved->parts,
+               difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
+               error = extrapolated_error(difference, t->saved->ratio);
   const bool met =
-      error <= t->ratio * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
+      error <=
+      t->saved->ratio * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
   if (!(error > ALI3_WRONG_ERROR)) {
     reset_difference(t);
     return SLAVE_OK;
   }
   const slave_variable *v = slave_the_table.variable + t->variable[worst];
-  const double off = fabs(v->scale) * error * t->size[worst];
+  const double off = fabs(v->scale) * error * t->size[worst] / v->judged.factor;
   s->error_warned = true;
   const bool large = off >= 999.5; /* shown without an exponent */
   return slave_log(
@@ -368,9 +342,9 @@ static slave_status report_difference(slave *s) {
       "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
       "%.*g%s, %.2g %% of the largest %s in its unit at communication points. Run again with a step_size of %.2g s%s. "
       "This is reported once.",
-      t->compared[worst].time, (double)t->parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
+      t->compared[worst].time, (double)t->saved->parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
       large ? round(off) : off, v->unit, 100.0 * error, v->judged.kind & ALI3_JUDGED_LOAD ? "load" : "range",
-      h / ceil(error / (t->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
+      h / ceil(error / (t->saved->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
 }
 
 /* Logs the predicted error of a start. */
@@ -381,50 +355,66 @@ static slave_status report_prediction(slave *s, double now) {
                    "At %.4g s %s may be off by %.0f %% of the largest range in its unit: computed again with 1/%.0f of "
                    "the step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a "
                    "run of half the step_size, %g s. This is reported once.",
-                   now, slave_the_table.variable[t->variable[t->worst]].name, 100.0 * ALI3_WRONG_ERROR,
-                   (double)t->parts, t->checked, 100.0 * extrapolated_error(t->late_difference, t->ratio), 0.5 * t->h);
+                   now, slave_the_table.variable[t->variable[t->saved->worst]].name, 100.0 * ALI3_WRONG_ERROR,
+                   (double)t->saved->parts, t->saved->checked,
+                   100.0 * extrapolated_error(t->saved->late_difference, t->saved->ratio), 0.5 * t->saved->h);
 }
 
 /* Logs a difference after SPAN, or at the end of the run, and a prediction at its time. */
 static slave_status report_motion(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  const slave_status judged =
-      t->difference > 0.0 && (ended || now > t->time + SPAN * stretch(t->h)) ? report_difference(s) : SLAVE_OK;
-  return s->error_warned || now < t->predicted ? judged : report_prediction(s, now);
+  const slave_status judged = t->saved->difference > 0.0 && (ended || now > t->saved->time + SPAN * stretch(t->saved->h))
+                                  ? report_difference(s)
+                                  : SLAVE_OK;
+  return s->error_warned || now < t->saved->predicted ? judged : report_prediction(s, now);
 }
 
 void slave_half_steps_settle(slave *s) {
+  if (s->error_warned && s->half_steps.saved != NULL) s->half_steps.saved->remaining = 0.0; /* it was left behind */
   if (!s->error_warned && s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
 }
 
+size_t slave_half_steps_size(const slave_fidelity *f) {
+  return sizeof(slave_second_motion) + compared_count(f) * sizeof(ali3_compared) + ali3_snapshot_size(f->system);
+}
+
+ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes) {
+  const size_t n = compared_count(f);
+  slave_second_motion saved;
+  memcpy(&saved, bytes, sizeof saved);
+  if (saved.worst < 0 || (saved.worst > 0 && (size_t)saved.worst >= n)) return ALI3_BAD_STATE;
+  return saved.remaining > 0.0 ? ali3_snapshot_check(f->kernel, bytes + sizeof saved + n * sizeof(ali3_compared))
+                              : ALI3_OK;
+}
+
+void slave_half_steps_read(slave *s, const unsigned char *bytes) {
+  slave_half_steps *t = &s->half_steps;
+  slave_half_steps_begin(s);
+  if (t->saved == NULL) return;
+  memcpy(t->saved, bytes, sizeof *t->saved + (size_t)t->n * sizeof *t->compared);
+  if (t->saved->remaining > 0.0) memcpy(t->saved, bytes, slave_half_steps_size(&s->fidelity));
+}
+
 void slave_half_steps_end(slave *s) {
-  if (s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
+  if (s->half_steps.saved == NULL || s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
   slave_half_steps_settle(s);
   report_motion(s, ali3_time(s->fidelity.kernel), true);
 }
 
 slave_status slave_half_steps_advance(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  ali3_report report;
-  if (s->error_warned || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
+  if (t->saved == NULL || s->error_warned) return SLAVE_OK;
+  const ali3_report report = get_report(s);
   /* a mechanism without a road swings; driven tyres slip at once, which long steps miss */
-  const bool at_start = t->at_start && (!has_road(s) || 2.0 * s->completed.h > (double)ALI3_MOST_PARTS * SHORT),
-             abrupt = abrupt_steps(&report) > t->abrupt || at_start;
-  const int64_t made = report.iterations - t->iterations;
+  const bool at_start =
+      !(t->saved->simulated > 0.0) && (!has_road(s) || 2.0 * s->completed.h > (double)ALI3_MOST_PARTS * SHORT);
+  const int64_t made = report.iterations - t->iterations, halvings = report.halvings - t->halvings;
   const double length = counted_length(s->completed.n, s->completed.h), now = ali3_time(s->fidelity.kernel);
-  const int64_t halvings = report.halvings - t->halvings;
-  const double span = at_start ? start_span(s, s->completed.h) : abrupt ? SPAN : t->resumed;
-  if (t->resumed > 0.0) t->scheduled = -HUGE_VAL; /* the second motion begins with this step */
-  t->resumed = 0.0;
-  t->abrupt = abrupt_steps(&report);
-  t->halvings = report.halvings;
-  t->iterations = report.iterations;
-  t->at_start = false;
-  if (at_start && !(t->simulated > 0.0))
-    t->spent = -start_span(s, s->completed.h); /* besides the budget of abrupt forces */
-  t->simulated += length;
-  if (span > 0.0 && !allocate(s)) return SLAVE_OK;
-  if (t->end != NULL && (span > 0.0 || t->remaining > 0.0 || t->n_late > 0)) {
+  const double span = at_start ? start_span(s, s->completed.h) : abrupt_steps(&report) > t->abrupt ? SPAN : 0.0;
+  take_counts(s);
+  if (at_start) t->saved->spent = -span; /* besides the budget of abrupt forces */
+  t->saved->simulated += length;
+  if (span > 0.0 || t->saved->remaining > 0.0 || t->n_late > 0) {
     const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
     store_late_step(s, now, span, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ALI3_MOST_PARTS * s->completed.n);

@@ -140,15 +140,26 @@ typedef struct { /* a communication step that the second motion has not computed
   int64_t parts; /* of an inner step in the second motion */
   double ratio; /* mean step of the first motion, halved or not, divided by the step of the second */
   double span; /* s, for which the second motion runs from its start, as a force changed abruptly; 0: it did not */
-  double simulated; /* s, as in slave_half_steps */
+  double simulated; /* s, as in slave_second_motion */
   double *values; /* inputs at its start, then compared outputs at its end */
   double *parameter;
   bool sloped, starts; /* inputs have slopes; the second motion may start here from `start` */
 } slave_late_step;
 
+typedef struct { /* numbers of the second motion, which states have beside its snapshot; 8 bytes each */
+  double remaining, spent, simulated; /* s: still to run by the second motion, 0: it rests; run by it; by the first */
+  double scheduled; /* s: time up to which the second motion runs at least */
+  double difference, time; /* largest unreported relative difference; its time, s */
+  double h, ratio; /* inner step, s, and ratio of the late step with `difference` */
+  int64_t parts; /* of that step in the second motion */
+  double early_difference, late_difference; /* largest in the second quarter of a start, and after it; relative */
+  double checked, predicted; /* s: end of the comparison of a start; time at which the growing error is large */
+  int64_t worst; /* compared output that has late_difference */
+} slave_second_motion;
+
 typedef struct { /* the second motion, with at most half the step, see half_steps.c */
-  void *end, *second, *start; /* snapshots: the first motion after the step, the second motion, its next start;
-                                 NULL: not needed yet */
+  slave_second_motion *saved; /* NULL: nothing is compared; `compared` and `second` follow it */
+  void *second, *end, *start; /* snapshots: the second motion, the first one after the step, the next start */
   double *input; /* work: nu */
   /* n compared outputs: how they are compared, differences so far, sensor, variable; work: values, reference sizes */
   int32_t n, *sensor;
@@ -158,21 +169,10 @@ typedef struct { /* the second motion, with at most half the step, see half_step
   double *output, *size;
   slave_late_step *late; /* ring of n_late late steps; the oldest is `first` */
   size_t first, n_late;
-  double since, scheduled; /* s: times from which and up to which the second motion runs at least */
-  double resumed; /* s, for which it goes on from a state that was set; 0: it does not */
   int64_t n_made; /* inner steps of the second motion in the first late step */
   int64_t iterations, cost; /* of the first motion so far; of the last inner step of the second motion */
-  double remaining, spent, simulated; /* s: still to run by the second motion, 0: it rests; run by it; by the first */
-  double difference, time; /* largest unreported relative difference; its time, s */
-  double h, ratio; /* inner step, s, and ratio of the late step with `difference` */
-  int64_t parts; /* of that step in the second motion */
-  double origin; /* s: `simulated` when the state was last set */
-  double early_difference, late_difference; /* largest in the second quarter of a start, and after it; relative */
-  double checked, predicted; /* s: end of the comparison of a start; time at which the growing error is large */
-  int32_t worst; /* compared output that has late_difference */
-  int64_t abrupt, halvings; /* abrupt steps so far; halvings */
+  int64_t abrupt, halvings; /* of the first motion so far: abrupt steps, halvings */
   bool start_needed; /* a late step may use `start` */
-  bool at_start; /* no step since the start */
 } slave_half_steps;
 
 typedef struct { /* times at which an input at a port was set */
@@ -408,11 +408,14 @@ void slave_end_ramps(slave *s);
 /* After a completed communication step, before its slopes are cleared: advances the second motion; warns of a large
  * error. */
 slave_status slave_half_steps_advance(slave *s);
-/* Before a state is set: computes the late steps, as what they show holds for the steps before that state. */
-void slave_half_steps_settle(slave *s);
-/* Begins the second motion again, as a state was set or initialised: from a start, or for the time that was left; what
- * it has found before that state is kept. */
+/* After a start: forgets the second motion; the next step begins it. */
 void slave_half_steps_begin(slave *s);
+/* Before a state is saved and at the end: computes the late steps. */
+void slave_half_steps_settle(slave *s);
+/* Bytes of `saved` that are part of a state, from which the second motion goes on as it was; checks and reads it. */
+size_t slave_half_steps_size(const slave_fidelity *f);
+ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes);
+void slave_half_steps_read(slave *s, const unsigned char *bytes);
 /* Updates the ranges of the compared outputs. */
 void slave_half_steps_observe(slave *s);
 /* At the end of the run, also where the host resets or frees the instance without termination. */

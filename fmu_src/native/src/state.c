@@ -1,6 +1,6 @@
 /* A state as bytes: a header with magic, version, identity of the FMU, size and checksum; numbers of the slave; the
- * start of the last communication step, for its derivatives; the kernel's bytes; intermediate inputs. It has no
- * pointers, so that a run continues from it bit for bit in any process. */
+ * start of the last communication step, for its derivatives; the second motion; the kernel's bytes; intermediate
+ * inputs. It has no pointers, so that a run continues from it bit for bit in any process. */
 #include <math.h>
 #include <string.h>
 
@@ -27,7 +27,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers the bytes after it; only serialized states have one. */
-enum { STATE_VERSION = 9, CRC_OFFSET = 12, CRC_START = 16 };
+enum { STATE_VERSION = 10, CRC_OFFSET = 12, CRC_START = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
@@ -40,8 +40,11 @@ static size_t slave_size(void) {
   return sizeof(header) + n * (1 + 2 * SLAVE_TERMS) * sizeof(double) + n * (sizeof(slave_rhythm) + 2) + texts_size();
 }
 
-/* of the start of the last communication step, */
+/* of the start of the last communication step, and with the second motion, */
 static size_t start_size(const slave_fidelity *fidelity) { return ali3_snapshot_size(fidelity->system); }
+static size_t motions_size(const slave_fidelity *fidelity) {
+  return start_size(fidelity) + slave_half_steps_size(fidelity);
+}
 
 /* Size of the intermediate inputs of n inner steps, bytes. */
 static size_t intermediate_size(const slave_fidelity *fidelity, int64_t n) {
@@ -50,7 +53,7 @@ static size_t intermediate_size(const slave_fidelity *fidelity, int64_t n) {
 
 /* and of a whole state with intermediate_n inner steps with intermediate inputs. */
 static size_t state_size(const slave *s, int64_t intermediate_n) {
-  return slave_size() + start_size(&s->fidelity) + ali3_state_size(s->fidelity.system) +
+  return slave_size() + motions_size(&s->fidelity) + ali3_state_size(s->fidelity.system) +
          intermediate_size(&s->fidelity, intermediate_n);
 }
 
@@ -92,9 +95,11 @@ static void write_state(const slave *s, unsigned char *bytes) {
   append_bytes(&p, s->pending, n);
   append_bytes(&p, s->input_flags, n);
   append_bytes(&p, s->text, texts_size());
-  memset(p, 0, start_size(&s->fidelity));
+  memset(p, 0, motions_size(&s->fidelity));
   if (s->completed.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
-  p += start_size(&s->fidelity);
+  if (s->half_steps.saved != NULL)
+    memcpy(p + start_size(&s->fidelity), s->half_steps.saved, slave_half_steps_size(&s->fidelity));
+  p += motions_size(&s->fidelity);
   ali3_state_save(s->fidelity.kernel, p, ali3_state_size(s->fidelity.system));
   p += ali3_state_size(s->fidelity.system);
   if (s->intermediate.n > 0) memcpy(p, s->intermediate.row, intermediate_size(&s->fidelity, s->intermediate.n));
@@ -172,10 +177,12 @@ static bool restore_kernel(slave *s, const header *head, const unsigned char *te
     slave_fidelity_free(s, &other);
     return false;
   }
-  const size_t start = start_size(&other), intermediate = intermediate_size(&other, head->intermediate_n);
-  ali3_status status = size > start + intermediate ? ALI3_OK : ALI3_BAD_STATE;
+  const size_t start = start_size(&other), motions = motions_size(&other),
+               intermediate = intermediate_size(&other, head->intermediate_n);
+  ali3_status status = size > motions + intermediate ? ALI3_OK : ALI3_BAD_STATE;
   if (status == ALI3_OK && head->completed_n > 0) status = ali3_snapshot_check(other.kernel, bytes);
-  if (status == ALI3_OK) status = ali3_state_restore(other.kernel, bytes + start, size - start - intermediate);
+  if (status == ALI3_OK) status = slave_half_steps_check(&other, bytes + start);
+  if (status == ALI3_OK) status = ali3_state_restore(other.kernel, bytes + motions, size - motions - intermediate);
   if (status == ALI3_OK) memcpy(other.start, bytes, start);
   if (status != ALI3_OK) {
     if (!same) slave_fidelity_free(s, &other);
@@ -201,7 +208,6 @@ static slave_status read_state(slave *s, const unsigned char *bytes, size_t size
   if (head.intermediate_n > 0 && !slave_intermediate_reserve(s, head.intermediate_n))
     return slave_log(s, SLAVE_ERROR, "There is not enough memory for a state.");
   const unsigned char *texts = bytes + slave_size() - texts_size();
-  slave_half_steps_settle(s);
   if (!restore_kernel(s, &head, texts, bytes + slave_size(), size - slave_size())) return SLAVE_ERROR;
   s->calls.phase = (slave_phase)head.phase;
   s->calls.initialised = (int32_t)head.initialised;
@@ -214,7 +220,7 @@ static slave_status read_state(slave *s, const unsigned char *bytes, size_t size
   s->completed.n = head.completed_n;
   s->completed.h = head.completed_h;
   s->completed.sloped = head.sloped;
-  slave_half_steps_begin(s);
+  slave_half_steps_read(s, bytes + slave_size() + start_size(&s->fidelity));
   s->calls.start_time = head.start_time;
   s->calls.stop_time = head.stop_time;
   take_bytes(s->value, &p, n * sizeof(double));
@@ -241,6 +247,7 @@ static slave_status allocate(slave *s, size_t size, slave_state **state) {
 
 slave_status slave_state_get(slave *s, slave_state **state) {
   if (allocate(s, state_size(s, s->intermediate.n), state) != SLAVE_OK) return SLAVE_ERROR;
+  slave_half_steps_settle(s);
   write_state(s, (*state)->bytes);
   return SLAVE_OK;
 }

@@ -163,6 +163,7 @@ class JudgedFields(Structure):
     _fields_ = (
         ("unit", c_int32),
         ("kind", c_int32),
+        ("factor", c_double),
     )
 
 

@@ -449,6 +449,7 @@ enum { /* units */
 enum { ALI3_JUDGED_PLACE = 1, ALI3_JUDGED_LOAD = 2, ALI3_JUDGED_ALWAYS = 4, ALI3_JUDGED_WRAPPED = 8 };
 typedef struct {
   int32_t unit, kind; /* ALI3_JUDGED_M to ALI3_JUDGED_N_M; bits */
+  double factor; /* of the values, to the unit */
 } ali3_judged;
 typedef struct { /* of one of them; zero before the first sample */
   double least, most; /* of the finer motion, of an angle without its jumps */

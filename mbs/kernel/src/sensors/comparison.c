@@ -41,9 +41,10 @@ void ali3_compare(const ali3_judged *judged, int32_t n, int64_t rows, const doub
                   const double *other, ali3_compared *seen) {
   for (int64_t row = 0; row < rows; row++)
     for (int32_t i = 0; i < n; i++) {
-      update(judged + i, other[row * n + i], one != NULL, seen + i);
+      const double finer = judged[i].factor * other[row * n + i];
+      update(judged + i, finer, one != NULL, seen + i);
       if (one == NULL) continue;
-      seen[i].latest = difference(judged + i, one[row * n + i], other[row * n + i]);
+      seen[i].latest = difference(judged + i, judged[i].factor * one[row * n + i], finer);
       if (!(seen[i].latest > seen[i].gap)) continue;
       seen[i].gap = seen[i].latest;
       if (time != NULL) seen[i].time = time[row];
