@@ -24,6 +24,8 @@ REGULARISATION = 1e-11
 """Regularisation of the multipliers for redundant rows; rows have unit length."""
 FREE_WEIGHT = 1e-8
 """Weight of the kinetic energy of bodies without a given velocity."""
+LEAST_GIVEN = 1e-3
+"""Least mass by which a given velocity counts, parts of the mean mass: a light body may carry heavy ones."""
 MASSLESS = 1e-12
 """Weight of velocities without mass, such as rates of relative angles, parts of the mean mass: they have no energy."""
 
@@ -125,11 +127,11 @@ def start_velocity(
     ----------
     stiffness : csr_matrix
         Of the flexible bodies, as a mass (kg).
-    given : csr_matrix
+    given_mass : csr_matrix
         Mass of the bodies with a given velocity, in z.
-    aim : ndarray, shape (nq,)
+    given_momentum : ndarray, shape (nq,)
         The same mass times the given velocities.
-    near : ndarray, shape (nq,), optional
+    free_momentum : ndarray, shape (nq,), optional
         The whole mass times the velocities of the other coordinates without joints; None: zero.
     """
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
@@ -139,6 +141,10 @@ def start_velocity(
     metric = (positive_metric(mass, MASSLESS) + stiffness).tocsr()
     if free_momentum is not None:
         v = np.atleast_1d(spsolve(metric.tocsc(), free_momentum))
+    given = given_mass.diagonal()
+    lightest = np.min(given, initial=np.inf, where=given > MASSLESS * np.max(given))
+    raised = max(1.0, LEAST_GIVEN * float(np.mean(mass.diagonal())) / lightest)
+    given_mass, given_momentum = raised * given_mass, raised * given_momentum
     total = (given_mass + stiffness + FREE_WEIGHT * metric).tocsr()
     lu, factor = factorise(total, Phiq)
     weight = float(np.mean(total.diagonal()))

@@ -122,3 +122,18 @@ def test_what_is_not_given_has_the_least_kinetic_energy(declared: str, given: di
         m.sense_rotation(body.name, body, order=1)
     sensors = mbs.Simulation(mbs.compile(m)).sensors
     assert (sensors["upper"], sensors["lower"]) == pytest.approx(expected, rel=1e-8)
+
+
+@pytest.mark.parametrize("inertia", [1e-2, 1e-6, 1e-9])
+def test_a_light_body_gives_its_velocity_to_a_heavy_one(inertia: float) -> None:
+    """Its energy, which weighs what is given, is far below that of the body it carries."""
+    m = Model("carrier")
+    light = m.body("light", mass=0.2, com=(0.5, 0, 0), inertia=3 * (inertia,))
+    heavy = m.body("heavy", mass=2.0, com=(0.7, 0.2, 0), inertia=(0.1, 0.1, 0.1))
+    m.weld("weld", light, heavy)
+    m.spherical("ball", m.ground, light, point=(0, 0, 0))
+    m.initial_velocity(light, angular=(1.0, 2.0, 3.0))
+    for c in "xyz":
+        m.sense_rotation(c, heavy, c, order=1)
+    sensors = mbs.Simulation(mbs.compile(m)).sensors
+    assert [sensors[c] for c in "xyz"] == pytest.approx([1.0, 2.0, 3.0], rel=1e-9)
