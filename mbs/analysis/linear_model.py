@@ -30,6 +30,7 @@ from mbs.analysis.kinks import state_beside_kinks
 from mbs.analysis.steady_motion import SteadyFrame, steady_frame
 from mbs.common.checks import instance_of, is_number, shown
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
+from mbs.simulation.large_bending import warn_of_state
 from mbs.simulation.state import State
 from mbs.simulation.stepping import Simulation
 from mbs.system.system import System
@@ -134,12 +135,15 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     -----
     LinearisationWarning
         A force has a kink at the state, or bends within the smallest differences.
+    BendingWarning
+        A flexible body carries axial forces in this state, or bends, so far that its frequencies are off.
     """
     instance_of(Simulation, simulation, "What linearise takes", "a Simulation")
     if side is not None and (not is_number(side) or side not in (1, -1)):
         raise ValueError(f"side = {shown(side)}; it must be 1 (rising velocities), -1 (falling ones) or left out.")
     evaluator = Evaluator(simulation)
     state = evaluator.state
+    warn_of_state(simulation.system.frames, simulation.time, state.q, stacklevel=3)
     M = evaluator.mass()
     jacobian = evaluator.jacobian(state.q)
     V, W, P = admissible_motions(M, jacobian, simulation.system)

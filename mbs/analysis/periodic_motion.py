@@ -14,6 +14,7 @@ from mbs.analysis.linear_model import admissible_motions
 from mbs.common.checks import instance_of, is_finite, shown
 from mbs.simulation.arguments import check_resolution
 from mbs.simulation.evaluator import Evaluator
+from mbs.simulation.large_bending import warn_of_state
 from mbs.simulation.stepping import Simulation
 
 Array = NDArray[np.float64]
@@ -63,6 +64,11 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
         If the motion does not come back after the period, or force elements have states of their own.
     SimulationError
         If a step fails.
+
+    Warns
+    -----
+    BendingWarning
+        A flexible body carries axial forces in the present state, or bends, so far that its frequencies are off.
     """
     instance_of(Simulation, simulation, "What floquet takes", "a Simulation")
     is_valid = is_finite(period) and is_finite(h) and 0.0 < h <= period
@@ -80,6 +86,7 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
             "Floquet multipliers need force elements without states; tyres, brakes and contacts have some."
         )
     M = evaluator.mass()
+    warn_of_state(simulation.system.frames, simulation.time, state.q, stacklevel=3)
     V, _, P = admissible_motions(M, evaluator.jacobian(state.q), simulation.system)
     steps = max(1, round(period / h))
 

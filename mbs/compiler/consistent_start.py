@@ -24,6 +24,10 @@ REGULARISATION = 1e-11
 """Regularisation of the multipliers for redundant rows; rows have unit length."""
 FREE_WEIGHT = 1e-8
 """Weight of the kinetic energy of bodies without a given velocity."""
+LEAST_GIVEN = 1e-3
+"""Least mass by which a given velocity counts, parts of the mean mass: a light body may carry heavy ones."""
+MASSLESS = 1e-12
+"""Weight of velocities without mass, such as rates of relative angles, parts of the mean mass: they have no energy."""
 
 
 def factorise(metric: sparse.csr_matrix, Phiq: sparse.csr_matrix) -> tuple[object, Array]:
@@ -38,11 +42,11 @@ def factorise(metric: sparse.csr_matrix, Phiq: sparse.csr_matrix) -> tuple[objec
     return splu(block), factor
 
 
-def positive_metric(mass: sparse.csr_matrix) -> sparse.csr_matrix:
-    """The mass matrix with a mean mass on coordinates that have none."""
+def positive_metric(mass: sparse.csr_matrix, part: float) -> sparse.csr_matrix:
+    """The mass matrix with a part of the mean mass on coordinates that have none."""
     diagonal = mass.diagonal()
     mean = float(np.mean(diagonal[diagonal > 0.0])) if np.any(diagonal > 0.0) else 1.0
-    return sparse.csr_matrix(mass + sparse.diags(np.where(diagonal > 0.0, 0.0, mean)))
+    return sparse.csr_matrix(mass + sparse.diags(np.where(diagonal > 0.0, 0.0, part * mean)))
 
 
 def close_position(
@@ -62,7 +66,7 @@ def close_position(
     """
     if arrays.nc == 0:
         return q
-    metric = (positive_metric(mass) + stiffness).tocsr()
+    metric = (positive_metric(mass, 1.0) + stiffness).tocsr()
     violation, position, step = _violation(arrays, q, guides, tolerance_factor)[0], q, 1.0
     for _ in range(ITERATIONS):
         if np.max(violation) <= CLOSED * tolerance_factor:
@@ -123,20 +127,24 @@ def start_velocity(
     ----------
     stiffness : csr_matrix
         Of the flexible bodies, as a mass (kg).
-    given : csr_matrix
+    given_mass : csr_matrix
         Mass of the bodies with a given velocity, in z.
-    aim : ndarray, shape (nq,)
+    given_momentum : ndarray, shape (nq,)
         The same mass times the given velocities.
-    near : ndarray, shape (nq,), optional
+    free_momentum : ndarray, shape (nq,), optional
         The whole mass times the velocities of the other coordinates without joints; None: zero.
     """
     _, Phiq, phi_t = arrays.evaluate(q, guides, driving_rates)
     v = np.zeros(arrays.nq)
     if not np.any(given_momentum) and not np.any(phi_t):
         return v
-    metric = (positive_metric(mass) + stiffness).tocsr()
+    metric = (positive_metric(mass, MASSLESS) + stiffness).tocsr()
     if free_momentum is not None:
         v = np.atleast_1d(spsolve(metric.tocsc(), free_momentum))
+    given = given_mass.diagonal()
+    lightest = np.min(given, initial=np.inf, where=given > MASSLESS * np.max(given))
+    raised = max(1.0, LEAST_GIVEN * float(np.mean(mass.diagonal())) / lightest)
+    given_mass, given_momentum = raised * given_mass, raised * given_momentum
     total = (given_mass + stiffness + FREE_WEIGHT * metric).tocsr()
     lu, factor = factorise(total, Phiq)
     weight = float(np.mean(total.diagonal()))

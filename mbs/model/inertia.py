@@ -8,6 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.checks import array, capital, is_number, positive
 from mbs.common.errors import ModelError
 
+ROUND_OFF = 1e-14
+"""Part of the largest principal value below which the smallest of a sum of point masses is round-off."""
+
 
 def inertia_matrix(value: ArrayLike, dimension: int, subject: str) -> NDArray[np.float64]:
     """Inertia about the centre of mass as a 3x3 matrix (planar: zero but for zz), checked for physical possibility."""
@@ -26,8 +29,11 @@ def inertia_matrix(value: ArrayLike, dimension: int, subject: str) -> NDArray[np
         raise ModelError(f"{capital(subject)} is not symmetric; the entry (i, j) must equal (j, i).")
     inertia = np.array(0.5 * (inertia + inertia.T))
     principal = np.linalg.eigvalsh(inertia)
-    if principal[0] <= 0.0:
-        raise ModelError(f"{capital(subject)} has the principal value {principal[0]:g}; all must be greater than zero.")
+    if principal[0] <= ROUND_OFF * abs(principal[2]):
+        raise ModelError(
+            f"{capital(subject)} has the principal value {principal[0]:g}, beside {principal[2]:g}; all must be "
+            "greater than zero, and than its round-off."
+        )
     if principal[0] + principal[1] < principal[2] * (1.0 - 1e-9):
         raise ModelError(
             f"{capital(subject)} has the principal values {principal[0]:g}, {principal[1]:g}, {principal[2]:g}; "

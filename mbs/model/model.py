@@ -109,6 +109,10 @@ class Model(
     def initial_rate(self, coordinate: Coordinate, rate: float) -> None:
         """Start rate of a relative angle or a spin.
 
+        Velocities that are not given follow from the joints: where these leave several, the start takes the one with
+        the least kinetic energy, as after an impulse on this coordinate alone. The lower rod of a double pendulum whose
+        upper one is given a rate turns back. Give the other rates too, 0 for a coordinate at rest, to start otherwise.
+
         Parameters
         ----------
         rate : float

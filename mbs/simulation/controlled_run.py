@@ -68,12 +68,12 @@ class ControlledRun:
         With the method; the tolerances of its Newton iteration are reduced as the run needs.
     tolerance : float
         Largest error of positions relative to the length of the model.
-    step_factor : float
-        Factor on the longest step.
+    longest : float
+        Longest step, s, where shorter than a part of the run.
     """
 
     def __init__(
-        self, simulation: SteppedSystem, task: Task, settings: Settings, tolerance: float, step_factor: float = 1.0
+        self, simulation: SteppedSystem, task: Task, settings: Settings, tolerance: float, longest: float = math.inf
     ) -> None:
         meta = prepared(simulation.system).meta
         self.simulation, self.task = simulation, task
@@ -90,7 +90,7 @@ class ControlledRun:
             length=self.length,
             span=task.span,
             rate=max(math.sqrt(meta.get("gravity", 0.0) / self.length), 1.0 / task.span),
-            longest=step_factor * (MAX_STEP_WITH_FUNCTIONS if task.signals.has_functions else MAX_STEP) * task.span,
+            longest=min(longest, (MAX_STEP_WITH_FUNCTIONS if task.signals.has_functions else MAX_STEP) * task.span),
         )
         n = len(task.times)
         self.values = np.empty((n, len(meta["sensors"])))

@@ -101,3 +101,10 @@ class BendingWatch:
         """Issue the warning, once."""
         if text := self.message_once():
             warnings.warn(text, BendingWarning, stacklevel=stacklevel)
+
+
+def warn_of_state(frames: Frames | None, t: float, q: Array, stacklevel: int) -> None:
+    """Issue the warning for one state about which a System is linearised: coordinates `q` (nq,) at time `t`, s."""
+    watch = BendingWatch(frames)
+    watch.observe(t, q)
+    watch.warn(stacklevel + 1)

@@ -162,9 +162,9 @@ def _run_method(
     if coarser is None:
         coarser = _finish(ControlledRun(start(), task, settings, coarse), target, bar, 0.0, times, first)
         runs, wall = runs + 1, wall + coarser.wall
-    error, run, step_factor = math.inf, None, 1.0
+    error, run, longest = math.inf, None, math.inf
     for number in range(1, round(FINER) + 1):
-        next_run = ControlledRun(start(), task, settings, run_tolerance, step_factor)
+        next_run = ControlledRun(start(), task, settings, run_tolerance, longest)
         try:
             next_run = _finish(next_run, target, bar, min(0.5, 0.3 * number), times, first)
         except (StalledError, SimulationError):
@@ -178,9 +178,9 @@ def _run_method(
         distance, estimate = pair.distance, pair.distance * pair.error_ratio
         # runs that are far apart show nothing about the finer one
         error = distance if position_distance > WRONG_ERROR else estimate
-        if error == 0.0 and step_factor == 1.0:
-            # both runs made the longest steps, so they are equal and show no error: halve these steps
-            coarser, step_factor = run, 0.5
+        if error == 0.0 and longest == math.inf:
+            # the longest steps or the pieces of guides and tables made both runs equal: halve the steps that were made
+            coarser, longest = run, 0.5 * run.fields.largest
             continue
         mode_changed = number == 1 and run.simulation.branch_change  # both runs may have changed the mode
         error_grows = number == 1 and position_distance > coarser.fields.error_sum  # both runs may have the same error

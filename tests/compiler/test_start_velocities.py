@@ -91,3 +91,49 @@ def test_the_parts_of_a_velocity_may_be_given_one_after_the_other() -> None:
     m.sense_rotation("rate", body, "z", order=1)
     sensors = mbs.Simulation(mbs.compile(m)).sensors
     assert (sensors["speed"], sensors["rate"]) == pytest.approx((1.0, 2.0))
+
+
+@pytest.mark.parametrize("declared", ["a", "ab", "abc"])
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ({"a": 2.0}, (2.0, -2.0 * 0.4 / 0.46)),
+        ({"a": 2.0, "b": 0.0}, (2.0, 2.0)),
+        ({"b": 1.0}, (-0.86 / 3.61, 1.0 - 0.86 / 3.61)),
+        ({"velocity": 2.0}, (2.0, -2.0 * 0.4 / 0.46)),
+    ],
+)
+def test_what_is_not_given_has_the_least_kinetic_energy(declared: str, given: dict, expected: tuple) -> None:
+    """A double pendulum with the mass matrix [[2.35, 0.4], [0.4, 0.46]] of the rates of its rods: as after an impulse.
+    Angles without a given rate, which have no mass, change nothing."""
+    m = Model("double pendulum", dimension=2)
+    upper = m.body("upper", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    lower = m.body("lower", mass=2.0, com=(1.2, -0.3), inertia=0.2)
+    m.revolute("pin", m.ground, upper, point=(0.0, 0.0))
+    m.revolute("elbow", upper, lower, point=(1.0, 0.0))
+    pairs = {"a": (m.ground, upper), "b": (upper, lower), "c": (m.ground, lower)}
+    for name in sorted({*declared, *given} & set(pairs)):
+        angle = m.relative_angle(name, *pairs[name])
+        if name in given:
+            m.initial_rate(angle, given[name])
+    if "velocity" in given:
+        m.initial_velocity(upper, angular=given["velocity"])
+    for body in (upper, lower):
+        m.sense_rotation(body.name, body, order=1)
+    sensors = mbs.Simulation(mbs.compile(m)).sensors
+    assert (sensors["upper"], sensors["lower"]) == pytest.approx(expected, rel=1e-8)
+
+
+@pytest.mark.parametrize("inertia", [1e-2, 1e-6, 1e-9])
+def test_a_light_body_gives_its_velocity_to_a_heavy_one(inertia: float) -> None:
+    """Its energy, which weighs what is given, is far below that of the body it carries."""
+    m = Model("carrier")
+    light = m.body("light", mass=0.2, com=(0.5, 0, 0), inertia=3 * (inertia,))
+    heavy = m.body("heavy", mass=2.0, com=(0.7, 0.2, 0), inertia=(0.1, 0.1, 0.1))
+    m.weld("weld", light, heavy)
+    m.spherical("ball", m.ground, light, point=(0, 0, 0))
+    m.initial_velocity(light, angular=(1.0, 2.0, 3.0))
+    for c in "xyz":
+        m.sense_rotation(c, heavy, c, order=1)
+    sensors = mbs.Simulation(mbs.compile(m)).sensors
+    assert [sensors[c] for c in "xyz"] == pytest.approx([1.0, 2.0, 3.0], rel=1e-9)

@@ -96,6 +96,7 @@ def flapping_frequency(parts: int, speed: float) -> tuple[float, float]:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")  # tension, as warned
 def test_rotating_beam_frequencies_approach_southwell() -> None:
     """Flapping of a blade without hub radius: w^2 = w0^2 + 1.193 W^2 (Southwell). Tension acts between the parts."""
     speed = 40.0

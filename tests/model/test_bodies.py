@@ -57,6 +57,7 @@ def test_a_mass_added_off_centre_moves_with_the_body(dimension):
         ({"mass": -1.0}, "mass of body 'x' is -1; it must be greater than zero"),
         ({"inertia": (1.0, 1.0, 2.5)}, "greater than the sum of the others"),
         ({"inertia": (1.0, 1.0, -0.1)}, "principal value -0.1"),
+        ({"inertia": (1.0, 1.0, 1e-16)}, "beside 1; all must be greater than zero, and than its round-off"),
         ({"inertia": [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]}, "not symmetric"),
     ],
 )

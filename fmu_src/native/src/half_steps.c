@@ -72,8 +72,8 @@ static bool allocate(slave *s) {
                snapshot = ali3_snapshot_size(s->fidelity.system);
   if (t->saved != NULL || n == 0) return t->saved != NULL;
   t->saved = s->memory.allocate(1, saved + 2 * snapshot + MOST_LATE * sizeof(slave_late_step) +
-                                      (nu + MOST_LATE * each + 2 * n) * sizeof(double) +
-                                      n * (sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)));
+                                       (nu + MOST_LATE * each + 2 * n) * sizeof(double) +
+                                       n * (sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)));
   if (t->saved == NULL) return false;
   t->n = (int32_t)n;
   t->compared = (ali3_compared *)(t->saved + 1);
@@ -295,8 +295,8 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   const double made = 1.0 + (double)halvings / (double)s->completed.n;
   const int64_t n_parts = (int64_t)fmax((double)nominal_parts(s, s->completed.h), ceil(2.0 * made - 1e-9));
   const double begin = now - (double)s->completed.n * s->completed.h;
-  const bool starts =
-      span > 0.0 && !(begin < t->saved->scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
+  const bool starts = span > 0.0 && !(begin < t->saved->scheduled -
+                                                  0.5 * (now - begin)); /* times of both motions differ by round-off */
   if (starts && t->n_late > 0 && t->start_needed) run_second(s, 0, 0, 0); /* `start` is still needed */
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
@@ -363,9 +363,9 @@ static slave_status report_prediction(slave *s, double now) {
 /* Logs a difference after SPAN, or at the end of the run, and a prediction at its time. */
 static slave_status report_motion(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  const slave_status judged = t->saved->difference > 0.0 && (ended || now > t->saved->time + SPAN * stretch(t->saved->h))
-                                  ? report_difference(s)
-                                  : SLAVE_OK;
+  const slave_status judged =
+      t->saved->difference > 0.0 && (ended || now > t->saved->time + SPAN * stretch(t->saved->h)) ? report_difference(s)
+                                                                                                  : SLAVE_OK;
   return s->error_warned || now < t->saved->predicted ? judged : report_prediction(s, now);
 }
 
@@ -384,7 +384,7 @@ ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char 
   memcpy(&saved, bytes, sizeof saved);
   if (saved.worst < 0 || (saved.worst > 0 && (size_t)saved.worst >= n)) return ALI3_BAD_STATE;
   return saved.remaining > 0.0 ? ali3_snapshot_check(f->kernel, bytes + sizeof saved + n * sizeof(ali3_compared))
-                              : ALI3_OK;
+                               : ALI3_OK;
 }
 
 void slave_half_steps_read(slave *s, const unsigned char *bytes) {
@@ -396,7 +396,8 @@ void slave_half_steps_read(slave *s, const unsigned char *bytes) {
 }
 
 void slave_half_steps_end(slave *s) {
-  if (s->half_steps.saved == NULL || s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
+  if (s->half_steps.saved == NULL || s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED)))
+    return;
   slave_half_steps_settle(s);
   report_motion(s, ali3_time(s->fidelity.kernel), true);
 }
