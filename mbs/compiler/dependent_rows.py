@@ -41,9 +41,8 @@ def independent_rows(
     normal: dict[int, dict[Monomial, float]] = {}
     for i, row in enumerate(rows):
         if not row.is_plain:
-            chosen.add(
-                i
-            )  # rows of angles and driving functions have variables that no other row has; switched rows may be off
+            # rows of angles and driving functions have variables that no other row has; switched rows may be off
+            chosen.add(i)
             continue
         main = {(i, j): v * unit_by_degree[(i >= 0) + (j >= 0)] for (i, j), v in row.main.items()}
         size = max((abs(v) for m, v in main.items() if m != CONSTANT), default=0.0)

@@ -532,8 +532,8 @@ class Simulation(SteppedSystem):
         if self._refined is None:
             return self.instance.save()
         ends = {name: bytes(fields).hex() for name, fields in self._extremes.items()}
-        kept = json.dumps([self._divisor, ends]).encode()
-        return self.instance.save() + self._refined.instance.save() + b"%08x" % crc32(kept) + kept
+        ranges = json.dumps([self._divisor, ends]).encode()
+        return self.instance.save() + self._refined.instance.save() + b"%08x" % crc32(ranges) + ranges
 
     def restore(self, state: bytes) -> None:
         """Continue from a saved state of the same System.
@@ -545,10 +545,10 @@ class Simulation(SteppedSystem):
         """
         instance_of((bytes, bytearray), state, "The saved state", "the bytes that save() gave")
         size = self.instance.system.state_size
-        refined, sum_of_kept, kept = state[size : 2 * size], state[2 * size : 2 * size + 8], state[2 * size + 8 :]
+        refined, checksum, ranges = state[size : 2 * size], state[2 * size : 2 * size + 8], state[2 * size + 8 :]
 
         def restore_both() -> None:
-            if refined and sum_of_kept != b"%08x" % crc32(kept):
+            if refined and checksum != b"%08x" % crc32(ranges):
                 raise KernelError(Status.BAD_STATE, "the bytes of its refined run were altered.")
             other = self._restored(bytes(refined)) if refined else None
             self.instance.restore(bytes(state[:size]))
@@ -556,7 +556,7 @@ class Simulation(SteppedSystem):
 
         self._call("The saved state was refused", restore_both)
         if refined:
-            self._divisor, ends = json.loads(kept)
+            self._divisor, ends = json.loads(ranges)
             self._extremes = {n: ComparedFields.from_buffer_copy(bytes.fromhex(text)) for n, text in ends.items()}
 
     def _index(self, kind: str, name: str) -> int:

@@ -103,7 +103,7 @@ def assert_saved_state_continues(system, settings):
     second = Simulation(system)
     second.restore(first.save())
     second.run(1.0, 0.02)
-    assert whole.save()[64:] == second.save()[64:]
+    assert whole.instance.save()[64:] == second.instance.save()[64:]
 
 
 def sliding_mass(stiffness: float, damping: float, start: float, speed: float) -> System:

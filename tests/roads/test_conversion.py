@@ -166,9 +166,9 @@ def test_what_a_grid_cannot_have_is_refused(tmp_path, name):
         with pytest.raises(RoadFileError, match=sentence):
             read_road(tmp_path / name, spacing=spacing)
     for options, sentence in (
-        ({"height_range": (0.0, 0.25)}, "range 0 to 0.25 of heights .* its heights come from no picture"),
-        ({"friction_range": (0.2, 1.0)}, "range 0.2 to 1 of frictions .* its frictions come from no picture"),
-        ({"friction_range": (0.2, 1.0), "frictions": 0.5}, "its frictions come from no picture"),
+        ({"height_range": (0.0, 0.25)}, "range 0 to 0.25 of heights .* the heights come from no picture"),
+        ({"friction_range": (0.2, 1.0)}, "range 0.2 to 1 of frictions .* the frictions come from no picture"),
+        ({"friction_range": (0.2, 1.0), "frictions": 0.5}, "the frictions come from no picture"),
     ):
         with pytest.raises(RoadFileError, match=sentence) as refused:
             read_road(tmp_path / name, **options)
