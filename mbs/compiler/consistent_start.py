@@ -24,8 +24,6 @@ REGULARISATION = 1e-11
 """Regularisation of the multipliers for redundant rows; rows have unit length."""
 FREE_WEIGHT = 1e-8
 """Weight of the kinetic energy of bodies without a given velocity."""
-LEAST_GIVEN = 1e-3
-"""Least mass by which a given velocity counts, parts of the mean mass: a light body may carry heavy ones."""
 MASSLESS = 1e-12
 """Weight of velocities without mass, such as rates of relative angles, parts of the mean mass: they have no energy."""
 
@@ -141,10 +139,6 @@ def start_velocity(
     metric = (positive_metric(mass, MASSLESS) + stiffness).tocsr()
     if free_momentum is not None:
         v = np.atleast_1d(spsolve(metric.tocsc(), free_momentum))
-    given = given_mass.diagonal()
-    lightest = np.min(given, initial=np.inf, where=given > MASSLESS * np.max(given))
-    raised = max(1.0, LEAST_GIVEN * float(np.mean(mass.diagonal())) / lightest)
-    given_mass, given_momentum = raised * given_mass, raised * given_momentum
     total = (given_mass + stiffness + FREE_WEIGHT * metric).tocsr()
     lu, factor = factorise(total, Phiq)
     weight = float(np.mean(total.diagonal()))

@@ -11,7 +11,7 @@ from mbs.compiler.full_coordinates import full_mass, symmetric
 from mbs.compiler.natural_coordinates import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
-from mbs.compiler.start_velocities import GivenVelocity, contradiction, given_velocities
+from mbs.compiler.start_velocities import LEAST_WEIGHT, GivenVelocity, contradiction, given_velocities, raised_weight
 from mbs.kernel.header.enumerations import DrivingFunctionType
 from mbs.model.driving_functions import table_value
 from mbs.model.model import Model
@@ -76,13 +76,14 @@ def velocity(
     position = full_values(full, z)
     rates = np.zeros(len(full))
     weights, is_partial = {}, False
+    least = LEAST_WEIGHT * float(np.mean(mass.diagonal()))
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]
         coordinates = slice(body.start, body.start + body.size)
         zeros = np.zeros(model.dimension), np.zeros(1 if model.dimension == 2 else 3)
         v, w = (at_rest if given is None else given for given, at_rest in zip((linear, angular), zeros, strict=True))
         rates[coordinates] = body.velocity(v, w, position[coordinates])
-        weights[k] = body.velocity_weight(linear is not None, angular is not None or body.is_point)
+        weights[k] = raised_weight(body, linear is not None, angular is not None or body.is_point, least)
         is_partial = is_partial or (linear is None) != (angular is None)
     M_given = full_mass(model, weights)
     mean = float(np.mean(mass.diagonal())) * max(1.0, RATE_ARM * length) ** 2
@@ -110,4 +111,4 @@ def velocity(
         return full_rates(solve(g.matrix(len(full)), single_rates, False))
 
     qd = solve(M_given + sparse.diags(added_mass), rates, is_partial)
-    return qd, contradiction(model, list(given_velocities(model, position, mean)), full_rates(qd), solve_alone)
+    return qd, contradiction(model, list(given_velocities(model, position, mean, least)), full_rates(qd), solve_alone)

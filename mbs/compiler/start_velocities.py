@@ -7,10 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from mbs.model.body import Body
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
+LEAST_WEIGHT = 1e-3
+"""Least mass by which a given velocity counts, parts of the mean mass: a light body may carry heavy ones."""
+ROUND_OFF = 1e-12
+"""Smallest mass of a weight, parts of its largest one: others are none."""
 MISSED = 1e-6
 """Largest error of a velocity that is satisfied, parts of the largest velocity in the metric of the mass."""
 
@@ -54,8 +59,18 @@ class GivenVelocity:
         return sparse.csr_matrix((self.weight.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n))
 
 
-def given_velocities(model: Model, position: Array, mass: float) -> Iterator[GivenVelocity]:
-    """Given velocities of a model; `position`: full coordinates, `mass`: mass of coordinates without mass, kg."""
+def raised_weight(body: Body, linear: bool, angular: bool, least: float) -> Array:
+    """`Body.velocity_weight`, raised until its smallest mass, but for modes, is at least `least`, kg."""
+    weight = body.velocity_weight(linear, angular)
+    masses = np.diag(weight)[:12]
+    return weight * max(1.0, least / np.min(masses, initial=np.inf, where=masses > ROUND_OFF * np.max(masses)))
+
+
+def given_velocities(model: Model, position: Array, mass: float, least: float) -> Iterator[GivenVelocity]:
+    """Given velocities of a model.
+
+    `position`: full coordinates; `mass`: mass of coordinates without mass, kg; `least`: see `raised_weight`.
+    """
     d, turns = model.dimension, 1 if model.dimension == 2 else 3
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]
@@ -63,11 +78,11 @@ def given_velocities(model: Model, position: Array, mass: float) -> Iterator[Giv
         v, w = (np.zeros(n) if x is None else x for x, n in ((linear, d), (angular, turns)))
         rates = body.velocity(v, w, position[coordinates])
         if linear is not None:
-            weight = body.velocity_weight(True, False)
+            weight = raised_weight(body, True, False, least)
             yield GivenVelocity(f"the velocity of '{body.name}'", "m/s", coordinates, weight, rates, none)
         if angular is not None and not body.is_point:
             axes = position[coordinates][d : 4 if d == 2 else 12].reshape(-1, d)
-            weight = body.velocity_weight(False, True)
+            weight = raised_weight(body, False, True, least)
             yield GivenVelocity(f"the angular velocity of '{body.name}'", "rad/s", coordinates, weight, rates, axes)
     for i, rate in model.coordinate_rates.items():
         weight = np.array([[max(mass, model.inertias.get(i, 0.0))]])

@@ -94,7 +94,16 @@ def required_check(report: Report, method: str) -> str:
     # divided steps may hide the effect of an abrupt force
     is_undivided = report.halvings == report.divisions == report.abrupt_steps == 0
     is_conserved = max(energy_drift(report), abs(report.energy_change)) <= GOAL_ERROR
-    return "" if missed_over_peak(report) <= WRONG_ERROR and is_conserved and is_undivided else COARSER
+    return "" if largest_error(report) <= WRONG_ERROR and is_conserved and is_undivided else COARSER
+
+
+def largest_error(report: Report) -> float:
+    """Largest error, of the range, to which the missed changes of velocity can grow.
+
+    They are first-order errors; their square, of order two, grows in a chaotic motion by up to e in each radian.
+    """
+    missed = missed_over_peak(report)
+    return max(missed, missed * missed * math.exp(min(rotation(report), 700.0)))
 
 
 def missed_over_peak(report: Report) -> float:
@@ -107,8 +116,12 @@ def missed_over_peak(report: Report) -> float:
 def energy_drift(report: Report) -> float:
     """Energy balance times (1 + rotation of the motion, rad), because position errors of a wrong energy accumulate."""
     balance = report.energy_balance if abs(report.energy_error) > report.energy_floor else 0.0
-    rotation = report.velocity_path / report.speed_peak if report.speed_peak > 0.0 else 0.0
-    return balance * (1.0 + rotation)
+    return balance * (1.0 + rotation(report))
+
+
+def rotation(report: Report) -> float:
+    """Rotation of the motion, rad: all changes of the velocity over the largest one."""
+    return report.velocity_path / report.speed_peak if report.speed_peak > 0.0 else 0.0
 
 
 def missed_fraction(report: Report, method: str) -> float:

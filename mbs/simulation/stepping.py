@@ -527,13 +527,15 @@ class Simulation(SteppedSystem):
         Returns
         -------
         bytes
-            For `restore`; with the refined run of checked runs, if there is one.
+            For `restore`; with the refined run and the ranges of checked runs, if there were any.
         """
-        if self._refined is None:
-            return self.instance.save()
-        ends = {name: bytes(fields).hex() for name, fields in self._extremes.items()}
-        ranges = json.dumps([self._divisor, ends]).encode()
-        return self.instance.save() + self._refined.instance.save() + b"%08x" % crc32(ranges) + ranges
+        state = self.instance.save()
+        if self._refined is None and not self._extremes:
+            return state
+        refined = b"" if self._refined is None else self._refined.instance.save()
+        ranges = {name: bytes(fields).hex() for name, fields in self._extremes.items()}
+        check = refined + b"\n" + json.dumps([self._divisor, ranges]).encode()
+        return state + b"%08x" % crc32(state + check) + check
 
     def restore(self, state: bytes) -> None:
         """Continue from a saved state of the same System.
@@ -545,19 +547,19 @@ class Simulation(SteppedSystem):
         """
         instance_of((bytes, bytearray), state, "The saved state", "the bytes that save() gave")
         size = self.instance.system.state_size
-        refined, checksum, ranges = state[size : 2 * size], state[2 * size : 2 * size + 8], state[2 * size + 8 :]
+        own, checksum, check = bytes(state[:size]), state[size : size + 8], bytes(state[size + 8 :])
+        refined, _, numbers = check.rpartition(b"\n")
 
         def restore_both() -> None:
-            if refined and checksum != b"%08x" % crc32(ranges):
-                raise KernelError(Status.BAD_STATE, "the bytes of its refined run were altered.")
-            other = self._restored(bytes(refined)) if refined else None
-            self.instance.restore(bytes(state[:size]))
-            self._refined = other
+            if checksum and checksum != b"%08x" % crc32(own + check):
+                raise KernelError(Status.BAD_STATE, "the bytes of its check were altered.")
+            divisor, ranges = json.loads(numbers) if checksum else (0, {})
+            other = self._restored(refined) if refined else None
+            self.instance.restore(own)
+            self._refined, self._divisor = other, divisor
+            self._extremes = {n: ComparedFields.from_buffer_copy(bytes.fromhex(text)) for n, text in ranges.items()}
 
         self._call("The saved state was refused", restore_both)
-        if refined:
-            self._divisor, ends = json.loads(ranges)
-            self._extremes = {n: ComparedFields.from_buffer_copy(bytes.fromhex(text)) for n, text in ends.items()}
 
     def _index(self, kind: str, name: str) -> int:
         """Index of an input, parameter or switch; `kind`: key of the metadata. Raises `ValueError` if there is none."""

@@ -179,7 +179,7 @@ def _run_method(
         # runs that are far apart show nothing about the finer one
         error = distance if position_distance > WRONG_ERROR else estimate
         if error == 0.0 and longest == math.inf:
-            # the longest steps or the pieces of guides and tables made both runs equal: halve the steps that were made
+            # the longest steps, or pieces of driving functions and tables, made both runs equal: halve the steps made
             coarser, longest = run, 0.5 * run.fields.largest
             continue
         mode_changed = number == 1 and run.simulation.branch_change  # both runs may have changed the mode

@@ -137,3 +137,22 @@ def test_a_light_body_gives_its_velocity_to_a_heavy_one(inertia: float) -> None:
         m.sense_rotation(c, heavy, c, order=1)
     sensors = mbs.Simulation(mbs.compile(m)).sensors
     assert [sensors[c] for c in "xyz"] == pytest.approx([1.0, 2.0, 3.0], rel=1e-9)
+
+
+@pytest.mark.parametrize("light", [1e-9, 1e-12, 1e-15])
+def test_given_velocities_of_light_and_heavy_bodies_hold_beside_each_other(light: float) -> None:
+    """However light: the body between counts beside one of 10 kg."""
+    m = Model("chain", dimension=2, gravity=(0.0, 0.0))
+    masses, names = (10.0, light, 1.0), ("heavy", "light", "last")
+    bodies = [
+        m.body(n, mass=mass, com=(k + 0.5, 0.0), inertia=mass)
+        for k, (n, mass) in enumerate(zip(names, masses, strict=True))
+    ]
+    for k, body in enumerate(bodies):
+        m.revolute(f"pin {k}", bodies[k - 1] if k else m.ground, body, point=(float(k), 0.0))
+    m.initial_velocity(bodies[0], angular=2.0)
+    m.initial_velocity(bodies[1], angular=-1.0)
+    for body in bodies:
+        m.sense_rotation(body.name, body, order=1)
+    sensors = mbs.Simulation(mbs.compile(m)).sensors
+    assert (sensors["heavy"], sensors["light"]) == pytest.approx((2.0, -1.0), rel=1e-6)

@@ -52,14 +52,27 @@ def test_the_refined_instance_continues_from_a_saved_state(another: bool) -> Non
     simulation.run(1.0, 0.01, estimate_error=True, **QUIET)
     state = simulation.save()
     second = simulation.run(2.0, 0.01, estimate_error=True, **QUIET)
+    second_state = simulation.save()
     other = Simulation(swing()) if another else simulation
-    for bad in (state[:-300], state[: len(state) // 2], state[:-1]):
+    size = simulation.instance.system.state_size
+    mixed = second_state[:size] + state[size:]
+    for bad in (state[:-300], state[: len(state) // 2], state[:-1], mixed):
         with pytest.raises(mbs.SimulationError, match="saved state was refused"):
             other.restore(bad)
     other.restore(state)
     assert other.save() == state
     again = other.run(2.0, 0.01, estimate_error=True, **QUIET)
     assert again.accuracy.sensors == second.accuracy.sensors
+
+
+def test_a_restored_start_forgets_the_ranges_of_what_is_taken_back() -> None:
+    """A run after it has the error of a run from the start, though the discarded motion was ten times as wide."""
+    fresh, used = Simulation(swing()), Simulation(swing())
+    start = used.save()
+    used.run(1.0, 0.002, inputs={"push": lambda t: 30.0 + t}, **QUIET)
+    used.restore(start)
+    errors = [s.run(0.2, 0.02, estimate_error=True, **QUIET).accuracy.error for s in (fresh, used)]
+    assert errors[0] == errors[1] > 0.0
 
 
 @pytest.mark.parametrize("ends", [[1.0, 1.05, 2.0], list(0.05 * np.arange(1, 41))])

@@ -109,7 +109,6 @@ def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_t
 ):
     opened = Page(chromium, written([live_car], tmp_path, "--title", "A <car> & its page"))
     assert opened.page.title() == "A <car> & its page"
-    assert opened.ask("player.session._worker instanceof Worker")
     keyboard = opened.page.keyboard
     keyboard.down("ArrowUp")
     opened.until("player.time > 0.6")

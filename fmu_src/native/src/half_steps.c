@@ -132,7 +132,11 @@ void slave_half_steps_begin(slave *s) {
   t->n_late = 0;
   t->n_made = 0;
   take_counts(s);
-  if (!allocate(s)) return;
+  if (!allocate(s)) {
+    if (compared_count(&s->fidelity) > 0)
+      log_unchecked(s, ali3_time(s->fidelity.kernel), "there is not enough memory for it");
+    return;
+  }
   *t->saved = (slave_second_motion){.scheduled = -HUGE_VAL, .predicted = HUGE_VAL, .checked = -HUGE_VAL};
   memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
   ali3_snapshot_take(s->fidelity.kernel, t->second); /* a valid one until the second motion starts */
@@ -295,8 +299,8 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   const double made = 1.0 + (double)halvings / (double)s->completed.n;
   const int64_t n_parts = (int64_t)fmax((double)nominal_parts(s, s->completed.h), ceil(2.0 * made - 1e-9));
   const double begin = now - (double)s->completed.n * s->completed.h;
-  const bool starts = span > 0.0 && !(begin < t->saved->scheduled -
-                                                  0.5 * (now - begin)); /* times of both motions differ by round-off */
+  /* times of both motions differ by round-off */
+  const bool starts = span > 0.0 && !(begin < t->saved->scheduled - 0.5 * (now - begin));
   if (starts && t->n_late > 0 && t->start_needed) run_second(s, 0, 0, 0); /* `start` is still needed */
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
@@ -326,9 +330,8 @@ static slave_status report_difference(slave *s) {
   const double h = t->saved->h / (double)t->saved->parts,
                difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
                error = extrapolated_error(difference, t->saved->ratio);
-  const bool met =
-      error <=
-      t->saved->ratio * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
+  /* the step of the second motion suffices at order one, as at a kink */
+  const bool met = error <= t->saved->ratio * ALI3_WRONG_ERROR;
   if (!(error > ALI3_WRONG_ERROR)) {
     reset_difference(t);
     return SLAVE_OK;
@@ -383,6 +386,12 @@ ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char 
   slave_second_motion saved;
   memcpy(&saved, bytes, sizeof saved);
   if (saved.worst < 0 || (saved.worst > 0 && (size_t)saved.worst >= n)) return ALI3_BAD_STATE;
+  const double finite[] = {saved.remaining, saved.spent, saved.simulated,        saved.difference,     saved.time,
+                           saved.h,         saved.ratio, saved.early_difference, saved.late_difference};
+  for (size_t i = 0; i < sizeof finite / sizeof *finite; i++)
+    if (!isfinite(finite[i])) return ALI3_BAD_STATE;
+  if (isnan(saved.scheduled) || isnan(saved.checked) || isnan(saved.predicted)) return ALI3_BAD_STATE;
+  if (saved.difference > 0.0 && !(saved.parts >= 2 && saved.h > 0.0 && saved.ratio > 0.0)) return ALI3_BAD_STATE;
   return saved.remaining > 0.0 ? ali3_snapshot_check(f->kernel, bytes + sizeof saved + n * sizeof(ali3_compared))
                                : ALI3_OK;
 }

@@ -24,8 +24,8 @@ typedef struct {
   /* Whether a large energy error alone makes a run invalid; not by quadratures of work, which have errors in stiff
    * systems. */
   bool balance_decides;
-  bool (*has_driving_work)(
-      const ali3_instance *in); /* whether its steps measure the work of driving functions; NULL: never */
+  /* Whether its steps measure the work of driving functions; NULL: never. */
+  bool (*has_driving_work)(const ali3_instance *in);
   /* ALI3_OK, or a status if it does not accept the System; NULL: it accepts all. */
   ali3_status (*check_system)(const ali3_instance *in);
   const char *excludes; /* what it does not accept in a System, for messages; NULL: it accepts all */

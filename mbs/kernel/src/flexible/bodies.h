@@ -1,4 +1,4 @@
-/* Bodies beyond the constant mass matrix: flexible and tabled ones. */
+/* Bodies beyond the constant mass matrix: flexible ones and those by lookup table. */
 #ifndef ALI3_BODIES_H
 #define ALI3_BODIES_H
 #include "../instance.h"

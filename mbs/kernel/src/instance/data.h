@@ -53,7 +53,7 @@ typedef struct {
   ali3_system *system; /* NULL: no parameter sets an axis, and the members that follow are empty */
   double *val, *constant, *entry; /* as sig_val, sig_const and el_entry_value of ali3_system */
   double *mass, *speed; /* as tabled_mass and pose_speed */
-  ali3_lookup *lookup; /* n_lookup: as tabled, with `mass` */
+  ali3_lookup *lookup; /* n_lookup: as `lookup` of the System, with `mass` */
 } ali3_parametric_axes;
 
 /* Roads. */

@@ -1,5 +1,5 @@
 /* Discrete derivative A of the rows over a step: A (q1 - q0) = Phi(q1, s) - Phi(q0, s) at mean driving function
- * factors, exactly. For quadratic rows it is the mean of Phi_q at both ends; guided and angle rows are products of
+ * factors, exactly. For quadratic rows it is the mean of Phi_q at both ends; driven and angle rows are products of
  * three factors, for which the mean of the derivatives differs from the derivative of the means by products of two
  * increments. */
 #include <string.h>
