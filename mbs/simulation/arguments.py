@@ -90,13 +90,13 @@ def check_resolution(t: float, h: float) -> None:
 
 
 def count_steps(t0: float, t_end: float, h: float) -> int:
-    """Number of whole steps of `h` from `t0` to `t_end`, s, up to round-off.
+    """Number of whole steps of `h` from `t0` to `t_end`, s, up to round-off, also that of numbers of 32 bits.
 
     Raises `ValueError` if the end is before the start, or the step is longer than the run or lost in the round-off of
     the time.
     """
     end = check_end(t0, t_end)
-    steps = math.floor((end - t0) / h + 1e-6)
+    steps = math.floor((end - t0) / h * (1.0 + 1e-7) + 1e-6)
     if steps == 0 and end > t0:
         raise ValueError(f"The step h is {h:g} s, longer than the run of {end - t0:g} s; take a shorter step.")
     if steps:

@@ -78,6 +78,8 @@ def test_a_run_ends_at_the_last_whole_step(system):
     assert simulate(system, 1.0, 0.25, estimate_error=False).t[-1] == pytest.approx(1.0, abs=ROUND_OFF)
     assert simulate(system, 1.0, 0.03).t[-1] == pytest.approx(0.99, abs=ROUND_OFF)
     assert simulate(system, 0.3, 0.1).t[-1] == pytest.approx(0.3, abs=ROUND_OFF)
+    for h in (0.001, 0.003, 0.01):  # the nearest numbers of 32 bits lie above or below
+        assert simulate(system, 0.3, np.float32(h)).t[-1] == pytest.approx(0.3, rel=1e-7)
 
 
 CONTINUE = """
