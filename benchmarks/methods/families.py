@@ -17,7 +17,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import PPoly
 
 import mbs
-from benchmarks.methods import random_cars, random_machines, random_mechanisms
+from benchmarks.methods import chaotic_pendulums, random_cars, random_machines, random_mechanisms
 from benchmarks.references import boxes, masses_on_a_line, newton_euler
 from benchmarks.references.newton_euler import INSTANTS
 from benchmarks.references.rigid_mechanism import GROUND, Joint, Mechanism
@@ -32,6 +32,7 @@ from mbs.kernel.header.enumerations import Status
 
 Array = NDArray[np.float64]
 STEPS = (0.001, 0.002, 0.005, 0.01, 0.02)  # s
+CHAOTIC_STEPS = (0.0002, 0.0005, 0.001, 0.002)  # s
 TOLERANCES = (1e-2, 1e-3, 1e-4)
 NEARLY_FLAT = (1e-5, 1e-3)  # relative difference of the arms near a change point
 
@@ -306,6 +307,12 @@ def _tumbling_body(rng: np.random.Generator) -> Case:
     return Case("body", truth=truth, **simulation_fields(mbs.compile(m), span), tolerances=())
 
 
+def chaotic(rng: np.random.Generator) -> Case:
+    """Double and triple pendulums."""
+    system, truth, span = chaotic_pendulums.random_pendulum(rng)
+    return Case(f"{len(truth) // 2} rods", truth=truth, **simulation_fields(system, span), steps=CHAOTIC_STEPS)
+
+
 def fmus(rng: np.random.Generator) -> Case:
     """FMUs of cars through FMPy, which drive down a kerb or fall, with constant pedals and steering wheel.
 
@@ -382,6 +389,7 @@ FAMILIES: dict[str, Callable[[np.random.Generator], Case]] = {
     "flexible": flexible,
     "gears": gears,
     "tumbling": tumbling,
+    "chaotic": chaotic,
     "fmus": fmus,
     "fmu_mechanisms": fmu_mechanisms,
 }
