@@ -93,7 +93,7 @@ class Fmu(Closable, NamedScalars):
             self._loaded = Instance(self.description, folder, path.stem, self._log)
         except BaseException as error:
             self._remove()
-            if isinstance(error, (HostError, MemoryError)) or not isinstance(error, Exception):
+            if isinstance(error, MemoryError) or not isinstance(error, Exception):
                 raise
             if isinstance(error, OSError) and error.errno is not None:
                 raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
@@ -107,7 +107,7 @@ class Fmu(Closable, NamedScalars):
             return
         others = ", ".join(sorted({file.parent.name for file in folder.glob("binaries/*/*")}))
         raise HostError(
-            f"{self.path} has no library for {own}; it has {'those for ' if others else ''}{others or 'none'}. To an "
+            f"it has no library for {own}; it has {'those for ' if others else ''}{others or 'none'}. To an "
             f"FMU that ALi3 has built, {command_name('build')} --fmu {quote(str(self.path))} --platforms this --out "
             f"{quote(str(self.path.parent))} adds it."
         )

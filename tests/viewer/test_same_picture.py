@@ -60,7 +60,7 @@ def picture_of_drive(program: Program, camera: str, quality: str) -> np.ndarray:
     program.page.evaluate("name => { player.camera(name); player.view.cameras.trailing.snap(); }", camera)
     program.epoch += 1
     program.send(INSTANT, flags=0)
-    wait_until(program.page, "epoch => player.cockpit._after?.epoch === epoch", arg=program.epoch)
+    wait_until(program.page, "epoch => player.cockpit._drawn?.[1].epoch === epoch", arg=program.epoch)
     return picture_of_simulator(program.page)
 
 

@@ -396,6 +396,15 @@ ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char 
                                : ALI3_OK;
 }
 
+void slave_half_steps_write(const slave *s, unsigned char *bytes) {
+  const slave_half_steps *t = &s->half_steps;
+  if (t->saved == NULL) return;
+  /* a second motion that rests has no state */
+  memcpy(bytes, t->saved,
+         t->saved->remaining > 0.0 ? slave_half_steps_size(&s->fidelity)
+                                   : sizeof *t->saved + (size_t)t->n * sizeof *t->compared);
+}
+
 void slave_half_steps_read(slave *s, const unsigned char *bytes) {
   slave_half_steps *t = &s->half_steps;
   slave_half_steps_begin(s);

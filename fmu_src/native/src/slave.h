@@ -412,8 +412,10 @@ slave_status slave_half_steps_advance(slave *s);
 void slave_half_steps_begin(slave *s);
 /* Before a state is saved and at the end: computes the late steps. */
 void slave_half_steps_settle(slave *s);
-/* Bytes of `saved` that are part of a state, from which the second motion goes on as it was; checks and reads it. */
+/* Bytes of `saved` that are part of a state, from which the second motion goes on as it was; writes it into bytes that
+ * are zero, checks and reads it. */
 size_t slave_half_steps_size(const slave_fidelity *f);
+void slave_half_steps_write(const slave *s, unsigned char *bytes);
 ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes);
 void slave_half_steps_read(slave *s, const unsigned char *bytes);
 /* Updates the ranges of the compared outputs. */

@@ -97,8 +97,7 @@ static void write_state(const slave *s, unsigned char *bytes) {
   append_bytes(&p, s->text, texts_size());
   memset(p, 0, motions_size(&s->fidelity));
   if (s->completed.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
-  if (s->half_steps.saved != NULL)
-    memcpy(p + start_size(&s->fidelity), s->half_steps.saved, slave_half_steps_size(&s->fidelity));
+  slave_half_steps_write(s, p + start_size(&s->fidelity));
   p += motions_size(&s->fidelity);
   ali3_state_save(s->fidelity.kernel, p, ali3_state_size(s->fidelity.system));
   p += ali3_state_size(s->fidelity.system);

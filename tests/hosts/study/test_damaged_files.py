@@ -58,7 +58,7 @@ def test_no_bit_of_a_part_is_read_as_other_rows(study_file, tmp_path):
             refusals += 1
             continue
         assert same, bit
-    assert 250 < refusals < 500  # names of columns, statistics and the like stand in the rest of a file
+    assert 100 < refusals < 500  # names of columns, statistics and the like stand in the rest of a file
 
 
 @pytest.mark.slow
