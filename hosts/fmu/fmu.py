@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ali3.errors import reason
 from ali3.message_text import brief, shortened
 from ali3.near_names import did_you_mean
-from ali3.processes import cause_text, command_name
+from ali3.processes import cause_text
 from ali3.temporary_folder import temporary_folder
 from hosts.common.closable import Closable
 from hosts.common.errors import HostError
@@ -108,7 +108,7 @@ class Fmu(Closable, NamedScalars):
         others = ", ".join(sorted({file.parent.name for file in folder.glob("binaries/*/*")}))
         raise HostError(
             f"it has no library for {own}; it has {'those for ' if others else ''}{others or 'none'}. To an "
-            f"FMU that ALi3 has built, {command_name('build')} --fmu {quote(str(self.path))} --platforms this --out "
+            f"FMU that ALi3 has built, ali3 build --fmu {quote(str(self.path))} --platforms this --out "
             f"{quote(str(self.path.parent))} adds it."
         )
 
