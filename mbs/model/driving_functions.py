@@ -15,7 +15,7 @@ from mbs.model.body import Body
 from mbs.model.carried_parts import SlidingPoint
 from mbs.model.inputs import owned_input
 from mbs.model.records import DrivingFunction, Input
-from mbs.model.register import Register
+from mbs.model.register import Register, owned
 
 
 def pair(value: object, subject: str) -> tuple[Any, Any]:
@@ -46,13 +46,7 @@ def perpendicular_rows(directions: object, count: int, dimension: int, subject: 
 
 def owned_driving_function(model: Register, guide: DrivingFunction, subject: str) -> DrivingFunction:
     """The driving function; raises `ModelError` if it is not of this model."""
-    if (
-        not isinstance(guide, DrivingFunction)
-        or guide.index >= len(model.guides)
-        or model.guides[guide.index] is not guide
-    ):
-        raise ModelError(f"{subject} needs a driving function made by model '{model.name}', got {shown(guide)}.")
-    return guide
+    return owned(model, model.guides, guide, "a driving function", subject)
 
 
 def new_driving_function(

@@ -6,7 +6,7 @@ from mbs.common.checks import flag, limit, number, shown, text
 from mbs.common.errors import ModelError
 from mbs.elements.record_checks import INT32_MAX
 from mbs.model.records import Input, Role
-from mbs.model.register import Register
+from mbs.model.register import Register, owned
 
 
 def new_input(
@@ -57,13 +57,7 @@ def _check_whole(name: str, numbers: dict[str, float], unit: str) -> None:
 
 def owned_input(model: Register, channel: Input, subject: str) -> Input:
     """The input; raises `ModelError` if it is not of this model."""
-    if (
-        not isinstance(channel, Input)
-        or channel.index >= len(model.inputs)
-        or model.inputs[channel.index] is not channel
-    ):
-        raise ModelError(f"{subject} needs an input made by model '{model.name}', got {shown(channel)}.")
-    return channel
+    return owned(model, model.inputs, channel, "an input", subject)
 
 
 class InputVocabulary(Register):

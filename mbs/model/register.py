@@ -181,3 +181,13 @@ class Register(ModelCoordinates):
         if k is None:
             raise ModelError(f"The model '{self.name}' has no joint named {shown(name)}.")
         return self.joints[k]
+
+
+def owned(model: Register, entries: Sequence[N], given: N, kind: str, subject: str) -> N:
+    """The given entry of a list of the model; raises `ModelError` if it is none.
+
+    `kind`: name of an entry with its article.
+    """
+    if not any(entry is given for entry in entries):
+        raise ModelError(f"{subject} needs {kind} made by model '{model.name}', got {shown(given)}.")
+    return given

@@ -119,19 +119,18 @@ static void log_unchecked(slave *s, double time, const char *why) {
 }
 
 /* Takes the counts of the first motion from its report. */
-static void take_counts(slave *s) {
-  slave_half_steps *t = &s->half_steps;
-  const ali3_report report = get_report(s);
-  t->abrupt = abrupt_steps(&report);
-  t->halvings = report.halvings;
-  t->iterations = report.iterations;
+static void take_counts(slave_half_steps *t, const ali3_report *report) {
+  t->abrupt = abrupt_steps(report);
+  t->halvings = report->halvings;
+  t->iterations = report->iterations;
 }
 
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
   t->n_late = 0;
   t->n_made = 0;
-  take_counts(s);
+  const ali3_report report = get_report(s);
+  take_counts(t, &report);
   if (!allocate(s)) {
     if (compared_count(&s->fidelity) > 0)
       log_unchecked(s, ali3_time(s->fidelity.kernel), "there is not enough memory for it");
@@ -396,21 +395,23 @@ ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char 
                                : ALI3_OK;
 }
 
-void slave_half_steps_write(const slave *s, unsigned char *bytes) {
+/* Bytes of a state that are in use: a second motion that rests has no snapshot. */
+static size_t used_size(const slave *s) {
   const slave_half_steps *t = &s->half_steps;
-  if (t->saved == NULL) return;
-  /* a second motion that rests has no state */
-  memcpy(bytes, t->saved,
-         t->saved->remaining > 0.0 ? slave_half_steps_size(&s->fidelity)
-                                   : sizeof *t->saved + (size_t)t->n * sizeof *t->compared);
+  return t->saved->remaining > 0.0 ? slave_half_steps_size(&s->fidelity)
+                                   : sizeof *t->saved + (size_t)t->n * sizeof *t->compared;
+}
+
+void slave_half_steps_write(const slave *s, unsigned char *bytes) {
+  if (s->half_steps.saved != NULL) memcpy(bytes, s->half_steps.saved, used_size(s));
 }
 
 void slave_half_steps_read(slave *s, const unsigned char *bytes) {
   slave_half_steps *t = &s->half_steps;
   slave_half_steps_begin(s);
   if (t->saved == NULL) return;
-  memcpy(t->saved, bytes, sizeof *t->saved + (size_t)t->n * sizeof *t->compared);
-  if (t->saved->remaining > 0.0) memcpy(t->saved, bytes, slave_half_steps_size(&s->fidelity));
+  memcpy(t->saved, bytes, sizeof *t->saved); /* says how much is in use */
+  memcpy(t->saved, bytes, used_size(s));
 }
 
 void slave_half_steps_end(slave *s) {
@@ -430,7 +431,7 @@ slave_status slave_half_steps_advance(slave *s) {
   const int64_t made = report.iterations - t->iterations, halvings = report.halvings - t->halvings;
   const double length = counted_length(s->completed.n, s->completed.h), now = ali3_time(s->fidelity.kernel);
   const double span = at_start ? start_span(s, s->completed.h) : abrupt_steps(&report) > t->abrupt ? SPAN : 0.0;
-  take_counts(s);
+  take_counts(t, &report);
   if (at_start) t->saved->spent = -span; /* besides the budget of abrupt forces */
   t->saved->simulated += length;
   if (span > 0.0 || t->saved->remaining > 0.0 || t->n_late > 0) {
