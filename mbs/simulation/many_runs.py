@@ -41,7 +41,7 @@ from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.fixed_steps import Warned, run_fixed_steps
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import attach_inputs, next_chunk, trajectory_of
-from mbs.simulation.omitted_sensor_run import omitted_of_run
+from mbs.simulation.omitted_sensors import omitted_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal

@@ -24,7 +24,7 @@ from mbs.simulation.arguments import (
     check_values,
     count_steps,
 )
-from mbs.simulation.omitted_sensor_run import omitted_of_run
+from mbs.simulation.omitted_sensors import omitted_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.recorded_trajectory import recorded_trajectory

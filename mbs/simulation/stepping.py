@@ -42,13 +42,12 @@ from mbs.simulation.arguments import (
     requested_tolerance,
 )
 from mbs.simulation.fixed_steps import run_fixed_steps
-from mbs.simulation.omitted_sensor_system import Readings
+from mbs.simulation.omitted_sensors import Readings
 from mbs.simulation.parameter_warning import warn_if_out_of_range
 from mbs.simulation.refusal import refusal
-from mbs.simulation.restored_run import restore_system
 from mbs.simulation.start_on_road import warn_of_start_beside_road
 from mbs.simulation.state import Pose
-from mbs.simulation.stepped_system import SteppedSystem
+from mbs.simulation.stepped_system import SteppedSystem, restore_system
 from mbs.simulation.tolerance_run import to_tolerance
 from mbs.system.system import System
 

@@ -23,7 +23,7 @@ from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.controlled_pair import ControlledPair
 from mbs.simulation.controlled_run import ROUND_OFF, ControlledRun, StalledError, Task, signals_of
 from mbs.simulation.method_choice import choose
-from mbs.simulation.omitted_sensor_run import omitted_to_tolerance
+from mbs.simulation.omitted_sensors import omitted_to_tolerance
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.recorded_trajectory import recorded_trajectory
 from mbs.simulation.stepped_system import SteppedSystem

@@ -1,17 +1,31 @@
-"""Sensors that a System does not compute, such as stresses of a rigid car, evaluated by a second System."""
+"""Sensors that a System does not compute, such as stresses of a rigid car, evaluated by a second System.
 
-from collections.abc import Mapping
+Of a recorded run the run is repeated when one of them is first read.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import partial
 from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.results.omitted_sensors import not_computed_text
+from mbs.results.omitted_sensors import OmittedSensors, not_computed_text
 from mbs.results.simulation_error import SimulationError
+from mbs.settings.input_signals import InputSignals, Signal
 from mbs.simulation.prepared_system import prepared
+from mbs.simulation.stepped_system import SteppedSystem, restore_system
 from mbs.system.system import System
 
+Array = NDArray[np.float64]
 _WITH_PORTS: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, int]] | None] = WeakKeyDictionary()
 NO_PORTS = "there is no model with ports that follows it. Compile one that computes it; of a car, fidelity=1, 2 or 3"
+TO_TOLERANCE = (
+    "a run to a tolerance keeps no states to find it of. Take steps of a length h, or a model that computes it; of a "
+    "car, fidelity=1"
+)
 
 
 def omitted_names(system: System) -> list[str]:
@@ -73,3 +87,37 @@ class Readings(dict[str, float]):
         with self._instance.at(self._state):
             self.update(zip(names, OmittedSensorSystem(self._system, name).values(self._instance), strict=True))
         return self[name]
+
+
+def omitted_to_tolerance(system: System) -> OmittedSensors | None:
+    """Sensors that a run to a tolerance omits; None if there are none."""
+    names = omitted_names(system)
+    return OmittedSensors(names, None, TO_TOLERANCE) if names else None
+
+
+def omitted_of_run(
+    simulation: SteppedSystem, inputs: Mapping[str, Signal], h: float, every: int
+) -> Callable[[int], OmittedSensors | None]:
+    """Function of the number of samples that returns the omitted sensors of a run, made at its start.
+
+    `h`: step, s; `every`: steps between two samples.
+    """
+    names = omitted_names(simulation.system)
+    if not names:
+        return lambda samples: None
+    system, settings, roads = simulation.system, simulation.settings, dict(simulation.road_paths)
+    if system.ported is None:
+        return lambda samples: OmittedSensors(names, None, NO_PORTS)
+    state = simulation.instance.save()
+
+    def compute(samples: int, stride: int) -> dict[str, Array]:
+        omitted, rerun = OmittedSensorSystem(system), restore_system(system, settings, roads, state)
+        rows, t0 = [omitted.values(rerun.instance)], rerun.time
+        signals = InputSignals(inputs, prepared(system).meta["inputs"])
+        signals.attach_to_steps(rerun.instance, t0, t0 + (samples - 1) * every * h, h)
+        for _ in range((samples - 1) // stride):
+            rerun.instance.run(h, every * stride)
+            rows.append(omitted.values(rerun.instance))
+        return dict(zip(names, np.array(rows).T, strict=True))
+
+    return lambda samples: OmittedSensors(names, partial(compute, samples))
