@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED, WRONG_ERROR
+from mbs.kernel.header.limits import AGREED, MOST_PARTS, WRONG_ERROR
 from mbs.results import accuracy
 from mbs.results.accuracy import CLEAR, Accuracy, mean_parts, missed_fraction
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, needs_two_motions
@@ -31,19 +31,13 @@ def uses_one_iteration(settings: Settings, compared: Mapping[str, Compared], has
     return limited and not (has_states or has_loads(compared) or needs_two_motions(compared))
 
 
-def coarser_step_factors(
-    settings: Settings, compared: Mapping[str, Compared], has_states: bool, unresolved: float, report: Report
-) -> list[int]:
+def coarser_step_factors(method: str, unresolved: float, report: Report) -> list[int]:
     """Factors of the step of coarser runs, in the order in which they are tried.
 
     A factor is used if it times the missed fraction of the run is at most `unresolved`, see `unresolved_fraction`.
     """
-    single_iteration = uses_one_iteration(settings, compared, has_states)
-    long_factors = [MOST_PARTS, MOST_PARTS // 2] if unresolved > RESOLVED else [MOST_PARTS] if single_iteration else []
-    resolved = [
-        factor for factor in [*long_factors, 2] if factor * missed_fraction(report, settings.method) <= unresolved
-    ]
-    return [factor for factor in resolved if factor in (resolved[0], 2)]
+    missed = missed_fraction(report, method)
+    return [factor for factor in (MOST_PARTS, 2) if factor * missed <= unresolved]
 
 
 def largest_difference(known: Accuracy, method: str, ratio: float) -> float:
@@ -74,7 +68,7 @@ class CoarserRuns:
         iterations = int(uses_one_iteration(settings, refined.compared, has_states))
         # past a singular position long steps of high order may be right while the run is wrong
         by_order = refined.is_smooth and METHOD_TABLE[settings.method].order <= 2
-        for factor in coarser_step_factors(settings, refined.compared, has_states, refined.unresolved, report):
+        for factor in coarser_step_factors(settings.method, refined.unresolved, report):
             # the parts of steps with an abrupt force resolve it, and have the ratio of the steps
             clear = (1.0 - AGREED) * WRONG_ERROR if report.divisions and report.abrupt_steps else CLEAR
             limit = clear * (factor - 1) if by_order else clear

@@ -19,7 +19,7 @@ from mbs.kernel.header.limits import RESOLVED, WRONG_ERROR
 from mbs.results.accuracy import Accuracy, missed_fraction, missed_over_peak
 from mbs.results.comparison import Compared
 from mbs.results.smooth_laws import unresolved_fraction
-from mbs.simulation.coarser_run import coarser_step_factors, largest_difference
+from mbs.simulation.coarser_run import coarser_step_factors, largest_difference, uses_one_iteration
 from mbs.vehicle import load
 from tests.simulation.drawn import drawn
 
@@ -163,24 +163,26 @@ def test_a_sample_that_one_in_two_leaves_out_is_compared() -> None:
 
 
 def test_which_coarser_runs_are_made() -> None:
-    """One iteration shows what long steps miss, but not of forces nor of what sticks; none where the run is coarse."""
+    """Those with which steps still resolve the motion; none where the run is coarse itself."""
     run = mbs.simulate(ball(1e3, 0.5), 1.25, 0.005, estimate_error=False, progress=False)
     assert run.report is not None
-    still, moves, settings = replace(run.report, predictor_path=0.0), {"x": Compared("m", place=True)}, mbs.Settings()
+    assert coarser_step_factors("ali3p", RESOLVED, replace(run.report, predictor_path=0.0)) == [8, 2]
+    assert coarser_step_factors("ali3p", RESOLVED, run.report) == [2]
     abrupt = replace(run.report, predictor_path=run.report.velocity_path)
-    energy_momentum = mbs.Settings(method="energy_momentum")
-    assert coarser_step_factors(settings, moves, False, RESOLVED, still) == [8, 2]
-    assert coarser_step_factors(settings, moves, True, RESOLVED, still) == [2]
-    assert coarser_step_factors(settings, {**moves, "force": Compared("N", load=True)}, False, RESOLVED, still) == [2]
-    assert coarser_step_factors(settings, moves, False, RESOLVED, run.report) == [2]
-    assert coarser_step_factors(settings, moves, False, RESOLVED, abrupt) == []
-    assert coarser_step_factors(energy_momentum, moves, False, RESOLVED, abrupt) == []
-    assert coarser_step_factors(energy_momentum, moves, False, RESOLVED, still) == [2]
-    radau = mbs.Settings(method="radau_5")
-    assert coarser_step_factors(radau, moves, False, 2.0 * RESOLVED, still) == [8, 2]
-    for times, expected_steps in ((9.0, [8, 2]), (7.0, [4, 2]), (3.0, [2]), (1.0, [])):
+    assert coarser_step_factors("ali3p", RESOLVED, abrupt) == []
+    for times, expected_factors in ((9.0, [8, 2]), (7.0, [2]), (1.0, [])):
         scaled = replace(run.report, predictor_squares=1.0 / times**2, velocity_squares=1.0)
-        assert coarser_step_factors(radau, moves, False, 2.0 * RESOLVED, scaled) == expected_steps
+        assert coarser_step_factors("radau_5", 2.0 * RESOLVED, scaled) == expected_factors
+
+
+def test_one_iteration_is_for_what_it_shows() -> None:
+    """Neither forces, nor what sticks, nor what a guide prescribes to round-off."""
+    moves, settings = {"x": Compared("m", place=True)}, mbs.Settings()
+    assert uses_one_iteration(settings, moves, has_states=False)
+    assert not uses_one_iteration(settings, moves, has_states=True)
+    assert not uses_one_iteration(settings, {**moves, "force": Compared("N", load=True)}, has_states=False)
+    assert not uses_one_iteration(settings, {**moves, "rate": Compared("m/s", always=False)}, has_states=False)
+    assert not uses_one_iteration(mbs.Settings(method="energy_momentum"), moves, has_states=False)
 
 
 @pytest.mark.parametrize(
