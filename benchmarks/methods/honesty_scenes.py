@@ -15,7 +15,7 @@ from benchmarks.car import manoeuvres
 from benchmarks.methods.kernel_methods import KERNEL, suits
 from benchmarks.methods.true_error import true_error
 from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
-from mbs.results.comparison import compared_sensors, instants
+from mbs.results.comparison import compared_sensors
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
 CLOSE = 1e-3
@@ -59,10 +59,9 @@ class Scene:
     """Steps in descending order, s."""
 
     def error(self, trajectory: mbs.Trajectory) -> float:
-        """Largest error of a compared sensor relative to its size; forces are compared at `instants`."""
+        """Largest error of a compared sensor relative to its size."""
         assert trajectory.report is not None
-        load_samples, energy = instants(len(trajectory.t)), trajectory.report.energy_floor
-        return true_error(self.system(), self.truth(), trajectory, load_samples, energy)
+        return true_error(self.system(), self.truth(), trajectory, trajectory.report.energy_floor)
 
 
 def _record(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:

@@ -16,15 +16,14 @@ def true_error(
     system: mbs.System,
     exact: Mapping[str, Array],
     run: Mapping[str, Array] | mbs.Trajectory,
-    load_samples: NDArray[np.int_] | None = None,
     energy: float = 0.0,
 ) -> float:
     """Largest error of a compared sensor of a run, relative to its size.
 
-    `exact`, `run`: values (n,) by sensor at the same instants; `load_samples`, `energy`: as in `Comparison`.
+    `exact`, `run`: values (n,) by sensor at the same instants; `energy`: as in `Comparison`.
     """
     compared = {name: sensor for name, sensor in compared_sensors(system).items() if name in exact}
     comparison = Comparison(compared, length_of(system), energy=energy)
-    comparison.add(exact, run, load_samples)
+    comparison.add(exact, run)
     gaps = comparison.gaps
     return max((gaps[name] / size for name, size in comparison.sizes().items()), default=0.0)

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from ctypes import POINTER, c_double
 from dataclasses import dataclass
-from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
 from ali3.units import known_unit
 from mbs.kernel.binding import load_library
@@ -19,9 +17,7 @@ from mbs.kernel.header.structures import ComparedFields, JudgedFields
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
-INSTANTS = 50  # number of intervals at whose ends two long records are compared
-WHOLE = 200  # largest number of intervals of a record that is compared at all samples
-WIDTH = 3  # samples of a mean of a load, and largest delay of one run, in samples
+INSTANTS = 50  # least number of intervals of a record, as far as there are steps, and largest of recorded coordinates
 COORDINATES = "1"
 UNITS = {
     "m": JudgedUnit.M,
@@ -107,24 +103,17 @@ class Comparison:
         self._judged = (JudgedFields * n)(*(quantity.fields for quantity in compared.values()))
         self._extremes = (ComparedFields * n)(*((before or {}).get(name, ComparedFields()) for name in compared))
 
-    def add(
-        self, fine: Mapping[str, Array], coarse: Mapping[str, Array] | None = None, load_samples: Any = None
-    ) -> None:
+    def add(self, fine: Mapping[str, Array], coarse: Mapping[str, Array] | None = None) -> None:
         """Add samples (n,), by name, of the finer motion and of the coarser one at the same times; NaN: unknown.
 
-        `load_samples`: indices of the samples at which loads are compared, by default all.
+        The coarser one may have fewer.
         """
         if not self.compared:
             return
         fine_rows, aligned = self._samples(fine), None
         if coarse is not None:
             coarse_rows, aligned = self._samples(coarse)[: len(fine_rows)], np.full_like(fine_rows, np.nan)
-            loads = np.array([quantity.load for quantity in self.compared.values()])
-            aligned[: len(coarse_rows), ~loads] = coarse_rows[:, ~loads]
-            loaded = np.ix_(
-                np.arange(len(coarse_rows)) if load_samples is None else load_samples, np.flatnonzero(loads)
-            )
-            aligned[loaded] = coarse_rows[loaded]
+            aligned[: len(coarse_rows)] = coarse_rows
         pointers = (None if rows is None else rows.ctypes.data_as(POINTER(c_double)) for rows in (aligned, fine_rows))
         load_library().ali3_compare(self._judged, len(self._judged), len(fine_rows), None, *pointers, self._extremes)
 
@@ -255,9 +244,9 @@ def shows_motion(compared: Mapping[str, Compared]) -> bool:
 
 
 def instants(samples: int) -> NDArray[np.int_]:
-    """Indices of the samples at which two runs are compared: all of a short record, 51 of a longer one."""
+    """Indices of the samples at which coordinates are recorded: all of a short record, 51 of a longer one."""
     last = max(samples - 1, 0)
-    return np.unique(np.linspace(0, last, (last if last <= WHOLE else INSTANTS) + 1).round().astype(int))
+    return np.unique(np.linspace(0, last, min(last, INSTANTS) + 1).round().astype(int))
 
 
 def sizes_of(
@@ -279,7 +268,7 @@ def differences(
     before: Mapping[str, ComparedFields] | None,
     length: float,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs at samples, of loads at `instants` and between them.
+    """Largest differences of two runs at samples.
 
     Rates and motor forces are compared if no position moves by itself: guided positions are equal in both runs to
     round-off.
@@ -294,11 +283,7 @@ def differences(
         See `Comparison.sizes`, of the finer run.
     """
     comparison = Comparison(compared, length, before)
-    samples = [len(run[n]) for n in compared for run in (fine, coarse)]
-    comparison.add(fine, coarse, instants(min(samples, default=0)))
-    comparison.widen(
-        {name: missed_load(coarse[name], fine[name]) for name, quantity in compared.items() if quantity.load}
-    )
+    comparison.add(fine, coarse)
     sizes = comparison.sizes()
     gaps = {name: gap for name, gap in comparison.gaps.items() if name in sizes}
     return errors_by_unit(gaps, sizes, compared), gaps, sizes
@@ -313,22 +298,3 @@ def errors_by_unit(
         unit = compared[name].unit
         units[unit] = max(error / sizes[name], units.get(unit, 0.0))
     return units
-
-
-def missed_load(one: Array, other: Array) -> float:
-    """Largest excess of a load of one run beyond its range in the other within `WIDTH` samples.
-
-    Means of `WIDTH` samples are compared: an impact that is a sample later, or whose peak lies between two samples, has
-    the same mean. 0 for runs that are too short.
-
-    `one`, `other`: load at the same samples, shape (n,).
-    """
-    if len(one) < 2 * WIDTH:
-        return 0.0
-    means = [uniform_filter1d(load, WIDTH, mode="nearest") for load in (one, other)]
-    gap = 0.0
-    for a, b in (means, means[::-1]):
-        upper = maximum_filter1d(b, 2 * WIDTH + 1, mode="nearest")
-        lower = -maximum_filter1d(-b, 2 * WIDTH + 1, mode="nearest")
-        gap = max(gap, float(np.max(a - upper)), float(np.max(lower - a)))
-    return gap

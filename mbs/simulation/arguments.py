@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.checks import array, flag, instance_of, is_finite, is_number, mapping, number, shown
 from mbs.kernel.header.enumerations import Status
 from mbs.results.accuracy import AccuracyWarning
-from mbs.results.comparison import WHOLE
 from mbs.results.simulation_error import PoseError
 from mbs.settings.settings import Settings
 from mbs.settings.tolerance import Tolerance, check_tolerance
@@ -27,6 +26,8 @@ MAX_VALUES = 10**9
 """Largest number of values that one run may record: 8 gigabytes."""
 MAX_ESTIMATE_COST = 1e6
 """Largest number for `estimate_error`, in runs."""
+INTERVALS = 200
+"""Number of intervals of a record to a tolerance for which the caller gives none."""
 MAX_OMITTED_FRACTION = 0.01
 """Largest fraction of a run that equal steps may omit at its end without a warning."""
 
@@ -170,7 +171,7 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
     if times is None:
         if t_end == t0:
             return np.array([t0])
-        interval = (t_end - t0) / WHOLE if h is None else h * every
+        interval = (t_end - t0) / INTERVALS if h is None else h * every
         samples = count_steps(t0, t_end, interval) + 1
         check_record(samples, 1)
         return t0 + interval * np.arange(samples, dtype=float)

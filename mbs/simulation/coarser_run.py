@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mbs.kernel.header.limits import AGREED, MOST_PARTS, WRONG_ERROR
 from mbs.results import accuracy
 from mbs.results.accuracy import CLEAR, Accuracy, mean_parts, missed_fraction
-from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, needs_two_motions
+from mbs.results.comparison import Compared, Comparison, has_loads, needs_two_motions
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
@@ -98,8 +98,7 @@ class CoarserRuns:
         step_ratio = stride * refined.every / steps
         h = step_ratio * refined.h
         coordinates = bool(refined.run[1])
-        loads = has_loads(refined.compared) and len(times) - 1 <= WHOLE
-        if (stride > 1 and (coordinates or loads)) or times[-1] - times[0] < h - 0.5 * refined.h:
+        if (stride > 1 and coordinates) or times[-1] - times[0] < h - 0.5 * refined.h:
             return None
         run = refined.run if stride == 1 else (refined.run[0].thinned(stride), [])
         smooth_from, watch = math.inf, None
@@ -166,14 +165,12 @@ class CoarserRuns:
             for name, size in whole.sizes().items()
             if compared[name].always or not needs_two_motions(compared)
         }
-        load_samples = instants(samples)
 
         def difference(values: NDArray[np.float64], begin: float, end: float) -> float:
             first, last = (max(math.ceil(bound), 0) for bound in (begin, end))
             comparison = Comparison({name: compared[name] for name in sizes}, self.refined.length)
             coarse_values = {name: values[first:last, columns[name]] for name in sizes}
-            shared_loads = load_samples[(load_samples >= first) & (load_samples < last)] - first
-            comparison.add({name: run[name][first:last] for name in sizes}, coarse_values, shared_loads)
+            comparison.add({name: run[name][first:last] for name in sizes}, coarse_values)
             whole.widen(comparison.gaps)
             return max((gap / sizes[name] for name, gap in comparison.gaps.items()), default=0.0)
 
