@@ -18,7 +18,7 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
 from mbs.simulation.refined_run import BudgetExceededError, RefinedRuns, Watch
 
-COUNTERS = ("steps", "halvings", "divisions", "abrupt_steps", "branch_changes", "predictor_path")
+COUNTERS = ("halvings", "divisions", "abrupt_steps", "branch_changes", "predictor_path")
 
 
 def uses_one_iteration(settings: Settings, compared: Mapping[str, Compared], has_states: bool) -> bool:
@@ -102,7 +102,7 @@ class CoarserRuns:
             return None
         run = refined.run if stride == 1 else (refined.run[0].thinned(stride), [])
         smooth_from, watch = math.inf, None
-        if not (coordinates or iterations):  # runs with one iteration per step are cheap enough to finish
+        if not coordinates:
             smooth_from = self._smooth_from / stride
             watch = self.watch(run[0], limit, smooth_from)
         try:
@@ -113,12 +113,8 @@ class CoarserRuns:
         assert made is not None
         parts = self._mean_parts(stride * (len(other[0].t) - 1))
         made_ratio = step_ratio * parts / mean_parts(made.steps, made.halvings)
-        if made_ratio <= 1.0:
-            return None
-        if len(other[0].t) >= smooth_from:
-            other = self._complete(other[0], run[0]), []
-        shared = min(len(run[0].t), len(other[0].t))
-        if shared < max(2, len(run[0].t) - 1) or (coordinates and len(other[1]) != len(run[1])):
+        least = max(2, min(len(run[0].t) - 1, smooth_from))
+        if made_ratio <= 1.0 or len(other[0].t) < least or (coordinates and len(other[1]) != len(run[1])):
             return None
         return refined.estimate(run, other, h, 1.0 / made_ratio), max(made_ratio, step_ratio)
 
@@ -142,50 +138,30 @@ class CoarserRuns:
                 return samples
         return math.inf
 
-    def _complete(self, other: Trajectory, run: Trajectory) -> Trajectory:
-        """Complete the run `other`, which ended early in agreement, by the samples of `run`."""
-        names = list(self.refined.compared)
-        values = np.column_stack([np.append(other[n], run[n][len(other.t) :]) for n in names])
-        t = np.append(other.t, run.t[len(other.t) :])
-        return Trajectory(t, values, names, [run.units[n] for n in names], other.report, other.settings)
-
     def watch(self, run: Trajectory, limit: float, smooth_from: float) -> Watch:
         """Callback that compares the samples of a coarser run with `run` and returns whether it may end.
 
         It raises `TooFarError` if they differ by more than `limit` of the range. The coarser run may end after
-        `smooth_from` samples if the difference in the latest eighth of the whole is at most `AGREED` of `limit` and,
-        growing on as in that eighth, stays below `limit`.
+        `smooth_from` samples if the difference in the latest eighth of the whole is at most `AGREED` of `limit`.
+        Guided positions are recognised only after two motions have differed: beside them no run ends in agreement.
         """
-        compared, samples, eighth = self.refined.compared, len(run.t), len(run.t) / MOST_PARTS
+        guided = needs_two_motions(self.refined.compared)
+        compared = {name: quantity for name, quantity in self.refined.compared.items() if quantity.always or not guided}
         columns = {sensor["name"]: k for k, sensor in enumerate(self.refined.system.meta["sensors"])}
-        whole = Comparison(compared, self.refined.length, self.refined.before)
+        whole = Comparison(self.refined.compared, self.refined.length, self.refined.before)
         whole.add(run)
-        sizes = {
-            name: size
-            for name, size in whole.sizes().items()
-            if compared[name].always or not needs_two_motions(compared)
-        }
+        sizes = {name: size for name, size in whole.sizes().items() if name in compared}
 
-        def difference(values: NDArray[np.float64], begin: float, end: float) -> float:
-            first, last = (max(math.ceil(bound), 0) for bound in (begin, end))
+        def difference(values: NDArray[np.float64], first: int) -> float:
             comparison = Comparison({name: compared[name] for name in sizes}, self.refined.length)
-            coarse_values = {name: values[first:last, columns[name]] for name in sizes}
-            comparison.add({name: run[name][first:last] for name in sizes}, coarse_values)
-            whole.widen(comparison.gaps)
+            coarse_values = {name: values[first:, columns[name]] for name in sizes}
+            comparison.add({name: run[name][first : len(values)] for name in sizes}, coarse_values)
             return max((gap / sizes[name] for name, gap in comparison.gaps.items()), default=0.0)
 
         def decide(values: NDArray[np.float64]) -> bool:
-            end = len(values)
-            earlier = end - 1 - eighth
-            overall = difference(values, 0.0, end)
-            last = difference(values, earlier, end)
-            before = difference(values, earlier - eighth, earlier)
-            if overall > limit:
+            if difference(values, 0) > limit:
                 raise TooFarError
-            growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
-            ahead = (samples - end) / eighth * growth + math.log(last / limit) if last > 0.0 else -math.inf
-            # guided positions are recognised only after the two motions have differed
-            differ = all(compared[name].always or not needs_two_motions(compared) for name in whole.sizes())
-            return differ and end >= smooth_from and last <= AGREED * limit and ahead <= 0.0
+            latest = difference(values, max(math.ceil(len(values) - 1 - len(run.t) / MOST_PARTS), 0))
+            return not guided and len(values) >= smooth_from and latest <= AGREED * limit
 
         return decide

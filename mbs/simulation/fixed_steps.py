@@ -17,7 +17,6 @@ from mbs.kernel.header.steps import Balance, BranchKind
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
-from mbs.results.comparison import compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -25,7 +24,7 @@ from mbs.settings.input_signals import Signal
 from mbs.simulation import refined_run
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.coarser_run import CoarserRuns, uses_one_iteration
+from mbs.simulation.coarser_run import CoarserRuns
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
@@ -81,11 +80,7 @@ def run_fixed_steps(
             simulation.instance.set_settings(part_ratio=step / h)
         stepped.append(simulation)
         if len(stepped) == 1 and is_checked and before is None:  # only coarser runs that may end early need the path
-            guided, states = (len(system.arrays[name]) > 0 for name in ("gterm_row", "y0"))
-            judged_sensors = {
-                name: quantity for name, quantity in compared_sensors(system).items() if quantity.always or guided
-            }
-            watch = None if uses_one_iteration(simulation.settings, judged_sensors, states) else record_path
+            watch = record_path
         return march(simulation, t_end, step, inputs, every, progress, records_coordinates, thinning, watch)
 
     try:

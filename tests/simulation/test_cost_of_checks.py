@@ -64,10 +64,10 @@ def test_a_half_that_surely_is_coarse_is_not_made():
 
 
 def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth():
-    """At 0.94 s, after an impact from 0.5 to 0.6 s, of 1.25 s."""
+    """At 0.78 s, after an impact from 0.5 to 0.6 s, of 1.25 s."""
     run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.0025, every=4, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.check_cost == pytest.approx(0.3745)
+    assert run.accuracy.check_cost == pytest.approx(0.3145)
     assert run.accuracy.compared_step == 0.005
     assert 0.0 < run.accuracy.units["N"] < 0.005
 
@@ -81,11 +81,10 @@ def never(*_: Any) -> Any:
     [
         pytest.param(lambda t: 1e-3 + 0.0 * t, True, id="stays"),
         pytest.param(lambda t: 2e-3 * t, True, id="in proportion to time"),
-        pytest.param(lambda t: 1e-3 * np.exp(10.0 * (t - 0.5)), False, id="2.7 times in each tenth, to 15 %"),
         pytest.param(lambda t: 4e-3 + 0.0 * t, False, id="more than a tenth of what it may be"),
     ],
 )
-def test_a_coarser_run_continues_where_a_difference_grows(grown, ends):
+def test_a_coarser_run_continues_where_both_differ(grown, ends):
     system, t = ball(1e3, 0.9), np.linspace(0.0, 1.0, 101)
     run = mbs.simulate(system, 1.0, 0.01, estimate_error=False, progress=False)
     look = CoarserRuns(RefinedRuns(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 40)
@@ -119,7 +118,7 @@ def test_the_budget_of_refined_runs_is_kept_and_unchecked_runs_are_reported():
     def judged(most: float | None) -> mbs.Trajectory:
         return mbs.simulate(system, span, span / 250, every=5, progress=False, estimate_error=most)
 
-    for most, spent, words in ((1.0, 0.4, "there is no estimate"), (10.0, 6.4, "is 3.9 % of the largest range")):
+    for most, spent, words in ((1.0, 0.152, "there is no estimate"), (10.0, 6.152, "is 3.9 % of the largest range")):
         with pytest.warns(mbs.AccuracyWarning, match=f"not checked: .* budget of {most:g} runs .*{words}") as caught:
             run = judged(most)
         assert run.accuracy is not None
@@ -128,7 +127,7 @@ def test_the_budget_of_refined_runs_is_kept_and_unchecked_runs_are_reported():
         enough, free = judged(needed).accuracy, judged(None).accuracy
         assert enough == free
         assert enough is not None
-        assert enough.check_cost <= needed == 31.0  # 0.4, and half down to a 16th of the step
+        assert enough.check_cost <= needed == 31.0  # 0.152, and half down to a 16th of the step
         assert not enough.message
     assert "at most 64 unless estimate_error=N" in str(run.accuracy)
 
