@@ -17,7 +17,6 @@ from mbs.results.comparison import (
     Comparison,
     compared_sensors,
     differences,
-    errors_by_unit,
     instants,
     select_compared,
     shows_motion,
@@ -183,7 +182,7 @@ class RefinedRuns:
         """Accuracy by refined runs.
 
         The step is halved, down to a 16th, while the refined run is coarse or its own error could change the verdict;
-        with a `divisor` there is one run. If the last run is still uncertain, its possible error is added.
+        with a `divisor` there is one run.
 
         Raises `SimulationError` if a run fails, `BudgetExceededError` if a run would exceed the remaining budget.
         """
@@ -196,10 +195,6 @@ class RefinedRuns:
             verdict = self.refine(parts)
             if parts == MOST_PARTS // 2 * self.parts and (verdict.error or 0.0) > WRONG_ERROR:
                 break
-        if not self.divisor and parts == MOST_PARTS * self.parts and self._is_unsure(verdict, parts):
-            _, differences_of_last = self._differences(self._refined[parts // 2], self._refined[parts])
-            sensors = {name: error + differences_of_last.get(name, 0.0) for name, error in verdict.sensors.items()}
-            verdict = replace(verdict, units=errors_by_unit(sensors, self._sizes, self.compared), sensors=sensors)
         return replace(verdict, check_cost=self.cost)
 
     def _is_unsure(self, known: Accuracy, parts: int) -> bool:

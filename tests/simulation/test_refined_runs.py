@@ -133,22 +133,6 @@ def test_a_finer_run_that_is_refused_is_not_passed_over() -> None:
         repeats().verdict()
 
 
-def test_what_runs_that_come_no_nearer_differ_by_counts() -> None:
-    """Of an eighth and a 16th 4 % apart the last tells 2 %, which 4 % more may be wrong."""
-    system, shares = oscillator(), {1: 0.0, 2: 0.06, 4: -0.04, 8: 0.04, 16: -0.04}  # of y, of which 2 are its range
-
-    def march(h: float, every: int, update: Callable[[float], None], look: bool, iterations: int, *_: Any) -> Run:
-        run = mbs.simulate(system, 0.2, 0.01, progress=False, estimate_error=False)
-        run["y"][:] *= 1.0 + shares.pop(round(0.01 / h))
-        return run, []
-
-    refined = RefinedRuns(system, march(0.01, 1, lambda _: None, False, 0), march, 0.01, 1, lambda _: None)
-    actual = refined.verdict()
-    assert not shares
-    assert actual.error == pytest.approx(0.06, rel=0.05)
-    assert actual.sensors["y"] == pytest.approx(actual.units["m"] * np.ptp(refined.run[0]["y"]), rel=0.05)
-
-
 @pytest.mark.parametrize(("finer", "reported"), [(True, False), (False, True)])
 def test_an_open_balance_is_reported_where_that_of_the_refined_run_is_open_too(finer: bool, reported: bool) -> None:
     """13 % at 3 % off by steps of 0.13 s, which half of them close: where they cannot, both may be off alike."""
