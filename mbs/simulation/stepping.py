@@ -338,7 +338,7 @@ class Simulation(SteppedSystem):
             raise simulation_error from error
 
     def step(self, h: float, n: int = 1) -> None:
-        """Make steps with the inputs as they are.
+        """Make steps with the inputs as they are; a refined run of `run` makes its own.
 
         Parameters
         ----------
@@ -364,10 +364,11 @@ class Simulation(SteppedSystem):
             raise ValueError(f"n = {shown(n)}; it must be a whole number of steps.")
         check_time(self.time + n * h, f"The end of n = {shown(n)} steps of {h:g} s")
         check_resolution(self.time, h)
-        self.step_tried, self._refined = h, None
+        self.step_tried = h
         for _ in range(int(n)):
             subject = f"The step from t = {self.time:g} s with h = {h:g} s failed"
             self._call(subject, lambda: self.instance.step(h), step_given=True)
+            self._apply_to_refined(lambda run: run.run(h / self._divisor, self._divisor))
         self._warn_once()
 
     def run(
@@ -400,7 +401,7 @@ class Simulation(SteppedSystem):
             the fraction done.
         estimate_error : bool or float, optional
             As in `simulate`, for the first doubtful run after eight steps. The last refined run continues in the
-            following calls with the same inputs, parameters and switches, until `step` is called.
+            following calls, also of `step`, with the same inputs, parameters and switches, until one with False.
         tolerance : float or mapping of str to float, optional
             As in `simulate`, for the error that this part adds; with the method of the settings.
 
@@ -468,6 +469,8 @@ class Simulation(SteppedSystem):
             )
 
         trajectory = equal_steps()
+        if self._refined is not None and abs(self._refined.time - self.time) > 0.5 * h:  # it was refused on its way
+            self._refined = None
         run_accuracy = trajectory.accuracy
         if run_accuracy is not None and run_accuracy.compared_step is not None:
             self._divisor = max(1, round(h / run_accuracy.compared_step))

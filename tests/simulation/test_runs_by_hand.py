@@ -5,6 +5,7 @@ import pytest
 
 import mbs
 from mbs import Simulation
+from mbs.simulation import fixed_steps
 
 QUIET = {"progress": False}
 
@@ -83,6 +84,36 @@ def test_short_runs_are_checked_and_do_not_end_the_refined_one(ends: list[float]
         run = simulation.run(end, 0.01, estimate_error=True, **QUIET)
     whole = mbs.simulate(swing(), 2.0, 0.01, estimate_error=True, **QUIET)
     assert run.accuracy.sensors == pytest.approx(whole.accuracy.sensors, rel=0.05)
+
+
+def test_steps_by_hand_are_made_by_the_refined_run_too() -> None:
+    simulation = Simulation(swing())
+    simulation.run(1.0, 0.01, estimate_error=True, **QUIET)
+    simulation.step(0.01, 40)
+    simulation.step(0.02, 5)
+    run = simulation.run(2.0, 0.01, estimate_error=True, **QUIET)
+    whole = mbs.simulate(swing(), 2.0, 0.01, estimate_error=True, **QUIET)
+    assert run.accuracy.compared_step == 0.005
+    assert run.accuracy.sensors == pytest.approx(whole.accuracy.sensors, rel=0.3)
+    simulation.run(2.1, 0.01, estimate_error=False, **QUIET)
+    assert simulation._refined is None
+
+
+def test_a_refined_run_that_was_refused_does_not_continue(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The next run was compared with it from another time, 0.4 s behind."""
+    march = fixed_steps.march
+
+    def refuse(simulation, t_end, h, *more):
+        if h < 0.01 and t_end == 1.0:
+            march(simulation, 0.6, h, *more)
+            raise mbs.SimulationError("it fell apart", 0.6, 7)
+        return march(simulation, t_end, h, *more)
+
+    monkeypatch.setattr(fixed_steps, "march", refuse)
+    simulation = Simulation(swing())
+    with pytest.warns(mbs.AccuracyWarning, match="was refused"):
+        simulation.run(1.0, 0.01, estimate_error=True, **QUIET)
+    assert 0.0 < simulation.run(2.0, 0.01, estimate_error=True, **QUIET).accuracy.error < 0.01
 
 
 def test_a_loop_of_short_runs_that_is_wrong_is_reported() -> None:
