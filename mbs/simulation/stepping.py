@@ -197,6 +197,11 @@ class Simulation(SteppedSystem):
         except KernelError:
             self._refined = None
 
+    def _drop_refused(self, time_tolerance: float) -> None:
+        """Drop the refined run if it was refused on its way, more than the tolerance from the time of this one, s."""
+        if self._refined is not None and abs(self._refined.time - self.time) > time_tolerance:
+            self._refined = None
+
     def _warn_of_replaced_roads(self, parameters: Mapping[str, Any]) -> None:
         """Warn of parameters of roads that files replace."""
         files = {entry["road"] for name, entry in self._road_files.items() if parameters.get(name, entry["start"])}
@@ -469,8 +474,7 @@ class Simulation(SteppedSystem):
             )
 
         trajectory = equal_steps()
-        if self._refined is not None and abs(self._refined.time - self.time) > 0.5 * h:  # it was refused on its way
-            self._refined = None
+        self._drop_refused(0.5 * h)
         run_accuracy = trajectory.accuracy
         if run_accuracy is not None and run_accuracy.compared_step is not None:
             self._divisor = max(1, round(h / run_accuracy.compared_step))
