@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.limits import MOST_PARTS, RESOLVED, WRONG_ERROR
+from mbs.kernel.header.limits import MOST_PARTS, WRONG_ERROR
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import MAX_COST, Accuracy
@@ -88,9 +88,6 @@ class RefinedRuns:
         Divisor of the step for the refined run with half the steps that were actually made.
     unresolved : float
         Missed fraction above which steps do not resolve the changes of the velocities.
-    has_order : bool
-        Whether a run with half the step is sufficient if its missed fraction has halved too: the order is above two,
-        and nothing abrupt can happen.
     """
 
     system: System
@@ -115,7 +112,6 @@ class RefinedRuns:
         self.parts = accuracy.step_divisor(report.steps, report.halvings)
         self.method, span = settings.method, (self.run[0].t[0], self.run[0].t[-1])
         self.unresolved = unresolved_fraction(self.system, self.method, span, self.inputs)
-        self.has_order = self.unresolved > RESOLVED
         angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
         self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
         coordinates = dict.fromkeys(self._columns, Compared(COORDINATES, place=True))
@@ -151,11 +147,8 @@ class RefinedRuns:
 
     @property
     def is_coarse(self) -> bool:
-        """Whether the finest step is above half of the one that just resolves the changes of the velocities.
-
-        False if `has_order`.
-        """
-        return not self.has_order and 2.0 * self._missed(self._refined[max(self._refined)]) > self.unresolved
+        """Whether the finest step does not resolve the changes of the velocities."""
+        return accuracy.missed_fraction(self.finest, self.method) > self.unresolved
 
     @property
     def finest(self) -> Report:
@@ -163,20 +156,6 @@ class RefinedRuns:
         report = self._refined[max(self._refined)][0].report
         assert report is not None
         return report
-
-    @property
-    def first_divisor(self) -> int:
-        """Divisor of the step of the first refined run.
-
-        It is chosen so that the run is not `is_coarse`, within the remaining budget, and at most eight times `parts`.
-        """
-        if self.divisor:
-            return max(self.divisor, self.parts)
-        missed, factor = self._missed(self.run) / self.unresolved, 1
-        max_factor = 2 if self.has_order else 4
-        while missed > factor and factor < max_factor and 2 * factor * self.parts <= self.max_cost - self.cost:
-            factor *= 2
-        return self.parts * factor
 
     def verdict(self) -> Accuracy:
         """Accuracy by refined runs.
@@ -186,7 +165,7 @@ class RefinedRuns:
 
         Raises `SimulationError` if a run fails, `BudgetExceededError` if a run would exceed the remaining budget.
         """
-        parts = self.first_divisor
+        parts = max(self.divisor, self.parts)
         verdict = self.refine(parts)
         while (
             not self.divisor and parts < MOST_PARTS * self.parts and (self.is_coarse or self._is_unsure(verdict, parts))
@@ -294,12 +273,6 @@ class RefinedRuns:
         finally:
             if watch is not None:
                 self.cost -= cost * (1.0 - fraction)
-
-    def _missed(self, run: Run) -> float:
-        """Share of the changes of the velocities that the steps of a run miss."""
-        report = run[0].report
-        assert report is not None
-        return accuracy.missed_fraction(report, self.method)
 
     def _table(self, run: Run) -> Mapping[str, NDArray[np.float64]]:
         """Compared sensors and coordinates of a run, by name."""

@@ -197,7 +197,7 @@ def test_a_run_of_one_step_is_not_refused_by_its_own_twin():
     car = compile(prototype_car.build())
     one = simulate(car, 0.01, 0.01, **QUIET)
     assert len(one.t) == 2
-    assert one.accuracy.compared_step == 0.0025
+    assert one.accuracy.compared_step == 0.005
     with pytest.warns(AccuracyWarning, match="ends at 0.01 s"):
         assert simulate(car, 0.015, 0.01, **QUIET).t[-1] == 0.01
     with pytest.raises(ValueError, match=r"The step h is 0\.01 s, longer than the run of 0\.005 s"):

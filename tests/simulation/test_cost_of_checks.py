@@ -11,7 +11,7 @@ from mbs.results.comparison import COORDINATES
 from mbs.simulation.coarser_run import CoarserRuns, TooFarError
 from mbs.simulation.refined_run import RefinedRuns
 from tests.simulation.drawn import drawn
-from tests.simulation.test_coarser_runs import ball, place
+from tests.simulation.test_coarser_runs import ball
 
 
 def swing() -> mbs.System:
@@ -49,18 +49,6 @@ def test_a_right_tree_of_high_order_is_compared_with_eight_times_its_step(method
     assert run.accuracy is not None
     assert run.accuracy.check_cost == pytest.approx(cost, abs=0.01)
     assert np.abs(run["x"] - 0.02 * np.sin(run.t)).max() < 0.005 * 0.02
-
-
-def test_a_half_that_surely_is_coarse_is_not_made():
-    """An impact of h w = 1.6 is resolved by a quarter of the step: at 4 times the cost of the run, which was 6."""
-    h, w, gap = 0.01, 160.0, 0.4033
-    run = mbs.simulate(ball(w * w, gap, wall=1e3), 80 * h, h, method="radau_5", progress=False)
-    assert run.accuracy is not None
-    assert run.accuracy.compared_step == pytest.approx(h / 4)
-    assert run.accuracy.check_cost == 4.0
-    truth = place(w * w, gap, run.t)
-    assert np.abs(run["x"] - truth).max() < 0.05 * np.ptp(truth)
-    assert not run.accuracy.message
 
 
 def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth():
