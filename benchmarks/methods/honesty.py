@@ -1,14 +1,13 @@
 """True errors of runs beside their estimates, and a summary of right, wrong and warned runs."""
 
-import time
-import warnings
 from collections.abc import Sequence
 from typing import Any
 
 import mbs
+from benchmarks.methods.families import CaseRun
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
-from benchmarks.methods.random_honesty import COUNTS, ERRORS, MAX_RATIO, NEGLIGIBLE, counts, verdict_of
+from benchmarks.methods.random_honesty import COUNTS, MAX_RATIO, NEGLIGIBLE, counts, judged_run
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.header.limits import WRONG_ERROR
 
@@ -19,29 +18,25 @@ SUMMARY = {"method": "", **COUNTS}
 
 def measure(name: str, method: str, h: float) -> dict[str, Any]:
     """Row of a run with steps of h, s: true error, estimate and verdict."""
-    scene = SCENES[name]
-    row: dict[str, Any] = {"scene": name, "method": method, "h_s": h, "ended": "refused", "verdict": "refused"}
-    row |= dict.fromkeys(("error", "estimate", "steps", "balance", "halvings_per_step", "warning"))
-    begin = time.process_time()
-    try:
-        with warnings.catch_warnings(record=True) as caught_warnings:
-            warnings.simplefilter("always")
-            result = scene.run(method, h)
-    except mbs.SimulationError as simulation_error:
-        return row | {"reason": str(simulation_error), "cpu_s": time.process_time() - begin}
-    accuracy = result.accuracy
-    assert accuracy is not None
-    row["cpu_s"] = time.process_time() - begin
-    error = scene.error(result)
+    scene, runs = SCENES[name], list[mbs.Trajectory]()
+
+    def run() -> CaseRun:
+        runs.append(scene.run(method, h))
+        accuracy = runs[0].accuracy
+        assert accuracy is not None
+        return CaseRun(runs[0], accuracy.error, 1.0 + accuracy.check_cost, method)
+
+    row = {
+        "scene": name,
+        "method": method,
+        "h_s": h,
+        **judged_run(f"{h:g} s", run, lambda _: scene.error(runs[0]), WRONG_ERROR),
+    }
+    accuracy = runs[0].accuracy if runs else None
     return row | {
-        "ended": "finished",
-        "error": error,
-        "estimate": accuracy.error,
-        "steps": 1.0 + accuracy.check_cost,
-        "balance": accuracy.energy_balance,
-        "halvings_per_step": accuracy.halvings_per_step,
-        "verdict": verdict_of(error, WRONG_ERROR, any(w.category in ERRORS for w in caught_warnings)),
-        "warning": accuracy.message,
+        "ended": "finished" if runs else "refused",
+        "balance": accuracy.energy_balance if accuracy else None,
+        "halvings_per_step": accuracy.halvings_per_step if accuracy else None,
     }
 
 

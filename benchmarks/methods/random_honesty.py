@@ -84,10 +84,10 @@ def judge(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
         places = [np.abs(values[n] - true).max() for n, true in case.truth.items() if sensors[n].unit == "m"]
         return float(max(places)) / length_of(case.system)
 
-    yield _verdict(f"{h:g} s", lambda: case.run(h=fixed_step, every=every), of_range, WRONG_ERROR)
+    yield judged_run(f"{h:g} s", lambda: case.run(h=fixed_step, every=every), of_range, WRONG_ERROR)
     if case.tolerances:
         tolerance, t = float(rng.choice(case.tolerances)), np.linspace(0.0, case.span, intervals + 1)
-        yield _verdict(
+        yield judged_run(
             f"tolerance {tolerance:g}",
             lambda: case.run(tolerance=tolerance, times=t),
             of_length,
@@ -95,9 +95,10 @@ def judge(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
         )
 
 
-def _verdict(
+def judged_run(
     asked: str, run: Callable[[], CaseRun], error_of: Callable[[Mapping[str, Array]], float], limit: float
 ) -> dict[str, Any]:
+    """Row of a run: verdict, error, estimate and warnings; `error_of`: error of its values, wrong above `limit`."""
     row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "estimate": None, "warnings": []}
     begin = time.process_time()
     try:
