@@ -153,8 +153,7 @@ def _run_method(
 
     The difference of a coarse run and a finer one gives the error of the latter, as errors fall about in proportion to
     the step errors unless the two runs are far apart. If the error is too large because the motion amplifies errors, up
-    to three more runs are made with the observed growth. One more run is made if a loop changed its assembly mode,
-    because either the motion or a step may have caused it.
+    to three more runs are made with the observed growth.
     """
     coarser, wall, runs = runs_made.run, runs_made.wall, runs_made.runs
     target = tolerance.position
@@ -182,14 +181,11 @@ def _run_method(
             # the longest steps, or pieces of driving functions and tables, made both runs equal: halve the steps made
             coarser, longest = run, 0.5 * run.fields.largest
             continue
-        mode_changed = number == 1 and run.simulation.branch_change  # both runs may have changed the mode
         error_grows = number == 1 and position_distance > coarser.fields.error_sum  # both runs may have the same error
-        if (error <= (AGREED if error_grows else 1.0) * target and not mode_changed) or run_tolerance <= ROUND_OFF:
+        if error <= (AGREED if error_grows else 1.0) * target or run_tolerance <= ROUND_OFF:
             break
         coarser = run
-        run_tolerance = max(
-            ROUND_OFF, run_tolerance * min(AGREED if mode_changed else 1.0 / FINER, target / max(estimate, target))
-        )
+        run_tolerance = max(ROUND_OFF, run_tolerance * min(1.0 / FINER, target / max(estimate, target)))
     assert run is not None
     fields, reported_error = run.fields, 0.0
     if error > 0.0:  # smaller estimates are unreliable; the error is at most the displacement
