@@ -93,15 +93,7 @@ def run(
                         states.append(x)
             else:
                 t_eval = h * every * np.arange(1, steps // every + 1)
-                solution = solve_ivp(
-                    method_instance.rates,
-                    (0.0, t_end),
-                    mechanism.start,
-                    method=solver,
-                    t_eval=t_eval,
-                    rtol=rtol,
-                    atol=0.01 * rtol,
-                )
+                solution = _solve_with_scipy(method_instance, mechanism.start, t_end, t_eval, solver, rtol)
                 times += solution.t.tolist()
                 states += list(solution.y.T)
                 if not solution.success:
@@ -125,6 +117,11 @@ def run(
         steps,
         wall_time,
     )
+
+
+def _solve_with_scipy(method: Any, start: Array, t_end: float, t_eval: Array, solver: str, rtol: float) -> Any:
+    """Solution of `scipy.integrate.solve_ivp` at the times `t_eval`, s."""
+    return solve_ivp(method.rates, (0.0, t_end), start, method=solver, t_eval=t_eval, rtol=rtol, atol=0.01 * rtol)
 
 
 def _runge_kutta(method: Any, x: Array, h: float, steps: int) -> Any:
