@@ -86,26 +86,7 @@ def run(
         with np.errstate(all="ignore"):
             method_instance = METHODS[method](mechanism, **options)
             mechanism.evaluations = mechanism.factorizations = 0
-            if solver == "RK4":
-                for k, x in _runge_kutta(method_instance, mechanism.start, h, steps):
-                    if k % every == 0:
-                        times.append(k * h)
-                        states.append(x)
-            else:
-                t_eval = h * every * np.arange(1, steps // every + 1)
-                solution = solve_ivp(
-                    method_instance.rates,
-                    (0.0, t_end),
-                    mechanism.start,
-                    method=solver,
-                    t_eval=t_eval,
-                    rtol=rtol,
-                    atol=0.01 * rtol,
-                )
-                times += solution.t.tolist()
-                states += list(solution.y.T)
-                if not solution.success:
-                    raise RefusedError(f"scipy's {solver} gave up: {solution.message}", float(times[-1]))
+            _integrate(method_instance, mechanism.start, t_end, h, every, solver, rtol, times, states)
     except RefusedError as refusal:
         status = "diverged" if "infinite" in str(refusal) else "refused"
         reason, stop_time = str(refusal), refusal.time
@@ -125,6 +106,33 @@ def run(
         steps,
         wall_time,
     )
+
+
+def _integrate(
+    method: Any, start: Array, t_end: float, h: float, every: int, solver: Any, rtol: float,
+    times: list[float], states: list[Array],
+) -> None:  # fmt: skip
+    """Append times, s, and states of each recorded instant. Raises `RefusedError` if the motion cannot go on."""
+    if solver == "RK4":
+        for k, x in _runge_kutta(method, start, h, round(t_end / h)):
+            if k % every == 0:
+                times.append(k * h)
+                states.append(x)
+    else:
+        t_eval = h * every * np.arange(1, round(t_end / h) // every + 1)
+        solution = solve_ivp(
+            method.rates,
+            (0.0, t_end),
+            start,
+            method=solver,
+            t_eval=t_eval,
+            rtol=rtol,
+            atol=0.01 * rtol,
+        )
+        times += solution.t.tolist()
+        states += list(solution.y.T)
+        if not solution.success:
+            raise RefusedError(f"scipy's {solver} gave up: {solution.message}", float(times[-1]))
 
 
 def _runge_kutta(method: Any, x: Array, h: float, steps: int) -> Any:

@@ -10,12 +10,12 @@ from pathlib import Path
 
 from ali3.files import write_bytes
 from fmu_src.native.archive import identity_of
-from fmu_src.native.sources import DETOUR, HERE, shell_files
+from fmu_src.native.sources import HERE, PYTHON_SLAVE, shell_files
 from fmu_src.native.universal_binary import universal
 from mbs.kernel import build
 
-_ROOMS = {build.HERE: "kernel", HERE: "shell", DETOUR: "detour"}
-_INCLUDE = ("kernel/include", "kernel/src", "shell", "detour")
+_ROOMS = {build.HERE: "kernel", HERE: "shell", PYTHON_SLAVE: "python"}
+_INCLUDE = ("kernel/include", "kernel/src", "shell", "python")
 # The kernel's own functions are not for hosts: only functions of FMI are exported.
 _DEFINES = ("ALI3_INSIDE",)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from mbs.kernel import build
 
 HERE = Path(__file__).parent / "src"
-DETOUR = Path(__file__).parents[1] / "python_slave"
+PYTHON_SLAVE = Path(__file__).parents[1] / "python_slave"
 KERNEL_INCLUDE = build.HERE / "include"
 _OTHER = {"fmi2": "fmi3", "fmi3": "fmi2"}
 
@@ -17,7 +17,7 @@ def shell_files(face: str) -> list[Path]:
     `face`: ``fmi2`` or ``fmi3``; or ``python``, FMI 2.0 with the way of its calls through Python.
     """
     if face == "python":
-        return sorted([*(f for f in shell_files("fmi2") if f.name != "fmi2_direct.c"), *DETOUR.glob("*.c")])
+        return sorted([*(f for f in shell_files("fmi2") if f.name != "fmi2_direct.c"), *PYTHON_SLAVE.glob("*.c")])
     return sorted(f for f in HERE.glob("*.c") if not f.name.startswith(_OTHER[face]))
 
 

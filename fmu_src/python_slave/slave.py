@@ -1,6 +1,6 @@
 """PythonFMU slave that passes every call to the slave in C.
 
-The library of the FMU (`detour.c`) makes the slave in C. It gives its address and functions as the name of the
+The library of the FMU (`python_calls.c`) makes the slave in C. It gives its address and functions as the name of the
 instance, the only text that PythonFMU hands over. Answers do not pass PythonFMU, which knows few of them and makes
 fmi2Fatal of an exception: so nothing here raises on account of a host's mistake. States, derivatives, statuses and
 logging need no Python.
@@ -18,7 +18,7 @@ _REFERENCES, _REALS, _WHOLES = POINTER(c_uint32), POINTER(c_double), POINTER(c_i
 
 
 class _Link(Structure):
-    """`python_link` of `detour.c`."""
+    """`python_link` of `python_calls.c`."""
 
     _fields_ = (
         ("slave", c_void_p),

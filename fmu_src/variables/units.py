@@ -6,7 +6,6 @@ import re
 from ali3.unit_definition import BASE_UNITS, UnitDefinition
 from ali3.units import UNITS
 
-# Symbol -> (exponents of the base units, factor to the base units).
 _SYMBOLS: dict[str, tuple[dict[str, int], float]] = {
     **{name: ({name: 1}, 1.0) for name in BASE_UNITS},
     **{name: UNITS[name][:2] for name in ("N", "J", "W", "Pa", "Hz")},
@@ -15,12 +14,13 @@ _SYMBOLS: dict[str, tuple[dict[str, int], float]] = {
     "Ns": ({"kg": 1, "m": 1, "s": -1}, 1.0),
     **{name: UNITS[name][:2] for name in ("deg", "mm", "km", "rpm", "MPa", "%", "1")},
 }
-# Of other programs: in a model `g` may be meant as grams and `h` as a height.
+"""Exponents of the base units and factor to them, by symbol."""
+# in a model `g` may be meant as grams and `h` as a height
 _FOREIGN: dict[str, tuple[dict[str, int], float]] = {"h": ({"s": 1}, 3600.0), "g": UNITS["g"][:2]}
+"""The same for symbols that only other programs use."""
 
 _TOKEN = re.compile(r"([A-Za-z]+|1|%)\^?([+-]?\d+)?")
 
-# Unit -> display units and factors, the usual one first: value in the display unit = factor * value.
 DISPLAY_UNITS: dict[str, dict[str, float]] = {
     "rad": {"deg": 180.0 / math.pi},
     "rad/s": {"deg/s": 180.0 / math.pi, "rpm": 30.0 / math.pi},
@@ -28,8 +28,8 @@ DISPLAY_UNITS: dict[str, dict[str, float]] = {
     "m/s": {"km/h": 3.6},
     "Pa": {"MPa": 1e-6},
 }
+"""Display units by unit, the usual one first, with their factors: value in the display unit = factor * value."""
 
-# Unit, with its symbols in one spelling -> what is measured in it.
 QUANTITIES: dict[str, str] = {
     "1": "Ratio",
     "m": "Length",
@@ -60,6 +60,7 @@ QUANTITIES: dict[str, str] = {
     "A": "ElectricCurrent",
     "V": "ElectricPotential",
 }
+"""Name of the quantity in modelDescription.xml, by unit in the spelling of `canonical_unit`."""
 
 
 def canonical_unit(name: str) -> str:

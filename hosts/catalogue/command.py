@@ -15,6 +15,23 @@ from hosts.common.options import add_fmu
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -> int:
     """Run the command, which the user typed as `prog`."""
+    options = _parser(prog).parse_args(arguments)
+    words = list(sys.argv[1:] if arguments is None else arguments)
+
+    def run() -> int:
+        if options.list:
+            from hosts.catalogue.output import print_tests
+
+            print_tests()
+            return 0
+        from hosts.catalogue.campaign import run_catalogue
+
+        return run_catalogue(options, [*prog.split(), *words])
+
+    return run_command(run, is_confined=options.confined)
+
+
+def _parser(prog: str) -> Parser:
     parser = Parser(prog=prog, description=__doc__)
     add_fmu(parser, "*", name="fmus")
     parser.add_argument(
@@ -54,17 +71,4 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
     add_option(parser, "--confined")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
-    options = parser.parse_args(arguments)
-    words = list(sys.argv[1:] if arguments is None else arguments)
-
-    def run() -> int:
-        if options.list:
-            from hosts.catalogue.output import print_tests
-
-            print_tests()
-            return 0
-        from hosts.catalogue.campaign import run_catalogue
-
-        return run_catalogue(options, [*prog.split(), *words])
-
-    return run_command(run, is_confined=options.confined)
+    return parser

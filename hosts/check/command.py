@@ -71,12 +71,22 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     )
     add_setting_options(parser)
     add_option(parser, "--confined")
+    _add_parameter_options(parser)
+    _add_reference_options(parser)
+    _add_soak_options(parser)
+    return parser
+
+
+def _add_parameter_options(parser: argparse.ArgumentParser) -> None:
     table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, instead of the check")
     add_option(table, "--show-parameters")
     table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all of them to this file, as set")
     table.add_argument(
         "--diff", type=Path, metavar="SSV", help="print only where this set differs from the FMU and the given values"
     )
+
+
+def _add_reference_options(parser: argparse.ArgumentParser) -> None:
     reference = parser.add_argument_group(
         "against a reference, instead of the check",
         "Columns that are inputs drive the FMU, linear between the rows; columns that are outputs are compared. A "
@@ -95,6 +105,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         help="largest error of a signal over its range in the table; * and ? in NAME stand for any letters; default: "
         "*=0.01; repeatable",
     )
+
+
+def _add_soak_options(parser: argparse.ArgumentParser) -> None:
     soak = parser.add_argument_group(
         "random drives, instead of the check",
         "A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 km away, with jumps, sudden "
@@ -113,7 +126,6 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     )
     add_option(soak, "--out", "out/soak; with --reference out/reference")
     add_option(soak, "--json")
-    return parser
 
 
 def _step_count(text: str) -> int:

@@ -26,6 +26,10 @@ _REST = 0.3  # s, between calls
 _MAX_REST = 3.0  # s, between calls
 _IDLE = 0.03  # s, largest processor time between calls
 _SLOW = 10.0  # largest wall time over the step
+_SHORT = 0.05  # s, wall time of a step that is never too long
+_LONG = 0.09  # s, wall time of a step that is always too long
+_MESSAGES = 20  # largest number of messages per step
+_LEAST_ROWS = 4  # measurements, below which a growth is not seen
 LINUX = sys.platform == "linux"
 _FORMAT = re.compile(r"%(?!%)[-+ #0-9.*hlLqjzt]*([a-zA-Z])")
 
@@ -133,9 +137,9 @@ def check_costs_of_steps(subject: Subject) -> Finding:
         if k >= _WARM_UP_STEPS // 3 and (k - _WARM_UP_STEPS // 3) % 10 == 0:
             rows.append(_present_costs())
         steps = k + 1
-        if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
+        if time.perf_counter() - begin > _BUDGET and len(rows) > _LEAST_ROWS:
             break
-    rows = rows[1:] if len(rows) > 4 else rows
+    rows = rows[1:] if len(rows) > _LEAST_ROWS else rows
     if message := _growth(rows, "a step"):
         return Finding("bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("good", f"{', '.join(_COSTS)} stay over {steps} steps")
@@ -188,7 +192,7 @@ def check_costs_of_states(subject: Subject) -> Finding:
     for k in range(100):
         if k % 10 == 0:
             rows.append(_present_costs())
-            if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
+            if time.perf_counter() - begin > _BUDGET and len(rows) > _LEAST_ROWS:
                 break
         state = instance.state()
         instance.restore(state)
@@ -219,7 +223,7 @@ def check_time_of_steps(subject: Subject) -> Finding:
         )
         return Finding("note", f"{message} {clause}")
     median = sorted(times)[len(times) // 2] if times else 0.0
-    if median > max(_SLOW * subject.step, 0.05) or median > 0.09:
+    if median > max(_SLOW * subject.step, _SHORT) or median > _LONG:
         message = f"a step of {subject.step:g} s takes {median:.3g} s, {median / subject.step:.3g} times as long; "
         return Finding("note", f"{message}FMI sets no time for a step {clause}")
     return Finding("good", "in time")
@@ -245,7 +249,7 @@ def check_messages(subject: Subject) -> Finding:
             return Finding(verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
     quiet, message_count, message = Instance(subject).start(), len(instance.messages), ""
     quiet.run(5)
-    if message_count > 20 * max(1, len(rows)):
+    if message_count > _MESSAGES * max(1, len(rows)):
         message = f"{message_count} in {len(rows)} steps; say what repeats once"
     elif instance.incomplete_messages:
         message = f"{instance.incomplete_messages} have no category or text; give both"

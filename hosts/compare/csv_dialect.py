@@ -16,6 +16,7 @@ from hosts.compare.log_aliases import Dialect
 
 _DELIMITERS = (";", "\t", ",", "|")
 _MAX_LINES = 60  # that are read: loggers write their settings first
+_MAX_BYTES = 400_000  # that are read for these lines
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _MISSING = ("", "nan", "na", "n/a", "null", "-", "#n/a", "--", "inf", "-inf")
 _DATE = re.compile(r"(\d{4}-\d\d-\d\d[T ]|\d\d?([./])\d\d?\2\d{4} ).*")  # other orders are refused later
@@ -99,8 +100,9 @@ def _refuse_units_in_cells(path: Path, lines: Sequence[str], stated: Dialect) ->
 
 
 def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
+    """First lines of a file and their encoding. Raises `HostError` if it is not text in the stated encoding."""
     with io.BufferedReader(Unpacked(path, LARGEST, HostError, f"The log {path}", zeros=True)) as stream:
-        content = stream.read(400_000)
+        content = stream.read(_MAX_BYTES)
     if message := other_encoding(content):
         raise HostError(f"The log {path} is {message}.")
     if b"\0" in content:
@@ -188,6 +190,7 @@ def _strip_comment(line: str) -> str:
 
 
 def _decimal_sign(rows: Sequence[str], delimiter: str) -> str:
+    """The decimal sign of most numbers in rows of values; a point where commas delimit."""
     if delimiter == ",":
         return "."
     cells = [cell for row in rows for cell in _cells(row, delimiter)]

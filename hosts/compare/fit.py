@@ -1,7 +1,7 @@
 """Fits parameters of an FMU to a log, and estimates how well the log determines them."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -29,7 +29,6 @@ from hosts.compare.residuals import RefusedError, Residuals
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
-Jacobian = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 _MAX_ROUNDS = 3  # searches, each with updated weights
 _SETTLED = 0.02  # relative change of the weights
@@ -97,28 +96,17 @@ def fit(
     _check_effects(unknowns, sensitivities, numeric_noise)
     start = point.copy()
 
-    def solve(begin: NDArray[np.float64], jacobian: Jacobian, most: int) -> OptimizeResult:
+    def search(begin: NDArray[np.float64]) -> OptimizeResult:
         return least_squares(
-            residuals, begin, jacobian, bounds, x_scale=scale, max_nfev=most, xtol=_STEP, ftol=_CHANGE, gtol=1e-12
-        )
+            residuals, begin, residuals.one_sided_jacobian, bounds,
+            x_scale=scale, max_nfev=evaluations, xtol=_STEP, ftol=_CHANGE, gtol=1e-12,
+        )  # fmt: skip
 
-    solutions: list[OptimizeResult] = []
-    searches: list[Start] = []
-    refused: list[str] = []
-    for k, begin in enumerate(_start_points(point, unknowns, starts)):
-        try:
-            solutions.append(solve(begin, residuals.one_sided_jacobian, evaluations))
-        except RefusedError as error:
-            if k == 0:
-                raise
-            refused.append(str(error))
-            continue
-        searches.append(Start(begin.tolist(), solutions[-1].x.tolist(), rms(solutions[-1].fun)))
-    solution = min(solutions, key=lambda t: float(t.cost))
+    solution, searches, refused = _search_from_all(search, _start_points(point, unknowns, starts))
     for _ in range(_MAX_ROUNDS - 1):
         if _update_weights(residuals, solution.fun):
             break
-        solution = solve(solution.x, residuals.one_sided_jacobian, evaluations)
+        solution = search(solution.x)
     converged = bool(solution.status > 0)
     point = _refine(residuals, solution.x, bounds)
     _update_weights(residuals, residuals(point))
@@ -127,6 +115,28 @@ def fit(
         residuals, unknowns, point, r, jacobian, r_start, noise, numeric_noise, runs, converged, searches, parts
     )
     return replace(result, refused=refused)
+
+
+def _search_from_all(
+    search: Callable[[NDArray[np.float64]], OptimizeResult], points: Iterable[NDArray[np.float64]]
+) -> tuple[OptimizeResult, list[Start], list[str]]:
+    """The best solution, all searches, and the sentences of start points that the FMU refuses.
+
+    Raises `RefusedError` if it refuses the first point, that of the given values.
+    """
+    solutions: list[OptimizeResult] = []
+    searches: list[Start] = []
+    refused: list[str] = []
+    for k, begin in enumerate(points):
+        try:
+            solutions.append(search(begin))
+        except RefusedError as error:
+            if k == 0:
+                raise
+            refused.append(str(error))
+            continue
+        searches.append(Start(begin.tolist(), solutions[-1].x.tolist(), rms(solutions[-1].fun)))
+    return min(solutions, key=lambda t: float(t.cost)), searches, refused
 
 
 def _update_weights(residuals: Residuals, r: NDArray[np.float64]) -> bool:

@@ -128,24 +128,7 @@ def prepare(options: argparse.Namespace) -> Task:
         signals = _replayed_signals(fmu, log, options, set_values, fitted_names)
         spans = parse_spans(options.seconds)
         windows = _driven_windows(options, spans, signals.end)
-        driven = Manoeuvre("", np.zeros(0), {}, windows[0][1])
-        step = communication_step(fmu, driven, _preferred_step(fmu, signals.inputs, options))
-        all_outputs = signals.outputs | outputs_from_begin(log, options)
-        maker = SegmentMaker(
-            name=options.log.stem,
-            source=source,
-            fmu=fmu,
-            inputs=signals.inputs,
-            outputs=all_outputs,
-            speed=signals.speed,
-            held=log.held,
-            run_start=None if options.begin else log.run_start,
-            begin=options.begin or 0.0,
-            set_values=set_values,
-            frequencies=signals.frequencies,
-            step=step,
-            slopes=opened.follows_slopes,
-        )
+        maker = _segment_maker(opened, fmu, source, log, signals, options, set_values, windows[0][1])
         segments, segment_notes = maker.segments(windows)
         notes = log.notes + segment_notes
         invertible = [
@@ -153,10 +136,10 @@ def prepare(options: argparse.Namespace) -> Task:
         ]
         parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in signals.unset}
     if signals.speed is not None:
-        segments = starting_pedals(source, segments, step)
+        segments = starting_pedals(source, segments, maker.step)
         pedal = segments[0].pedal
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
-    outputs, scales = signals.outputs, scales_of(all_outputs)
+    outputs, scales = signals.outputs, scales_of(maker.outputs)
     windowed = options.windows is not None
     if windowed:
         notes.append(
@@ -170,15 +153,47 @@ def prepare(options: argparse.Namespace) -> Task:
         inputs=signals.inputs,
         outputs=outputs,
         segments=segments,
-        step=step,
+        step=maker.step,
         slopes=maker.slopes,
         parameters=parameters,
         set_values=set_values,
         notes=notes,
         windowed=windowed,
-        plausibility=log_plausibility(options.log.name, all_outputs),
+        plausibility=log_plausibility(options.log.name, maker.outputs),
         scales=scales,
         invertible=invertible,
+    )
+
+
+def _segment_maker(
+    opened: Fmu,
+    fmu: NamedFmu,
+    source: FmuSource,
+    log: Log,
+    signals: _ReplayedSignals,
+    options: argparse.Namespace,
+    set_values: dict[str, Value],
+    length: float,
+) -> SegmentMaker:
+    """What makes the segments of a log. `opened`, `fmu`: the FMU as it is, and by the names of the log; `length`: of
+    the first window, s.
+    """
+    driven = Manoeuvre("", np.zeros(0), {}, length)
+    step = communication_step(fmu, driven, _preferred_step(fmu, signals.inputs, options))
+    return SegmentMaker(
+        name=options.log.stem,
+        source=source,
+        fmu=fmu,
+        inputs=signals.inputs,
+        outputs=signals.outputs | outputs_from_begin(log, options),
+        speed=signals.speed,
+        held=log.held,
+        run_start=None if options.begin else log.run_start,
+        begin=options.begin or 0.0,
+        set_values=set_values,
+        frequencies=signals.frequencies,
+        step=step,
+        slopes=opened.follows_slopes,
     )
 
 

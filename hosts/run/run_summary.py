@@ -45,6 +45,23 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
     interval = float(result.time[1]) if len(result.time) > 1 else step
     if interval > 1.5 * step:
         rows.append((f"rows every {interval:g} s", "largest values and means are of these rows"))
+    rows += [*_motion_rows(result), *_load_rows(result)]
+    rows += course
+    changing = [name for name in result.late if np.ptp(result[name]) > 0.0]
+    if changing:
+        rows.append(("inputs held over a step", f"{', '.join(changing)}: {500.0 * step:.3g} ms late on average"))
+    rows += [*result.notes, *result.missed]
+    rows += _solver_rows(result)
+    if any(name.startswith(_READ_AT_COST) and result[name].any() for name in result.names):
+        fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
+        rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))
+    rows.append(("failed steps", f"{result.failed_steps} of {round(result.simulated / step) + result.failed_steps}"))
+    return rows
+
+
+def _motion_rows(result: Result) -> list[tuple[str, str]]:
+    """Rows on distance, speed, accelerations and angles of the car."""
+    rows: list[tuple[str, str]] = []
     if "chassis.x" in result and "chassis.y" in result:
         x, y = result["chassis.x"], result["chassis.y"]
         rows.append(("distance driven", f"{np.hypot(np.diff(x), np.diff(y)).sum():.2f} m"))
@@ -66,19 +83,27 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
             rows.append((name, f"{_signed(angle.min())} to {_signed(angle.max())} deg"))
             if name == "roll" and np.abs(angle).max() > 90.0:
                 rows.append(("rolled over", f"at {result.time[int(np.argmax(np.abs(angle) > 90.0))]:.2f} s"))
+    return rows
+
+
+def _load_rows(result: Result) -> list[tuple[str, str]]:
+    """Rows on the loads of the wheels."""
     loads = {w: result[f"wheel_{w}.Fz"] for w in WHEELS if f"wheel_{w}.Fz" in result}
-    if loads:
-        largest = max(loads, key=lambda w: float(loads[w].max()))
-        at = result.time[int(loads[largest].argmax())]
-        rows.append(("largest wheel load", f"{loads[largest].max():.0f} N ({largest}, at {at:.2f} s)"))
-        durations = 1e3 * np.diff(result.time)
-        lift = "  ".join(f"{w} {durations[f[1:] < _LIFT_FORCE].sum():.0f}" for w, f in loads.items())
-        rows.append(("wheels in the air", f"{lift}  ms"))
-    rows += course
-    changing = [name for name in result.late if np.ptp(result[name]) > 0.0]
-    if changing:
-        rows.append(("inputs held over a step", f"{', '.join(changing)}: {500.0 * step:.3g} ms late on average"))
-    rows += [*result.notes, *result.missed]
+    if not loads:
+        return []
+    largest = max(loads, key=lambda w: float(loads[w].max()))
+    at = result.time[int(loads[largest].argmax())]
+    durations = 1e3 * np.diff(result.time)
+    lift = "  ".join(f"{w} {durations[f[1:] < _LIFT_FORCE].sum():.0f}" for w, f in loads.items())
+    return [
+        ("largest wheel load", f"{loads[largest].max():.0f} N ({largest}, at {at:.2f} s)"),
+        ("wheels in the air", f"{lift}  ms"),
+    ]
+
+
+def _solver_rows(result: Result) -> list[tuple[str, str]]:
+    """Rows on iterations, halvings and steps at the limit of iterations."""
+    rows: list[tuple[str, str]] = []
     if "solver.iterations" in result and len(result.time) > 1:
         n = result["solver.iterations"][1:]
         rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))
@@ -88,10 +113,6 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
         residual = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
         count = f"{result['solver.capped_steps'][-1]:.0f}"
         rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {residual:.2g} mm"))
-    if any(name.startswith(_READ_AT_COST) and result[name].any() for name in result.names):
-        fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
-        rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))
-    rows.append(("failed steps", f"{result.failed_steps} of {round(result.simulated / step) + result.failed_steps}"))
     return rows
 
 

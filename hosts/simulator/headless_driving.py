@@ -17,7 +17,7 @@ from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.preparation import DriveRequest
 
-_PERIOD = 0.005
+_PERIOD = 0.005  # s between two looks at the state of the car
 _BAR = "{n:.1f} of {total:.1f} s simulated |{bar}| {elapsed}<{remaining}"
 _PATIENCE = 10.0  # s without a step, after which the run is aborted
 

@@ -59,8 +59,8 @@ def close_position(
 ) -> Array:
     """The assembled position next to `q`, by Gauss-Newton in the metric of the mass and of the stiffness, kg.
 
-    `joint_gaps`: returns gaps of the eliminated joints, m; `tolerance_factor`: `fineness` of the model. Raises
-    `ModelError`: joints stay open, which it names.
+    `joint_gaps`: returns gaps of the eliminated joints, m; `tolerance_factor`: `length_tolerance_factor`.
+    Raises `ModelError`: joints stay open, which it names.
     """
     if arrays.nc == 0:
         return q

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.linalg import qr
 
 from mbs.common.errors import ModelError
-from mbs.compiler.extent import fineness
+from mbs.compiler.extent import length_tolerance_factor
 from mbs.compiler.polynomial import Monomial, RowTerms
 
 DEPENDENT = 1e-7
@@ -35,7 +35,7 @@ def independent_rows(
     `joints`: names of the joints at each body, for errors; `length`: length of the model, m. Raises `ModelError` if
     dependent rows contradict each other.
     """
-    unit = fineness(length)
+    unit = length_tolerance_factor(length)
     unit_by_degree = (1.0, unit, unit * unit)  # otherwise linear terms are negligible next to squares in a small model
     chosen: set[int] = set()
     normal: dict[int, dict[Monomial, float]] = {}
@@ -132,7 +132,7 @@ def _independent(
 ) -> list[int]:
     """Independent rows of a connected group by a rank-revealing factorization that prefers shorter rows."""
     degree = 2 if any(j >= 0 for i in group for _, j in normal[i]) else 1
-    unit = fineness(length) ** degree
+    unit = length_tolerance_factor(length) ** degree
     monomials = sorted({m for i in group for m in normal[i] if m != CONSTANT})
     column = {m: k for k, m in enumerate(monomials)}
     A = np.zeros((len(group), len(monomials)))

@@ -57,7 +57,7 @@ def check_distance(model: Model, rows: Sequence[RowTerms], kinds: Sequence[str],
             )
 
 
-def fineness(length: float) -> float:
+def length_tolerance_factor(length: float) -> float:
     """Factor of tolerances in m for a model of a length, m; for tolerances in m2 its square."""
     return min(1.0, length / SMALL) * max(1.0, length / LARGE)
 

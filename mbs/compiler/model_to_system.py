@@ -16,7 +16,14 @@ from mbs.compiler.armatures import armature_arrays
 from mbs.compiler.consistent_start import close_position
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.equilibrium import equilibrium, start_arrays
-from mbs.compiler.extent import check_distance, coordinate_lengths, drawn_length, fineness, model_length, unit_vectors
+from mbs.compiler.extent import (
+    check_distance,
+    coordinate_lengths,
+    drawn_length,
+    length_tolerance_factor,
+    model_length,
+    unit_vectors,
+)
 from mbs.compiler.flexible import deformation_metric, flexible_arrays, flexible_cliques, flexible_coordinates
 from mbs.compiler.frames import frames_of
 from mbs.compiler.front_arrays import front_arrays, locator, mass_positions, row_fronts
@@ -215,7 +222,7 @@ def _solve_start(model: Model, reduced: _Reduced, ordered: _Ordered) -> _Start:
     position_arrays = arrays if len(position_rows) == len(active_rows) else RowArrays(position_rows, new)
     stiffness = deformation_metric(model, dependents.full, new)
     q_reference = reference_position(model, reduced.natural, dependents.remaining, T, z0, ordered.M_full)[order]
-    tolerance_factor = fineness(reduced.size)
+    tolerance_factor = length_tolerance_factor(reduced.size)
     q = close_position(
         position_rows,
         position_arrays,
@@ -254,7 +261,7 @@ def _make_tables(
     diagonal = np.maximum(mass.diagonal(), carried_masses)
     if not diagonal.any():
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate that has mass.")
-    tolerance_factor = fineness(reduced.size)
+    tolerance_factor = length_tolerance_factor(reduced.size)
     scale, measure = row_scale(rows, Phiq, diagonal, tolerance_factor)
     arrays.scale(scale)
 

@@ -1,5 +1,7 @@
 """Flat arrays of the constraint rows of a System, and values of the rows at a position."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -142,60 +144,81 @@ class RowArrays:
         """
         a = self.arrays
         start, col = a["row_ptr"], a["row_col"]
-        padded = np.append(q, 1.0)  # position -1 is the constant 1
-        jac = np.array(a["row_lin"], dtype=float)
-        phi: Array = a["row_const"] + np.bincount(self._row_of_entry, jac * q[col], minlength=self.nc)[: self.nc]
+        products = _Products(a, q)
+        jac = products.gradients
+        linear = np.bincount(self._row_of_entry, jac * q[col], minlength=self.nc)[: self.nc]
+        phi: Array = a["row_const"] + linear
         phi_t = np.zeros(self.nc)
-
-        def entry(row: Index, position: Index) -> tuple[Index, Array]:
-            """Index in `col` of positions within rows (-1: the constant 1), and values of the coordinates there."""
-            entries = np.where(position >= 0, start[row] + position, -1)
-            coordinates = np.where(entries >= 0, col[entries], self.nq) if len(col) else np.full(len(entries), self.nq)
-            return entries, padded[coordinates]
-
-        def add(row: Index, position_a: Index, position_b: Index, h: Array) -> Array:
-            """Add the gradient of h q_a q_b and return the values."""
-            index_a, u = entry(row, position_a)
-            index_b, v = entry(row, position_b)
-            for index, derivative in ((index_a, h * v), (index_b, h * u)):
-                np.add.at(jac, index[index >= 0], derivative[index >= 0])
-            return h * u * v
-
-        phi += np.bincount(
-            self._quad_row, add(self._quad_row, a["quad_a"], a["quad_b"], a["quad_h"]), minlength=self.nc
-        )[: self.nc]
+        values = products.add(self._quad_row, a["quad_a"], a["quad_b"], a["quad_h"])
+        phi += np.bincount(self._quad_row, values, minlength=self.nc)[: self.nc]
         if len(a["angle_row"]):
-            n = len(a["angle_row"])
-            theta_at, theta = entry(a["angle_row"], a["angle_theta"])
-            t = self._angle_of_term
-            cos, sin = np.cos(theta), np.sin(theta)
-            row = a["angle_row"][t]
-            values = {}
-            for name, factor in (("angle_hs", cos), ("angle_hc", -sin)):
-                values[name] = np.bincount(t, add(row, a["angle_a"], a["angle_b"], a[name] * factor[t]), minlength=n)
-            np.add.at(phi, a["angle_row"], values["angle_hs"] + values["angle_hc"])
-            # derivative with respect to theta: -sin S - cos C
-            _, u = entry(row, a["angle_a"])
-            _, v = entry(row, a["angle_b"])
-            C = np.bincount(t, a["angle_hc"] * u * v, minlength=n)
-            S = np.bincount(t, a["angle_hs"] * u * v, minlength=n)
-            np.add.at(jac, theta_at, -sin * S - cos * C)
+            self._add_angle_terms(products, phi)
         if len(a["gterm_row"]):
-            g, power = a["gterm_guide"], a["gterm_power"]
-            terms = add(a["gterm_row"], a["gterm_a"], a["gterm_b"], a["gterm_h"] * guides[g] ** power)
-            np.add.at(phi, a["gterm_row"], terms)
-            if driving_rates is not None:
-                _, u = entry(a["gterm_row"], a["gterm_a"])
-                _, v = entry(a["gterm_row"], a["gterm_b"])
-                np.add.at(
-                    phi_t, a["gterm_row"], a["gterm_h"] * power * guides[g] ** (power - 1) * driving_rates[g] * u * v
-                )
+            self._add_driving_terms(products, guides, driving_rates, phi, phi_t)
         if len(a["velocity_row"]):
             row = self._row_of_velocity
             np.add.at(jac, start[row] + a["velocity_b"], a["velocity_h"] * q[col[start[row] + a["velocity_a"]]])
             phi[a["velocity_row"]] = 0.0
         matrix = sparse.csr_matrix((jac, col, start), shape=(self.nc, self.nq))
         return phi, matrix, phi_t
+
+    def _add_angle_terms(self, products: _Products, phi: Array) -> None:
+        """Add C cos theta + S sin theta of the rows that measure angles, C and S quadratic in the coordinates."""
+        a, t = self.arrays, self._angle_of_term
+        n = len(a["angle_row"])
+        theta_at, theta = products.factors(a["angle_row"], a["angle_theta"])
+        cos, sin = np.cos(theta), np.sin(theta)
+        row = a["angle_row"][t]
+        values = {}
+        for name, factor in (("angle_hs", cos), ("angle_hc", -sin)):
+            terms = products.add(row, a["angle_a"], a["angle_b"], a[name] * factor[t])
+            values[name] = np.bincount(t, terms, minlength=n)
+        np.add.at(phi, a["angle_row"], values["angle_hs"] + values["angle_hc"])
+        # derivative with respect to theta: -sin S - cos C
+        _, u = products.factors(row, a["angle_a"])
+        _, v = products.factors(row, a["angle_b"])
+        C = np.bincount(t, a["angle_hc"] * u * v, minlength=n)
+        S = np.bincount(t, a["angle_hs"] * u * v, minlength=n)
+        np.add.at(products.gradients, theta_at, -sin * S - cos * C)
+
+    def _add_driving_terms(
+        self, products: _Products, guides: Array, driving_rates: Array | None, phi: Array, phi_t: Array
+    ) -> None:
+        """Add h g^p q_a q_b of the driving functions g, and its derivative by time."""
+        a = self.arrays
+        rows, g, power = a["gterm_row"], a["gterm_guide"], a["gterm_power"]
+        np.add.at(phi, rows, products.add(rows, a["gterm_a"], a["gterm_b"], a["gterm_h"] * guides[g] ** power))
+        if driving_rates is not None:
+            _, u = products.factors(rows, a["gterm_a"])
+            _, v = products.factors(rows, a["gterm_b"])
+            np.add.at(phi_t, rows, a["gterm_h"] * power * guides[g] ** (power - 1) * driving_rates[g] * u * v)
+
+
+class _Products:
+    """Products of two coordinates of a row at a position `q`, shape (nq,).
+
+    `gradients`: values of Phi_q in the pattern of the rows; begins with the linear coefficients.
+    """
+
+    def __init__(self, arrays: Mapping[str, NDArray[Any]], q: Array) -> None:
+        self._start, self._col = arrays["row_ptr"], arrays["row_col"]
+        self._padded = np.append(q, 1.0)  # position -1 is the constant 1
+        self.gradients: Array = np.array(arrays["row_lin"], dtype=float)
+
+    def factors(self, row: Index, position: Index) -> tuple[Index, Array]:
+        """Index in the pattern of positions within rows (-1: the constant 1), and the coordinates there."""
+        entries = np.where(position >= 0, self._start[row] + position, -1)
+        one = len(self._padded) - 1
+        coordinates = np.where(entries >= 0, self._col[entries], one) if len(self._col) else np.full(len(entries), one)
+        return entries, self._padded[coordinates]
+
+    def add(self, row: Index, position_a: Index, position_b: Index, h: Array) -> Array:
+        """Add the gradient of h q_a q_b and return the values."""
+        index_a, u = self.factors(row, position_a)
+        index_b, v = self.factors(row, position_b)
+        for index, derivative in ((index_a, h * v), (index_b, h * u)):
+            np.add.at(self.gradients, index[index >= 0], derivative[index >= 0])
+        return h * u * v
 
 
 def _terms(p: Polynomial, position: Mapping[int, int]) -> list[tuple[int, int, float]]:

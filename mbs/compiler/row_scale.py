@@ -17,8 +17,8 @@ def row_scale(
 ) -> tuple[Array, Array]:
     """`row_scale` and `row_measure` of the System file, shape (nc,).
 
-    `diagonal`: diagonal of the mass matrix, shape (nq,); `tolerance_factor`: `fineness` of the model. Raises
-    `ModelError` if a row has no gradient.
+    `diagonal`: diagonal of the mass matrix, shape (nq,); `tolerance_factor`: `length_tolerance_factor`.
+    Raises `ModelError` if a row has no gradient.
     """
     inverse = np.where(diagonal > 0.0, 1.0 / np.where(diagonal > 0.0, diagonal, 1.0), 0.0)
     squared = Phiq.multiply(Phiq).tocsr()

@@ -60,6 +60,30 @@ def header(kind: type[Element]) -> str:
         "",
         *_enumeration(kind, f"{upper}_REALS", len(required_reals), bool(optional_reals)),
     ]
+    lines += _integer_and_output_numbers(kind, upper)
+    sizes = _sizes(kind, required)
+    lines += ["#ifndef ALI3_WIDTH"]
+    if required_reals or optional_reals:
+        lines += _real_table(kind, name)
+        sizes |= {"fields": f"{name}_fields", "nfields": str(len(required_reals) + len(optional_reals))}
+    if kind._integers:
+        lines += _integer_table(kind, name)
+        sizes |= {"integers": f"{name}_integers", "nintegers": f"{upper}_INTEGERS"}
+    size_lines = textwrap.wrap(", ".join(f".{size}={value}" for size, value in sizes.items()), 90)
+    size_lines = [line.replace("=", " = ") for line in size_lines]
+    lines += [
+        f"#define ALI3_{upper} \\",
+        *(f"  {line} \\" for line in size_lines[:-1]),
+        f"  {size_lines[-1]}",
+        "#endif",
+        "#endif",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _integer_and_output_numbers(kind: type[Element], upper: str) -> list[str]:
+    """Enumerations of the integers and of the outputs. `upper`: name of the element in capital letters."""
+    lines: list[str] = []
     if kind._integers:
         lines += [
             "enum {",
@@ -73,33 +97,28 @@ def header(kind: type[Element]) -> str:
             meaning = capital(output.description) + ("." if output.unit == "1" else f", {output.unit}.")
             lines += _entry(f"{upper}_OUT_{output.name.upper()}", meaning)
         lines += [f"  {upper}_OUTPUTS", "};"]
-    sizes = _sizes(kind, required)
-    lines += ["#ifndef ALI3_WIDTH"]
-    if required_reals or optional_reals:
-        lines += [f"static const ali3_field {name}_fields[] = {{"]
-        for _, real, real_noun in each_real(kind):
-            range_name, requirement = RANGES[real.check]
-            lines += [f'  {{{range_name}, "{f"the {real_noun} of {noun} {requirement}" if requirement else ""}"}},']
-        lines += ["};"]
-        sizes |= {"fields": f"{name}_fields", "nfields": str(len(required_reals) + len(optional_reals))}
-    if kind._integers:
-        lines += [f"static const ali3_integer {name}_integers[] = {{"]
-        for integer in kind._integers:
-            most = "INT32_MAX" if integer.most == INT32_MAX else integer.most
-            limits = f"{integer.least}, {most}, {len(integer.numbers)}, {len(integer.states)}"
-            lines += [f'  {{{integer.kind.value}, {limits}, "{_sentence(integer, noun)}"}},']
-        lines += ["};"]
-        sizes |= {"integers": f"{name}_integers", "nintegers": f"{upper}_INTEGERS"}
-    size_lines = textwrap.wrap(", ".join(f".{size}={value}" for size, value in sizes.items()), 90)
-    size_lines = [line.replace("=", " = ") for line in size_lines]
-    lines += [
-        f"#define ALI3_{upper} \\",
-        *(f"  {line} \\" for line in size_lines[:-1]),
-        f"  {size_lines[-1]}",
-        "#endif",
-        "#endif",
-    ]
-    return "\n".join(lines) + "\n"
+    return lines
+
+
+def _real_table(kind: type[Element], name: str) -> list[str]:
+    """Table of the ranges of the reals, with the sentence about a value outside."""
+    lines = [f"static const ali3_field {name}_fields[] = {{"]
+    for _, real, real_noun in each_real(kind):
+        range_name, requirement = RANGES[real.check]
+        lines += [f'  {{{range_name}, "{f"the {real_noun} of {kind._noun} {requirement}" if requirement else ""}"}},']
+    lines += ["};"]
+    return lines
+
+
+def _integer_table(kind: type[Element], name: str) -> list[str]:
+    """Table of what the integers index, their limits, and the sentence about a wrong one."""
+    lines = [f"static const ali3_integer {name}_integers[] = {{"]
+    for integer in kind._integers:
+        most = "INT32_MAX" if integer.most == INT32_MAX else integer.most
+        limits = f"{integer.least}, {most}, {len(integer.numbers)}, {len(integer.states)}"
+        lines += [f'  {{{integer.kind.value}, {limits}, "{_sentence(integer, kind._noun)}"}},']
+    lines += ["};"]
+    return lines
 
 
 def _enumeration(kind: type[Element], size: str, required: int, has_optional: bool) -> list[str]:

@@ -80,7 +80,7 @@ def check_inputs(inputs: Sequence[int | None], count: int, label: str) -> list[i
 
 def input_indices(names: str, *, missing: bool) -> tuple[Integer, ...]:
     """Integers that are the indices of the inputs of the components of a force or a torque."""
-    return tuple(input_index(name, "an entry of the inputs", missing=missing) for name in names.split())
+    return tuple(input_index(n, f"the {n.replace('_', ' ')} input", missing=missing) for n in names.split())
 
 
 ROAD = Integer("road", IntegerKind.ROADS)

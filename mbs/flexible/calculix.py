@@ -60,35 +60,48 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     text = StringIO("\n".join(["*NODE", *nodes]))
     points = read_foreign(deck, lambda path: np.asarray(meshio.read(text, file_format="abaqus").points, float))
     numbers = [int(line.partition(",")[0]) for line in nodes]
-    row = {number: i for i, number in enumerate(numbers)}
-    freedoms = read_foreign(files[3], _read_freedoms)
-    table = np.full((len(numbers), 3), -1)
-    for k, (node, axis) in enumerate(freedoms):
-        if node in row and axis < 3:
-            table[row[node], axis] = k
-    complete = (table >= 0).all(axis=1)
-    supported = np.flatnonzero(~complete & (table >= 0).any(axis=1))
     if not numbers:
         raise ModelError(f"{deck.name} has no nodes.")
-    if supported.size or not complete.any():
-        node = numbers[int(supported[0])] if supported.size else numbers[0]
-        raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
+    freedoms = read_foreign(files[3], _read_freedoms)
+    table = _row_table(numbers, freedoms)
+    complete = (table >= 0).all(axis=1)
     entries = [read_foreign(path, _read_entries) for path in files[1:3]]
-    lumped = len(entries[1]) == 3 and np.array_equal(entries[1][0], entries[1][1])
-    for path, matrix_entries in zip(files[1:3], entries, strict=True):
-        if (
-            len(matrix_entries) != 3
-            or not np.isin(table[complete] + 1, matrix_entries[0][matrix_entries[0] == matrix_entries[1]]).all()
-        ):
-            raise ModelError(f"{path.name} must have a diagonal entry for each freedom; it is damaged.")
-    if entries[0].shape != entries[1].shape and not lumped:
-        raise ModelError(f"{files[1].name} and {files[2].name} must have as many entries; one of them is damaged.")
+    _check_entries(files[1:3], entries, table[complete])
     K, M = (
         read_foreign(path, partial(_symmetric_matrix, size=len(freedoms), entries=e))
         for path, e in zip(files[1:3], entries, strict=True)
     )
     K, M = _condense(K, M, table[complete].ravel())
     return K, M, points[complete], [numbers[int(i)] for i in np.flatnonzero(complete)]
+
+
+def _row_table(numbers: list[int], freedoms: list[tuple[int, int]]) -> np.ndarray:
+    """Row of the matrices by node and axis, -1: none, shape (n, 3). Raises `ModelError` if the deck has supports."""
+    row = {number: i for i, number in enumerate(numbers)}
+    table = np.full((len(numbers), 3), -1)
+    for k, (node, axis) in enumerate(freedoms):
+        if node in row and axis < 3:
+            table[row[node], axis] = k
+    complete = (table >= 0).all(axis=1)
+    supported = np.flatnonzero(~complete & (table >= 0).any(axis=1))
+    if supported.size or not complete.any():
+        node = numbers[int(supported[0])] if supported.size else numbers[0]
+        raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
+    return table
+
+
+def _check_entries(paths: list[Path], entries: list[np.ndarray], rows: np.ndarray) -> None:
+    """Raise `ModelError` if stiffness or mass lack a diagonal entry, or differ in number where the mass is not lumped.
+
+    `rows`: rows of the freedoms of the nodes, from 0.
+    """
+    for path, triangle in zip(paths, entries, strict=True):
+        if len(triangle) != 3 or not np.isin(rows + 1, triangle[0][triangle[0] == triangle[1]]).all():
+            raise ModelError(f"{path.name} must have a diagonal entry for each freedom; it is damaged.")
+    stiffness, mass = entries
+    is_lumped = np.array_equal(mass[0], mass[1])
+    if stiffness.shape != mass.shape and not is_lumped:
+        raise ModelError(f"{paths[0].name} and {paths[1].name} must have as many entries; one of them is damaged.")
 
 
 def _read_freedoms(path: Path) -> list[tuple[int, int]]:

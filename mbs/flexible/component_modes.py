@@ -55,12 +55,7 @@ def craig_bampton(
     ReducedBody
         In the unit-interface basis: dynamic modes are mass-normalised and zero at the interfaces.
     """
-    instance_of(FiniteElementModel, model, "The model to reduce", "a FiniteElementModel")
-    flag(inertia_modes, "inertia_modes")
-    if up_to is not None:
-        positive(up_to, "The frequency up_to of the modes")
-    if damping is not None:
-        instance_of(RayleighDamping, damping, "The damping of the modes", "a RayleighDamping")
+    _check_arguments(model, inertia_modes, up_to, damping)
     fixed = FixedInterface(model, reference, interfaces)
     static = fixed.static_modes()
     hertz, dynamic = _dynamic_modes(fixed, dynamic_modes, up_to)
@@ -74,9 +69,7 @@ def craig_bampton(
     if m == 0:
         raise ModelError("A reduction without interfaces and without dynamic modes leaves a rigid body.")
 
-    K = np.zeros((m, m))
-    K[:n_static, :n_static] = _symmetric(static.T @ (model.K @ static))
-    K[range(n_static, m), range(n_static, m)] = (2 * np.pi * hertz) ** 2
+    K = _reduced_stiffness(model, static, hertz)
     origin = model.origin(reference)
     mass_shapes = np.asarray(model.mass.interpolation @ modes).reshape(-1, 3, m)
     weighted = (np.sqrt(model.mass.masses)[:, None, None] * mass_shapes).reshape(-1, m)
@@ -102,6 +95,28 @@ def craig_bampton(
         frequencies=hertz,
         frame=model.frame,
     )
+
+
+def _check_arguments(
+    model: FiniteElementModel, inertia_modes: bool, up_to: float | None, damping: RayleighDamping | None
+) -> None:
+    """Raise an error of the engine if an argument of `craig_bampton` has a wrong type or value."""
+    instance_of(FiniteElementModel, model, "The model to reduce", "a FiniteElementModel")
+    flag(inertia_modes, "inertia_modes")
+    if up_to is not None:
+        positive(up_to, "The frequency up_to of the modes")
+    if damping is not None:
+        instance_of(RayleighDamping, damping, "The damping of the modes", "a RayleighDamping")
+
+
+def _reduced_stiffness(model: FiniteElementModel, static: np.ndarray, hertz: np.ndarray) -> np.ndarray:
+    """Stiffness by modes, shape (m, m): static modes, then dynamic ones, which are not coupled with them."""
+    n_static = static.shape[1]
+    m = n_static + hertz.size
+    K = np.zeros((m, m))
+    K[:n_static, :n_static] = _symmetric(static.T @ (model.K @ static))
+    K[range(n_static, m), range(n_static, m)] = (2 * np.pi * hertz) ** 2
+    return K
 
 
 def _accelerations(fixed: FixedInterface, modes: np.ndarray) -> np.ndarray | None:

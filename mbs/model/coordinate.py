@@ -26,7 +26,7 @@ class Coordinate:
     name: str
     index: int
     unit: str
-    """Unit of its value, rad."""
+    """Unit of its value: "rad", or "m" of a travel."""
 
     @property
     def affine(self) -> Affine:

@@ -162,33 +162,11 @@ def read_tyre(file: str | Path) -> TyreFile:
     file_numbers = text.numbers(_NUMBERS)
     # before the sections are checked: other formats have other ones
     version = _version(text, notes) if "MODEL" in text.sections else ""
-    missing_sections = [section for section in _SECTIONS if section not in text.sections]
-    if missing_sections:
-        raise text.fault(f"it has no section [{missing_sections[0]}]; it may be cut, or no tyre property file.")
-    entries = {_ALIASES.get(key, key): value for key, value in file_numbers.items()}
-    numbers = to_si(text, entries)
-    missing_numbers = [key for key in _REQUIRED_NUMBERS if not numbers.get(key)]
-    if missing_numbers:
-        raise text.fault(
-            f"{', '.join(missing_numbers)} {'is' if len(missing_numbers) == 1 else 'are'} missing or 0; it may be cut."
-        )
-    check_bounds(text, numbers)
-    if numbers["PKX1"] < 0.0:
-        raise text.fault(
-            f"PKX1 is {numbers['PKX1']:g}; it must be positive, otherwise the longitudinal force has the direction of "
-            "the slip."
-        )
+    numbers = _checked_numbers(text, file_numbers)
     coefficients = {key: numbers[key] for key in MAGIC_COEFFICIENTS if key in numbers}
     if text.word("TYRESIDE", "MODEL") in ("SYMMETRIC", "SYMMETRICAL"):
         coefficients |= dict.fromkeys(asymmetric_coefficients(version), 0.0)
-    absent = [
-        key
-        for key in MAGIC_COEFFICIENTS
-        if key not in numbers and key not in (_SINCE_61 if version in ("PAC2002", "MF52") else _UNTIL_52)
-    ]
-    if version == "MF61":
-        absent = [key for key in absent if key not in ("QSX12", "QSX13", "QSX14")]
-    if absent:
+    if absent := _absent_coefficients(version, numbers):
         notes.append(f"it lacks {', '.join(absent)}; shape and shifts are then 0 and factors 1.")
     values = {
         "version": version,
@@ -200,6 +178,45 @@ def read_tyre(file: str | Path) -> TyreFile:
     values["largest_load"] = _largest_load(text, coefficients, numbers, notes)
     if not any(numbers.get(key) for key in ("PTY1", "LATERAL_STIFFNESS")):
         notes.append("it has no relaxation; lengths of 0.5 and 1 free radius at the nominal load are assumed.")
+    side = _side(text, numbers, notes)
+    nominal = numbers.get("NOMPRES", 0.0)
+    pressure, least, most = numbers.get("INFLPRES", nominal), numbers.get("PRESMIN", 0.0), numbers.get("PRESMAX", 0.0)
+    most = most or math.inf
+    if pressure and not least <= pressure <= most:
+        notes.append(f"INFLPRES is {pressure:g} Pa; {_pressure_text(least, most)}.")
+    return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes), numbers)
+
+
+def _checked_numbers(text: PropertyText, file_numbers: Mapping[str, float]) -> dict[str, float]:
+    """Numbers by key, SI units. Raises `TyreFileError` if a section or number is missing, or a number out of bounds."""
+    missing_sections = [section for section in _SECTIONS if section not in text.sections]
+    if missing_sections:
+        raise text.fault(f"it has no section [{missing_sections[0]}]; it may be cut, or no tyre property file.")
+    numbers = to_si(text, {_ALIASES.get(key, key): value for key, value in file_numbers.items()})
+    missing_numbers = [key for key in _REQUIRED_NUMBERS if not numbers.get(key)]
+    if missing_numbers:
+        raise text.fault(
+            f"{', '.join(missing_numbers)} {'is' if len(missing_numbers) == 1 else 'are'} missing or 0; it may be cut."
+        )
+    check_bounds(text, numbers)
+    if numbers["PKX1"] < 0.0:
+        raise text.fault(
+            f"PKX1 is {numbers['PKX1']:g}; it must be positive, otherwise the longitudinal force has the direction of "
+            "the slip."
+        )
+    return numbers
+
+
+def _absent_coefficients(version: str, numbers: Mapping[str, float]) -> list[str]:
+    """Coefficients that a file of this version may have and lacks."""
+    of_others = {*(_SINCE_61 if version in ("PAC2002", "MF52") else _UNTIL_52)}
+    if version == "MF61":
+        of_others |= {"QSX12", "QSX13", "QSX14"}
+    return [key for key in MAGIC_COEFFICIENTS if key not in numbers and key not in of_others]
+
+
+def _side(text: PropertyText, numbers: Mapping[str, float], notes: list[str]) -> str:
+    """Side of the measured tyre, "left", "right" or "symmetric"; adds to the notes what is assumed."""
     side = text.word("TYRESIDE", "MODEL").lower().removesuffix("al")
     if side not in (*SIDES, "symmetric"):
         fault = f"is '{side}'" if side else "is missing"
@@ -208,12 +225,7 @@ def read_tyre(file: str | Path) -> TyreFile:
     if numbers.get("USE_MODE", 4.0) < 0.0 and side in SIDES:
         side = SIDES[1 - SIDES.index(side)]
         notes.append(f"USE_MODE is {numbers['USE_MODE']:g}, which mirrors: the coefficients count as a {side} tyre's.")
-    nominal = numbers.get("NOMPRES", 0.0)
-    pressure, least, most = numbers.get("INFLPRES", nominal), numbers.get("PRESMIN", 0.0), numbers.get("PRESMAX", 0.0)
-    most = most or math.inf
-    if pressure and not least <= pressure <= most:
-        notes.append(f"INFLPRES is {pressure:g} Pa; {_pressure_text(least, most)}.")
-    return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes), numbers)
+    return side
 
 
 def _pressure_text(minimum: float, maximum: float) -> str:

@@ -122,30 +122,46 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
     b.sense_components("chassis.earth_v{}", reference, "m/s", text, order=1)
     named = {element.name: element for element in m.elements}
     for w, spin in spins.items():
-        if car.ports.torque is None and w[0].lower() == car.drive.wheels[0]:
-            text = "torque of the drive on the wheel about its axis, positive forward"
-            side = "left" if w[1] == "L" else "right"
-            torque = f"{side}_torque" if car.drive.kind == "automatic" else "wheel_torque"
-            m.sense_element(f"wheel_{w}.drive_torque", "drive", torque, description=text)
-            m.sense_element(f"wheel_{w}.drive_power", "drive", f"{side}_power")
-        if car.ports.torque is not None:
-            m.sense_element(f"wheel_{w}.drive_power", f"port drive {w}", "power")
-        m.sense_element(f"wheel_{w}.brake_power", f"brake {w}", "power")
-        if car.ports.tyre is None:
-            tyre_outputs(m, w, named[f"tyre {w}"])
-        text = "velocity of the centre of the wheel along the earth's {} axis"
-        b.sense_components(f"wheel_{w}.earth_v{{}}", spin.centre, "m/s", text, order=1)
-        for c in "xy" if car.ports.road is not None else "":
-            text = f"{c} of the contact point ports.road_lead steps of communication later, if they are like the last"
-            position_name, rate_name = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"
-            m.ahead.append(Ahead(f"wheel_{w}.road_ahead_{c}", "m", text, position_name, rate_name))
-        damper = f"damper {w}" if f"damper {w}" in named else f"spring {w}"
-        text = "rate of the length of the damper, positive in rebound"
-        m.sense_element(f"damper_{w}.speed", damper, "rate", description=text)
-        text = "force of the damper without spring and stops, tension positive"
-        m.sense_element(f"damper_{w}.force", damper, "damper_force", description=text)
+        _add_wheel_outputs(b, car, w, spin, named)
     for sense in b.port_senses:
         sense()
+    _add_energy_outputs(b, car)
+    _add_brake_pressures(b, car)
+
+
+def _add_wheel_outputs(b: CarBuilder, car: CarContent, w: str, spin: Spin, named: Mapping[str, ElementRecord]) -> None:
+    """Add the outputs of a wheel: powers of drive and brake, tyre, velocity, road ahead, damper.
+
+    `w`: such as FL; `named`: elements of the model by name.
+    """
+    m = b.m
+    if car.ports.torque is None and w[0].lower() == car.drive.wheels[0]:
+        text = "torque of the drive on the wheel about its axis, positive forward"
+        side = "left" if w[1] == "L" else "right"
+        torque = f"{side}_torque" if car.drive.kind == "automatic" else "wheel_torque"
+        m.sense_element(f"wheel_{w}.drive_torque", "drive", torque, description=text)
+        m.sense_element(f"wheel_{w}.drive_power", "drive", f"{side}_power")
+    if car.ports.torque is not None:
+        m.sense_element(f"wheel_{w}.drive_power", f"port drive {w}", "power")
+    m.sense_element(f"wheel_{w}.brake_power", f"brake {w}", "power")
+    if car.ports.tyre is None:
+        tyre_outputs(m, w, named[f"tyre {w}"])
+    text = "velocity of the centre of the wheel along the earth's {} axis"
+    b.sense_components(f"wheel_{w}.earth_v{{}}", spin.centre, "m/s", text, order=1)
+    for c in "xy" if car.ports.road is not None else "":
+        text = f"{c} of the contact point ports.road_lead steps of communication later, if they are like the last"
+        position_name, rate_name = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"
+        m.ahead.append(Ahead(f"wheel_{w}.road_ahead_{c}", "m", text, position_name, rate_name))
+    damper = f"damper {w}" if f"damper {w}" in named else f"spring {w}"
+    text = "rate of the length of the damper, positive in rebound"
+    m.sense_element(f"damper_{w}.speed", damper, "rate", description=text)
+    text = "force of the damper without spring and stops, tension positive"
+    m.sense_element(f"damper_{w}.force", damper, "damper_force", description=text)
+
+
+def _add_energy_outputs(b: CarBuilder, car: CarContent) -> None:
+    """Add the work that reaches the car through roads and ports."""
+    m = b.m
     elements = [element for element in m.elements if element.name.startswith("port ")]
     if car.ports.road is not None:
         standing = [e for e in m.elements if e.name.startswith("tyre ") or e.name == GROUND_CONTACT]
@@ -156,6 +172,11 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
     if elements or guided:
         kind = "with guides" if guided else "nonconservative"
         m.sense_energy("energy.ports", kind, elements, description=text)
+
+
+def _add_brake_pressures(b: CarBuilder, car: CarContent) -> None:
+    """Add the pressures that pedal or demanded torques take."""
+    m = b.m
     if car.ports.brakes is None:
         text = "pressure in the brakes of all wheels by the pedal"
         m.sense_input("brake_pressure", b.inputs["brake"], scale=car.ports.full_pressure, unit="Pa", description=text)

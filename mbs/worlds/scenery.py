@@ -22,6 +22,20 @@ LINE_TOLERANCE = 4e-3
 """Largest distance of an omitted point from the drawn line, m."""
 EDGE_LINE_OFFSET = 0.25
 """Distance of the middle of an edge line from the edge of the road, m."""
+LINE_WIDTH = 0.15
+"""Width of the lines of a course, m."""
+CENTRE_DASH = (4.0, 8.0)
+"""Lengths of a dash and of a gap of a centre line, m."""
+POST_OFFSET, POST_HEIGHT, POST_CLEARANCE = 1.0, 1.0, 0.5
+"""Posts, m: distance from the edge of the road, height, depth within a layer up to which they stand."""
+NEAR_LAYER, OUTSIDE_LAYER = 3.0, 0.1
+"""Excess over the half width of another layer within which it is examined, and above which it hides no line, m."""
+MIN_LINE_POINTS, MIN_CIRCLE_POINTS = 5, 32
+"""Least numbers of points of a visible part of a line and of a circle."""
+TREE_TRIALS = 40
+"""Random positions for each tree, of which the first free ones are taken."""
+BUILDING_RADIUS, BUILDING_CLEARANCE = 0.7, 5.0
+"""Radius of a building without trees, relative to its longer side, and what is added to it, m."""
 
 
 def scenery_of(terrain: Terrain) -> list[dict[str, Any]]:
@@ -119,12 +133,12 @@ def _visible_parts(terrain: Terrain, layer: CourseLayer, s: Float, offset: Float
     for other in terrain.layers:
         if other is not layer:
             excess, station = other.near(x, y)
-            close = np.flatnonzero(excess < 3.0)
+            close = np.flatnonzero(excess < NEAR_LAYER)
             if len(close):
-                visible[close] &= other.at(x[close], y[close], station[close]).excess > 0.1
+                visible[close] &= other.at(x[close], y[close], station[close]).excess > OUTSIDE_LAYER
     edges = np.flatnonzero(np.diff(np.concatenate([[0], visible.astype(int), [0]])))
     for a, b in zip(edges[::2], edges[1::2], strict=True):
-        if b - a > 4:
+        if b - a >= MIN_LINE_POINTS:
             yield x[a:b], y[a:b]
 
 
@@ -135,10 +149,15 @@ def _course_lines(terrain: Terrain, layer: CourseLayer) -> Iterator[dict[str, An
     if layer.course.edge_lines:
         for side in (-1.0, 1.0):
             for x, y in _visible_parts(terrain, layer, s, side * half):
-                yield {"kind": "line", "points": line_on_ground(terrain, x, y), "width": 0.15}
+                yield {"kind": "line", "points": line_on_ground(terrain, x, y), "width": LINE_WIDTH}
     if layer.course.centre_line:
         for x, y in _visible_parts(terrain, layer, s, 0.0 * half):
-            yield {"kind": "line", "points": line_on_ground(terrain, x, y), "width": 0.15, "dash": [4.0, 8.0]}
+            yield {
+                "kind": "line",
+                "points": line_on_ground(terrain, x, y),
+                "width": LINE_WIDTH,
+                "dash": list(CENTRE_DASH),
+            }
 
 
 def _posts(terrain: Terrain, layer: CourseLayer) -> Iterator[dict[str, Any]]:
@@ -146,10 +165,10 @@ def _posts(terrain: Terrain, layer: CourseLayer) -> Iterator[dict[str, Any]]:
     if layer.course.posts > 0.0:
         s = np.arange(0.0, layer.line.length, layer.course.posts)
         for side in (-1.0, 1.0):
-            x, y = _beside(layer, s, side * (layer.half(s) + 1.0))
-            free = terrain.nearest_layer(x, y) > -0.5
+            x, y = _beside(layer, s, side * (layer.half(s) + POST_OFFSET))
+            free = terrain.nearest_layer(x, y) > -POST_CLEARANCE
             for at in _on_ground(terrain, np.stack([x, y], axis=1)[free]):
-                yield {"kind": "post", "at": at, "height": 1.0}
+                yield {"kind": "post", "at": at, "height": POST_HEIGHT}
 
 
 def _painted_lines(terrain: Terrain, line: Line) -> Iterator[dict[str, Any]]:
@@ -163,7 +182,9 @@ def _painted_lines(terrain: Terrain, line: Line) -> Iterator[dict[str, Any]]:
         else:
             assert line.centre is not None
             assert line.radius is not None
-            angle = np.linspace(0.0, 2.0 * np.pi, max(32, math.ceil(2.0 * np.pi * line.radius / SAMPLE_SPACING)))
+            angle = np.linspace(
+                0.0, 2.0 * np.pi, max(MIN_CIRCLE_POINTS, math.ceil(2.0 * np.pi * line.radius / SAMPLE_SPACING))
+            )
             x, y = line.centre[0] + line.radius * np.cos(angle), line.centre[1] + line.radius * np.sin(angle)
         entry: dict[str, Any] = {"kind": "line", "points": line_on_ground(terrain, x + dx, y + dy), "width": line.width}
         if line.colour != "white":
@@ -199,13 +220,16 @@ def _trees(terrain: Terrain) -> Iterator[dict[str, Any]]:
         return
     random = np.random.default_rng(trees.seed)
     x0, y0, x1, y1 = terrain.world.bounds
-    n = 40 * trees.count
+    n = TREE_TRIALS * trees.count
     x, y = x0 + (x1 - x0) * random.random(n), y0 + (y1 - y0) * random.random(n)
     low, high = trees.heights
     height, seed = low + (high - low) * random.random(n), random.integers(0, 2**16, n)
     free = terrain.nearest_layer(x, y) > trees.distance
     for building in terrain.world.buildings:
-        free &= np.hypot(x - building.at[0], y - building.at[1]) > 0.7 * max(building.size[:2]) + 5.0
+        free &= (
+            np.hypot(x - building.at[0], y - building.at[1])
+            > BUILDING_RADIUS * max(building.size[:2]) + BUILDING_CLEARANCE
+        )
     chosen = np.flatnonzero(free)[: trees.count]
     positions = _on_ground(terrain, np.stack([x, y], axis=1)[chosen])
     for at, h, k in zip(positions, height[chosen], seed[chosen], strict=True):

@@ -25,8 +25,8 @@ Array = NDArray[np.float64]
 KERNEL = Path(__file__).parents[2] / "mbs" / "kernel" / "src"
 APART = (
     "forces.c",
-    "element_fours.c",
-    "element_fours_derive.c",
+    "element_batches.c",
+    "element_batches_derive.c",
     "road.c",
 )  # these need a System, the last may be replaced
 SOURCES = [f for f in sorted((KERNEL / "elements").glob("*.c")) if f.name not in APART]

@@ -115,7 +115,7 @@ def test_folders_with_the_same_sources_share_their_objects(monkeypatch, tmp_path
     monkeypatch.setattr(compilation, "_ROOMS", {tmp_path / name: name for name in rooms.values()})
     monkeypatch.setattr(build, "HERE", tmp_path / "kernel")
     monkeypatch.setattr(sources, "HERE", tmp_path / "shell")
-    monkeypatch.setattr(sources, "DETOUR", tmp_path / "detour")
+    monkeypatch.setattr(sources, "PYTHON_SLAVE", tmp_path / "python")
     assert given() == here
     with (tmp_path / "shell" / "step.c").open("a") as file:
         file.write("\n")

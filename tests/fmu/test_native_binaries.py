@@ -111,8 +111,8 @@ def test_universal_refuses_other_files() -> None:
 
 
 # 0.7 % above the file of the command: linux64 1019876 bytes, aarch64-linux 883809, win64 1075919, darwin64 1326073;
-# unwind tables are 1.9 % (decision 193), AVX2 is 0.1 MB (160), elements in fours 0.03 MB (76), the lists of arrays and
-# statuses 0.02 MB (8), code generated for the crane 0.004 to 0.006 MB (252)
+# unwind tables are 1.9 % (decision 193), AVX2 is 0.1 MB (160), batches of elements 0.03 MB (76), the lists of arrays
+# and statuses 0.02 MB (8), code generated for the crane 0.004 to 0.006 MB (252)
 LARGEST = {"linux64": 1.027e6, "aarch64-linux": 0.890e6, "win64": 1.083e6, "darwin64": 1.335e6}
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fmu_src.build.build import face_name
-from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
+from fmu_src.native.sources import HERE, KERNEL_INCLUDE, PYTHON_SLAVE, shell_files
 from mbs.kernel import build
 from tests import kinds
 from tests.hosts.changed_fmu import changed_fmu
@@ -43,7 +43,7 @@ def changed(fmu: Path, copy: Path, changes: list[Change], face: str = "") -> Pat
             own[Path(name).name].write_bytes(files[name])
         shell = {file.name: file for file in shell_files(face)} | own
         assert len(shell) == len(shell_files(face)) + 1, "a table, and only files that there are"
-        sources, include = [*build.sources(lanes=False), *shell.values()], (KERNEL_INCLUDE, HERE, DETOUR)
+        sources, include = [*build.sources(lanes=False), *shell.values()], (KERNEL_INCLUDE, HERE, PYTHON_SLAVE)
         build.compile_c(sources, build.host_target(), binary, include=include, defines=("ALI3_INSIDE",), what="a copy")
         files[library] = binary.read_bytes()
     return changed_fmu(fmu, copy, files)

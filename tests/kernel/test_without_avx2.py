@@ -18,7 +18,7 @@ from tests.unoptimised import unoptimised
 
 STEPS = 30
 NO_AVX2 = "int ali3_processor_lanes(void) { return 2; }\n"
-NO_FOURS = "void ali3_fours_forces(void *in, const void *call) { (void)in, (void)call, __builtin_trap(); }\n"
+NO_BATCHES = "void ali3_batches_forces(void *in, const void *call) { (void)in, (void)call, __builtin_trap(); }\n"
 DRIVEN = {0: "ali3p", 2: "energy_momentum"}  # fidelity and method
 
 
@@ -51,10 +51,10 @@ def test_states_have_the_same_bits_without_avx2(tmp_path):
 
 
 def kernel(folder: Path) -> Path:
-    """A library of the kernel in which processors have no AVX2, and elements in fours end the process."""
+    """A library of the kernel in which processors have no AVX2, and batches of elements end the process."""
     file, library = folder / "replaced.c", folder / build.library_name(build.host_target())
-    file.write_text(NO_AVX2 + NO_FOURS, encoding="utf-8")
-    others = [source for source in build.sources() if source.name not in ("processor.c", "element_fours.c")]
+    file.write_text(NO_AVX2 + NO_BATCHES, encoding="utf-8")
+    others = [source for source in build.sources() if source.name not in ("processor.c", "element_batches.c")]
     build.compile_c([*others, file], build.host_target(), library, what="a kernel without some of its files")
     return library
 

@@ -6,6 +6,9 @@
 #include "fmi2_library.h"
 
 enum { MAX_REPEATS = 64, MAX_VALUES = 4096 };
+enum { START, STEP, GET_AGAIN, SET_ONE, SAVE, GET_ALL, QUANTITIES };
+static const char *const quantity[QUANTITIES] = {"instantiate_to_initialised", "step",   "get_again", "set_one",
+                                                 "save_restore_free",          "get_all"};
 
 static size_t allocated; /* bytes of all live blocks, each with its size in front */
 
@@ -51,59 +54,49 @@ static fmi2Component started(void) {
   return c;
 }
 
-int main(int count, char **arguments) {
-  static fmi2ValueReference reference[MAX_VALUES];
+/* Wall time of each quantity in one repeat, us per call. reference: the n outputs that are read; h: step, s. */
+static void time_repeat(double h, int steps, const fmi2ValueReference *reference, int n, double *wall) {
   static double value[MAX_VALUES];
-  double wall[6][MAX_REPEATS];
-  if (count < 10) return 1;
-  argument = arguments;
-  fmu = load_library(arguments[1]);
-  const double h = strtod(argument[4], NULL);
-  const int steps = atoi(argument[5]), repeats = atoi(argument[6]), n = atoi(argument[7]), first = atoi(argument[8]);
-  const int instances = atoi(argument[9]);
-  if (repeats < 1 || repeats > MAX_REPEATS || n < 1 || n > MAX_VALUES || steps < 1) return 1;
-  for (int i = 0; i < n; i++) reference[i] = (fmi2ValueReference)(first + i);
   const fmi2ValueReference input = 0;
   const double u = 0.1;
-  for (int r = 0; r < repeats; r++) {
-    double begin = now();
-    fmi2Component c = started();
-    wall[0][r] = now() - begin;
-    good(fmu.set(c, &input, 1, &u), "set");
-    begin = now();
-    for (int k = 0; k < steps; k++) good(fmu.step(c, k * h, h, 1), "step");
-    wall[1][r] = (now() - begin) / steps;
-    double read = 0.0;
-    begin = now();
-    for (int k = 0; k < steps; k++) good(fmu.get(c, reference, (size_t)n, value), "get");
-    wall[2][r] = (now() - begin) / steps;
-    begin = now();
-    for (int k = 0; k < steps; k++) {
-      const double moving = u + 1e-6 * (k % 7);
-      good(fmu.set(c, &input, 1, &moving), "set");
-    }
-    wall[3][r] = (now() - begin) / steps;
-    fmi2FMUstate state = NULL;
-    begin = now();
-    for (int k = 0; k < steps; k++) {
-      good(fmu.get_state(c, &state), "get state");
-      good(fmu.set_state(c, state), "set state");
-      good(fmu.free_state(c, &state), "free state");
-    }
-    wall[4][r] = (now() - begin) / steps;
-    begin = now();
-    for (int k = 0; k < steps; k++) {
-      good(fmu.step(c, (steps + k) * h, h, 1), "step");
-      const double before = now();
-      good(fmu.get(c, reference, (size_t)n, value), "get");
-      read += now() - before;
-    }
-    wall[5][r] = read / steps;
-    fmu.release(c);
+  double begin = now();
+  fmi2Component c = started();
+  wall[START] = now() - begin;
+  good(fmu.set(c, &input, 1, &u), "set");
+  begin = now();
+  for (int k = 0; k < steps; k++) good(fmu.step(c, k * h, h, 1), "step");
+  wall[STEP] = (now() - begin) / steps;
+  double read = 0.0;
+  begin = now();
+  for (int k = 0; k < steps; k++) good(fmu.get(c, reference, (size_t)n, value), "get");
+  wall[GET_AGAIN] = (now() - begin) / steps;
+  begin = now();
+  for (int k = 0; k < steps; k++) {
+    const double moving = u + 1e-6 * (k % 7);
+    good(fmu.set(c, &input, 1, &moving), "set");
   }
-  static const char *const name[] = {"instantiate_to_initialised", "step",   "get_again", "set_one",
-                                     "save_restore_free",          "get_all"};
-  for (int q = 0; q < 6; q++) printf("%s %.6g\n", name[q], median(wall[q], repeats));
+  wall[SET_ONE] = (now() - begin) / steps;
+  fmi2FMUstate state = NULL;
+  begin = now();
+  for (int k = 0; k < steps; k++) {
+    good(fmu.get_state(c, &state), "get state");
+    good(fmu.set_state(c, state), "set state");
+    good(fmu.free_state(c, &state), "free state");
+  }
+  wall[SAVE] = (now() - begin) / steps;
+  begin = now();
+  for (int k = 0; k < steps; k++) {
+    good(fmu.step(c, (steps + k) * h, h, 1), "step");
+    const double before = now();
+    good(fmu.get(c, reference, (size_t)n, value), "get");
+    read += now() - before;
+  }
+  wall[GET_ALL] = read / steps;
+  fmu.release(c);
+}
+
+/* Prints start, memory and step of many instances at the same time. */
+static void time_many(double h, int instances) {
   const size_t before = allocated;
   fmi2Component *all = malloc((size_t)instances * sizeof *all);
   double begin = now();
@@ -115,5 +108,24 @@ int main(int count, char **arguments) {
   printf("many_step %.6g\n", (now() - begin) / instances);
   for (int k = 0; k < instances; k++) fmu.release(all[k]);
   free(all);
+}
+
+int main(int count, char **arguments) {
+  static fmi2ValueReference reference[MAX_VALUES];
+  double wall[QUANTITIES], all[QUANTITIES][MAX_REPEATS];
+  if (count < 10) return 1;
+  argument = arguments;
+  fmu = load_library(arguments[1]);
+  const double h = strtod(argument[4], NULL);
+  const int steps = atoi(argument[5]), repeats = atoi(argument[6]), n = atoi(argument[7]), first = atoi(argument[8]);
+  const int instances = atoi(argument[9]);
+  if (repeats < 1 || repeats > MAX_REPEATS || n < 1 || n > MAX_VALUES || steps < 1) return 1;
+  for (int i = 0; i < n; i++) reference[i] = (fmi2ValueReference)(first + i);
+  for (int r = 0; r < repeats; r++) {
+    time_repeat(h, steps, reference, n, wall);
+    for (int q = 0; q < QUANTITIES; q++) all[q][r] = wall[q];
+  }
+  for (int q = 0; q < QUANTITIES; q++) printf("%s %.6g\n", quantity[q], median(all[q], repeats));
+  time_many(h, instances);
   return 0;
 }

@@ -8,11 +8,11 @@ typedef struct {
   ali3_float_control control; /* of the host; first, as float_control.c reads it at the address of an instance */
   fmi2CallbackFunctions host; /* logger and memory */
   slave *s;
-  void *detour; /* PythonFMU's instance; NULL in the native FMU */
+  void *python; /* PythonFMU's instance; NULL in the native FMU */
 } fmi2_adapter;
 
 /* The calls that PythonFMU also has, with the arguments of slave_new, slave_setup and the others in slave.h. The native
- * FMU calls the slave directly (fmi2_direct.c), the Python FMU through its Python class (python_slave/detour.c). */
+ * FMU calls the slave directly (fmi2_direct.c), the Python FMU through its class (python_slave/python_calls.c). */
 slave *fmi2_new(fmi2_adapter *adapter, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
                 const char *token, const char *resources);
 void fmi2_free(fmi2_adapter *adapter);

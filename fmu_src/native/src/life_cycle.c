@@ -9,11 +9,12 @@ static bool allocate_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const size_t numbers = 2 * t->n_variables + 2 * t->n_known * SLAVE_TERMS + (size_t)z.nu;
-  const size_t rhythm_size = t->n_known * sizeof *s->rhythm;
+  const size_t port_times_size = t->n_known * sizeof *s->port_times;
   const size_t text_size = t->n_texts * sizeof *s->text;
   const size_t flag_size = 2 * t->n_known + t->n_variables + (size_t)z.ns;
   const size_t list_size = t->n_variables * (sizeof *s->sensor + sizeof *s->output);
-  double *pool = s->memory.allocate(1, numbers * sizeof(double) + rhythm_size + text_size + list_size + flag_size + 1);
+  double *pool =
+      s->memory.allocate(1, numbers * sizeof(double) + port_times_size + text_size + list_size + flag_size + 1);
   if (pool == NULL) {
     slave_log(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
@@ -23,8 +24,8 @@ static bool allocate_arrays(slave *s) {
   s->completed_slope = s->slope + t->n_known * SLAVE_TERMS;
   s->sensors = s->completed_slope + t->n_known * SLAVE_TERMS;
   s->direction = s->sensors + t->n_variables;
-  s->rhythm = (slave_rhythm *)(s->direction + z.nu);
-  s->text = (slave_text_value *)(s->rhythm + t->n_known);
+  s->port_times = (slave_port_times *)(s->direction + z.nu);
+  s->text = (slave_text_value *)(s->port_times + t->n_known);
   s->sensor = (int32_t *)(s->text + t->n_texts);
   s->output = (uint32_t *)(s->sensor + t->n_variables);
   s->pending = (unsigned char *)(s->output + t->n_variables);
@@ -73,7 +74,7 @@ static void set_start_values(slave *s) {
   s->uncomputed_warned = s->overturned_warned = s->rim_warned = s->error_warned = s->unchecked_logged = false;
   memset(s->pending, 0, t->n_known);
   memset(s->input_flags, 0, t->n_known);
-  memset(s->rhythm, 0, t->n_known * sizeof *s->rhythm);
+  memset(s->port_times, 0, t->n_known * sizeof *s->port_times);
   memset(s->slope, 0, 2 * t->n_known * SLAVE_TERMS * sizeof(double)); /* and completed_slope */
   for (size_t i = 0; i < t->n_variables; i++) {
     s->value[i] = t->variable[i].start;
@@ -143,7 +144,7 @@ slave_status slave_setup(slave *s, double start_time, bool stop_defined, double 
     return slave_log(s, SLAVE_ERROR, "The stop time %g s lies before the start time %g s.", stop_time, start_time);
   s->calls.start_time = start_time;
   for (size_t i = 0; i < slave_the_table.n_known; i++)
-    s->rhythm[i].last_set = s->rhythm[i].changed = s->rhythm[i].seen = start_time;
+    s->port_times[i].last_set = s->port_times[i].changed = s->port_times[i].seen = start_time;
   s->calls.stop_time = stop_defined ? stop_time : HUGE_VAL;
   slave_invalidate(s);
   return SLAVE_OK;

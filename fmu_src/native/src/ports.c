@@ -7,7 +7,7 @@ enum { MIN_TIMES_SET = 10 }; /* number of times that a port must have been set b
 static const double MIN_PAUSE = 0.5; /* s, beyond the longest interval between two of them */
 
 void slave_record_port_set(slave *s, size_t i, bool changed) {
-  slave_rhythm *r = &s->rhythm[i];
+  slave_port_times *r = &s->port_times[i];
   if (!slave_the_table.variable[i].port) return;
   const double now = s->calls.initialised ? ali3_time(s->fidelity.kernel) : s->calls.start_time;
   if (r->times == 0.0 || now > r->last_set) {
@@ -39,7 +39,7 @@ static void warn_never_set(slave *s, const slave_variable *first, size_t n_ports
 /* Likewise. */
 static void warn_stopped(slave *s, const slave_variable *first, size_t n_ports) {
   const ptrdiff_t i = first - slave_the_table.variable;
-  const double last_set = s->rhythm[i].last_set, held = s->value[i];
+  const double last_set = s->port_times[i].last_set, held = s->value[i];
   if (n_ports == 1)
     slave_log(s, SLAVE_WARNING,
               "The port '%s' received numbers until %.6g s and none since; it holds %g%s. This is "
@@ -57,13 +57,13 @@ void slave_watch_ports(slave *s, double begin) {
   const slave_variable *first = NULL, *stopped = NULL;
   size_t n_ports = 0, stops = 0;
   for (size_t i = 0; i < t->n_known; i++) {
-    const slave_rhythm *r = &s->rhythm[i];
+    const slave_port_times *r = &s->port_times[i];
     if (!t->variable[i].port) continue;
     if (!(s->input_flags[i] & SLAVE_WAS_SET)) {
       s->input_flags[i] |= SLAVE_WAS_SET;
       if (n_ports++ == 0) first = &t->variable[i];
     } else if (!t->variable[i].whole && r->times >= MIN_TIMES_SET && begin - r->last_set > MIN_PAUSE + r->longest) {
-      s->rhythm[i].times = -HUGE_VAL; /* reported */
+      s->port_times[i].times = -HUGE_VAL; /* reported */
       if (stops++ == 0) stopped = &t->variable[i];
     }
   }

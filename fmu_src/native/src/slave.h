@@ -181,7 +181,7 @@ typedef struct { /* times at which an input at a port was set */
       held; /* s: last change of the value; interval before it; the shorter one of the last two intervals */
   double seen, path; /* of a hub: time of the last check, s; path of its wheel under constant forces, m */
   double times; /* number of times, up to a limit; negative: a warning was logged that it is no longer set */
-} slave_rhythm;
+} slave_port_times;
 
 typedef struct { /* a loaded System of the FMU and its instance */
   size_t number;
@@ -213,7 +213,7 @@ struct slave {
   double *value; /* per variable; outputs are computed when they are read */
   double *slope; /* per variable and order: derivatives of the inputs after the communication point */
   double *completed_slope; /* the same of the last completed communication step */
-  slave_rhythm *rhythm; /* per known variable, of ports */
+  slave_port_times *port_times; /* per known variable, of ports */
   unsigned char *pending; /* per known variable: set and not yet passed to the kernel */
   unsigned char *input_flags; /* per known variable: SLAVE_WAS_SET and logged warnings */
   slave_text_value *text; /* per text variable: file of the road that the kernel has */

@@ -37,7 +37,8 @@ static size_t texts_size(void) { return slave_the_table.n_texts * sizeof(slave_t
 /* of the header and the numbers of the slave, */
 static size_t slave_size(void) {
   const size_t n = slave_the_table.n_known;
-  return sizeof(header) + n * (1 + 2 * SLAVE_TERMS) * sizeof(double) + n * (sizeof(slave_rhythm) + 2) + texts_size();
+  return sizeof(header) + n * (1 + 2 * SLAVE_TERMS) * sizeof(double) + n * (sizeof(slave_port_times) + 2) +
+         texts_size();
 }
 
 /* of the start of the last communication step, and with the second motion, */
@@ -91,7 +92,7 @@ static void write_state(const slave *s, unsigned char *bytes) {
   append_bytes(&p, s->value, n * sizeof(double));
   append_bytes(&p, s->slope, n * SLAVE_TERMS * sizeof(double));
   append_bytes(&p, s->completed_slope, n * SLAVE_TERMS * sizeof(double));
-  append_bytes(&p, s->rhythm, n * sizeof *s->rhythm);
+  append_bytes(&p, s->port_times, n * sizeof *s->port_times);
   append_bytes(&p, s->pending, n);
   append_bytes(&p, s->input_flags, n);
   append_bytes(&p, s->text, texts_size());
@@ -142,7 +143,7 @@ static const char *check_values(const unsigned char *p) {
       return "a number in them is out of its range";
     if (i < t->n_known && t->variable[i].whole && v != floor(v)) return "a number in them is out of its range";
   }
-  const unsigned char *flag = p + numbers * sizeof v + t->n_known * sizeof(slave_rhythm);
+  const unsigned char *flag = p + numbers * sizeof v + t->n_known * sizeof(slave_port_times);
   for (size_t i = 0; i < t->n_known; i++)
     if (flag[i] > 1) return "a flag in them is none";
   for (size_t i = 0; i < t->n_known; i++)
@@ -225,7 +226,7 @@ static slave_status read_state(slave *s, const unsigned char *bytes, size_t size
   take_bytes(s->value, &p, n * sizeof(double));
   take_bytes(s->slope, &p, n * SLAVE_TERMS * sizeof(double));
   take_bytes(s->completed_slope, &p, n * SLAVE_TERMS * sizeof(double));
-  take_bytes(s->rhythm, &p, n * sizeof *s->rhythm);
+  take_bytes(s->port_times, &p, n * sizeof *s->port_times);
   take_bytes(s->pending, &p, n);
   take_bytes(s->input_flags, &p, n);
   take_bytes(s->text, &p, texts_size());

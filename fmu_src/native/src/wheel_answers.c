@@ -88,7 +88,7 @@ static double stable_step(const slave_variable *v, double speed, bool has_slopes
 static double last_change(const slave *s, size_t hub, double step, double *held) {
   double changed = s->calls.start_time, shortest = HUGE_VAL;
   for (size_t k = 0; k < HUB_SIZE; k++) {
-    const slave_rhythm *r = &s->rhythm[hub + k];
+    const slave_port_times *r = &s->port_times[hub + k];
     changed = fmax(changed, r->changed);
     if (r->held > 0.0) shortest = fmin(shortest, r->held);
   }
@@ -99,7 +99,7 @@ static double last_change(const slave *s, size_t hub, double step, double *held)
 /* Path of the wheel of a hub under forces that are constant since `changed`, m; 0 while it is in the air, where a tyre
  * has no forces. */
 static double path_under(slave *s, size_t hub, double speed, double changed, double time) {
-  slave_rhythm *r = &s->rhythm[hub];
+  slave_port_times *r = &s->port_times[hub];
   bool loaded = false;
   for (size_t k = 0; k < HUB_SIZE; k++) loaded = loaded || s->value[hub + k] != 0.0;
   r->path = loaded ? (changed >= r->seen ? 0.0 : r->path) + speed * (time - fmax(r->seen, changed)) : 0.0;

@@ -84,18 +84,20 @@ def limits_section(data: StudyData) -> list[Section]:
 def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[Section]:
     """Sections on failed runs, on incomplete runs and on messages of the FMU; empty if there are none."""
     sections = []
-    for groups, title in (
-        (reasons(data, FAILED), "Failed runs"),
-        (reasons(data, INCOMPLETE), "Runs without some measure"),
-        (messages_with_runs(data), "Messages of the FMU"),
+    failed = reasons(data, FAILED)
+    failed_plot: list[HtmlElement] = []
+    if failed and data.parameters:
+        plot = drawing(plot_failed(data), "Share of failed runs over each parameter")
+        message = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
+        failed_plot = [plots.add(plot, "failed"), paragraph(message, FAINT)]
+    for groups, title, plot_parts in (
+        (failed, "Failed runs", failed_plot),
+        (reasons(data, INCOMPLETE), "Runs without some measure", []),
+        (messages_with_runs(data), "Messages of the FMU", []),
     ):
         if not groups:
             continue
-        body = []
-        if title == "Failed runs" and data.parameters:
-            plot = drawing(plot_failed(data), "Share of failed runs over each parameter")
-            message = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
-            body += [plots.add(plot, "failed"), paragraph(message, FAINT)]
+        body = [*plot_parts]
         rows: list[tuple[Content, ...]] = []
         for text, indices in groups[:_MAX_REASONS]:
             for k, index in enumerate(indices[:_MAX_RUNS_OF_REASON]):

@@ -7,7 +7,7 @@ from mbs.compiler.generated.pattern import Front, Pattern
 from mbs.compiler.generated.text import are_consecutive, function, literal
 
 LARGE = 12
-"""Smallest size of a front whose pivots are eliminated in fours."""
+"""Smallest size of a front whose pivots are eliminated four at a time."""
 FOUR_SUMS = 16
 """Smallest size of a front whose sums have four parts."""
 

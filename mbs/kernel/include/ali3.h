@@ -464,9 +464,9 @@ ALI3_API void ali3_compare(const ali3_judged *judged, int32_t n, int64_t rows, c
                            const double *other, ali3_compared *seen);
 /* What a difference of each is held against, the largest range or force in its unit; 0: it does not count. `length`: of
  * the model, m; `energy`, J: forces that do less work along the length, or moments along a radian, do not count;
- * `guided`: places that are the same in both motions do not move by themselves. */
+ * `exclude_prescribed`: places that are the same in both motions are prescribed and do not count as moving. */
 ALI3_API void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compared *seen, double length,
-                                  double energy, int32_t guided, double *size);
+                                  double energy, int32_t exclude_prescribed, double *size);
 /* The largest difference, or the largest of the last sample, relative to its size; *worst: whose, -1: none. */
 ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *size, int32_t latest,
                                     int32_t *worst);

@@ -152,9 +152,9 @@ struct ali3_system {
   int32_t *diagonal_pos; /* nq: place of entry (i, i) in front storage */
 
   /* Elements and their signals */
-  int32_t *four, *alone; /* elements evaluated four at a time (elements/element_fours.h), and the others */
-  int32_t n_four, n_alone; /* number of fours, number of the others */
-  unsigned char *el_in_four; /* ne: 1: evaluated four at a time */
+  int32_t *batch, *alone; /* elements evaluated four at a time (elements/element_batches.h), and the others */
+  int32_t n_batches, n_alone; /* number of batches, number of the others */
+  unsigned char *el_in_batch; /* ne: 1: evaluated four at a time */
   int32_t *el_beside; /* ne: first signal of an element with consecutive signals, otherwise -1 */
   int32_t *active_signal; /* n_active: signals that elements use, ascending */
   int32_t n_active;

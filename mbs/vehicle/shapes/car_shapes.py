@@ -35,6 +35,11 @@ SUSPENSIONS: Mapping[str, Callable[[Looks, str, Axle], None]] = {
 """Functions that draw suspensions, by kind of suspension."""
 ENGINE_SIZE = 0.44, 0.46, 0.36  # m, of a small car
 MOTOR_SIZE = 0.13, 0.34  # m, radius and length of a motor across the car
+CASE_SIZE = 1.8, 0.7  # width and height of the inverter on a motor, relative to the radius of the motor
+CASE_HEIGHT = 1.4  # its middle above the axis of the motor, relative to this radius
+ENGINE_OFFSET = 0.10  # m between the axis of the wheels and the near face of an engine
+ENGINE_RAISE = 0.25  # middle of an engine above this axis, relative to its height
+DIFFERENTIAL_RADIUS, SHAFT_RADIUS, FLOOR_THICKNESS = 0.11, 0.012, 0.004  # m
 INNER_JOINT_OFFSET = 0.16  # m: of the inner joints of the shafts from the middle of the car
 FRAME_TUBE = "frame tube"
 """Name of the shapes of the tubes, which closed bodies hide; absent if the frame is a flexible body."""
@@ -79,17 +84,21 @@ def powertrain_shapes(looks: Looks) -> None:
         radius, length = (looks.scale * size for size in MOTOR_SIZE)
         looks.cylinder(chassis, ((x, -0.5 * length, z), (x, 0.5 * length, z)), radius)
         looks.shape(
-            chassis, "box", at=(x, 0.0, z + 1.4 * radius), size=(1.8 * radius, length, 0.7 * radius), **DARK_PLASTIC
+            chassis,
+            "box",
+            at=(x, 0.0, z + CASE_HEIGHT * radius),
+            size=(CASE_SIZE[0] * radius, length, CASE_SIZE[1] * radius),
+            **DARK_PLASTIC,
         )
     else:
         size = tuple(looks.scale * edge for edge in ENGINE_SIZE)
-        at = x + inward * (0.5 * size[0] + 0.10), 0.0, z + 0.25 * size[2]
+        at = x + inward * (0.5 * size[0] + ENGINE_OFFSET), 0.0, z + ENGINE_RAISE * size[2]
         looks.shape(chassis, "box", at=at, size=size, **CAST_STEEL)
-        looks.ball((chassis, (x, 0.0, z)), 0.11, **CAST_STEEL)
+        looks.ball((chassis, (x, 0.0, z)), DIFFERENTIAL_RADIUS, **CAST_STEEL)
     for side in sides(name):
         inner = x, side.sign * INNER_JOINT_OFFSET, z
         carrier = looks.spins[side.wheel].carrier
-        looks.tube((chassis, inner), (carrier, side.point(axle.wheel.centre)), radius=0.012, **BARE_STEEL)
+        looks.tube((chassis, inner), (carrier, side.point(axle.wheel.centre)), radius=SHAFT_RADIUS, **BARE_STEEL)
 
 
 def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None:
@@ -111,4 +120,6 @@ def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None
         corners = low[ConvexHull(low[:, :2]).vertices]
     except (QhullError, ValueError):  # no area
         return
-    looks.shape(looks.chassis, "plate", points=[(looks.chassis, p) for p in corners], thickness=0.004, **BARE_STEEL)
+    looks.shape(
+        looks.chassis, "plate", points=[(looks.chassis, p) for p in corners], thickness=FLOOR_THICKNESS, **BARE_STEEL
+    )

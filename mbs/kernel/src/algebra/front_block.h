@@ -14,13 +14,13 @@ enum { PANEL = 4 }; /* pivots that are eliminated together */
 #ifdef ALI3_WIDTH
 /* Checks a pivot in every lane: one with a bad pivot is marked in in->singular; the others continue. */
 static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, real d) {
-  const truth good = (ali3_abs(d) > 1e-14 * in->mass.floor[coordinate]) & (ali3_abs(d) < 1e300);
+  const lane_mask good = (ali3_abs(d) > 1e-14 * in->mass.floor[coordinate]) & (ali3_abs(d) < 1e300);
   *in->singular |= ~good & *in->at_work;
   *in->report.negative_pivots -= good & (d < 0.0) & *in->at_work;
   return ALI3_OK;
 }
 #else
-/* Checks that a pivot d neither vanishes relative to the mass of its coordinate nor is infinite; counts negative ones. */
+/* Checks that a pivot d is finite and does not vanish relative to the mass of its coordinate; counts negative ones. */
 static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, double d) {
   if (fabs(d) > 1e-14 * in->mass.floor[coordinate] && fabs(d) < 1e300) {
     if (d < 0.0) in->report.negative_pivots++;

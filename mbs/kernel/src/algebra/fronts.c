@@ -13,7 +13,7 @@ enum { FOUR_SUMS = 16 }; /* coordinates of a front from which back substitution 
 #ifdef ALI3_WIDTH
 typedef real group; /* consecutive entries of a column in one vector */
 #else
-typedef ali3_four group;
+typedef ali3_double4 group;
 #endif
 enum { GROUP = sizeof(group) / sizeof(real) };
 
@@ -22,7 +22,7 @@ enum { GROUP = sizeof(group) / sizeof(real) };
 ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels, int64_t n, int64_t j, int64_t last,
                                   const group *const *end) {
   for (; j < last; j++) {
-    const int64_t from = ali3_by_fours_unclipped(j, n);
+    const int64_t from = ali3_padded_start_unclipped(j, n);
     group *restrict target = (group *)(block + j * n + from);
     real f[PANELS * PANEL];
     for (int32_t k = 0; k < panels * PANEL; k++) f[k] = panel[k * n + j];
@@ -48,9 +48,9 @@ ALI3_INLINED ali3_status eliminate_one(ali3_instance *in, real *block, int32_t f
   for (int32_t j = p + 1; j < n; j++) {
     real *restrict column = block + (int64_t)j * n;
     const real factor = pivot[j] * inverse;
-    ALI3_EACH(ali3_by_fours(j, n), n, ALI3_AT(column) -= factor * ALI3_AT(pivot))
+    ALI3_EACH(ali3_padded_start(j, n), n, ALI3_AT(column) -= factor * ALI3_AT(pivot))
   }
-  ALI3_EACH(ali3_by_fours(p + 1, n), n, ALI3_AT(pivot) *= inverse)
+  ALI3_EACH(ali3_padded_start(p + 1, n), n, ALI3_AT(pivot) *= inverse)
   pivot[p] = inverse;
   return ALI3_OK;
 }
@@ -76,7 +76,7 @@ ALI3_INLINED group *factorise_whole_panel(ali3_instance *in, int32_t pivot, real
   real factor[PANEL][PANEL];
   *status = factorise_triangle(in, pivot, panel + start, n, factor);
   if (*status != ALI3_OK) return packed;
-  for (int64_t i = ali3_by_fours_unclipped(start + PANEL, n); i < n; i += GROUP, packed += PANEL) {
+  for (int64_t i = ali3_padded_start_unclipped(start + PANEL, n); i < n; i += GROUP, packed += PANEL) {
     ALI3_UNROLLED
     for (int32_t p = 0; p < PANEL; p++) {
       group *offset = (group *)(panel + p * n + i);

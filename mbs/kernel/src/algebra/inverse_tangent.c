@@ -9,7 +9,7 @@ static real arc(real t) {
   static const double c[] = {-1.0 / 3.0,  1.0 / 5.0,  -1.0 / 7.0,  1.0 / 9.0,  -1.0 / 11.0, 1.0 / 13.0,
                              -1.0 / 15.0, 1.0 / 17.0, -1.0 / 19.0, 1.0 / 21.0, -1.0 / 23.0};
   const double quarter = 0.5 * HALF_PI_PARTS[0], rest = 0.5 * HALF_PI_PARTS[1];
-  const truth is_large = t > 0.41421356237309503;
+  const lane_mask is_large = t > 0.41421356237309503;
   const real u = ali3_where(is_large, (t - 1.0) / (t + 1.0), t);
   const real half = u / (1.0 + ali3_sqrt(1.0 + u * u)), z = half * half;
   real sum = ali3_same(c[10]);
@@ -21,7 +21,7 @@ static real arc(real t) {
 
 real ali3_atan2(real y, real x) {
   const real ay = ali3_abs(y), ax = ali3_abs(x), least = {0};
-  const truth is_steep = ay > ax, is_negative = ali3_negative(x);
+  const lane_mask is_steep = ay > ax, is_negative = ali3_negative(x);
   const real largest = ali3_where(is_steep, ay, ax), smallest = ali3_where(is_steep, ax, ay);
   const real slope = ali3_where(ay == ax, ali3_same(1.0), smallest / largest);
   const real near = ali3_where(largest > 0.0, arc(slope), least);
@@ -29,6 +29,6 @@ real ali3_atan2(real y, real x) {
                                       HALF_PI_PARTS[0] - (near - HALF_PI_PARTS[1]));
   const real from_axis_x = 2.0 * HALF_PI_PARTS[0] - (near - 2.0 * HALF_PI_PARTS[1]);
   const real angle = ali3_where(is_steep, from_axis_y, ali3_where(is_negative, from_axis_x, near));
-  const truth undefined = (y != y) | (x != x);
+  const lane_mask undefined = (y != y) | (x != x);
   return ali3_where(undefined, x + y, ali3_where(ali3_negative(y), -angle, angle));
 }

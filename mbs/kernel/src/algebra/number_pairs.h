@@ -35,7 +35,7 @@ static inline bool ali3_consecutive(const int32_t *place, int32_t n) {
 
 /* First entry of a column of length n to compute for the entries from `from` on, so that their number is a multiple of
  * four: up to three entries above the diagonal are computed and never read. `from` itself if there are fewer. */
-static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
+static inline int32_t ali3_padded_start(int32_t from, int32_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
   return from;
@@ -46,7 +46,7 @@ static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 }
 
 /* The same for `from` >= 3, without the comparison. */
-static inline int64_t ali3_by_fours_unclipped(int64_t from, int64_t n) {
+static inline int64_t ali3_padded_start_unclipped(int64_t from, int64_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
   return from;
@@ -56,7 +56,7 @@ static inline int64_t ali3_by_fours_unclipped(int64_t from, int64_t n) {
 }
 
 #ifndef ALI3_WIDTH
-typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double ali3_double4 __attribute__((vector_size(32), aligned(8), may_alias));
 #endif
 
 /* Executes a statement for each i from `from` to n - 1, in which ALI3_AT(x) is entry i of x, or four entries from i on,
@@ -74,7 +74,7 @@ typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias))
     int64_t i = from;                                                                                                  \
     ALI3_SHORT                                                                                                         \
     for (const int64_t whole = (n) - 3; i < whole; i += 4) {                                                           \
-      typedef ali3_four entry;                                                                                         \
+      typedef ali3_double4 entry;                                                                                      \
       statement;                                                                                                       \
     }                                                                                                                  \
     ALI3_SHORT                                                                                                         \
@@ -120,10 +120,10 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 /* Dot product in four sums, from the end to the start: the first entries, which back substitution has found last, enter
  * the last additions. */
 static inline double ali3_product_backward(const double *restrict x, const double *restrict y, int64_t n) {
-  ali3_four sum = {0};
+  ali3_double4 sum = {0};
   int64_t i = n;
   ALI3_SHORT
-  for (; i >= 4; i -= 4) sum += *(const ali3_four *)(x + i - 4) * *(const ali3_four *)(y + i - 4);
+  for (; i >= 4; i -= 4) sum += *(const ali3_double4 *)(x + i - 4) * *(const ali3_double4 *)(y + i - 4);
   double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
   ALI3_SHORT
   while (i-- > 0) all += x[i] * y[i];
@@ -135,11 +135,12 @@ static inline double ali3_product_backward(const double *restrict x, const doubl
 /* Dot product of x + z with y in the same order. */
 static inline double ali3_sum_product_backward(const double *restrict x, const double *restrict z,
                                                const double *restrict y, int64_t n) {
-  ali3_four sum = {0};
+  ali3_double4 sum = {0};
   int64_t i = n;
   ALI3_SHORT
   for (; i >= 4; i -= 4)
-    sum += (*(const ali3_four *)(x + i - 4) + *(const ali3_four *)(z + i - 4)) * *(const ali3_four *)(y + i - 4);
+    sum +=
+        (*(const ali3_double4 *)(x + i - 4) + *(const ali3_double4 *)(z + i - 4)) * *(const ali3_double4 *)(y + i - 4);
   double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
   ALI3_SHORT
   while (i-- > 0) all += (x[i] + z[i]) * y[i];
@@ -217,23 +218,23 @@ static inline real ali3_three_sum(real sum, const ali3_three *a, const real *x) 
   return sum + a->x * x[0] + a->y * x[1] + a->z * x[2];
 }
 #else
-typedef ali3_four ali3_three;
+typedef ali3_double4 ali3_three;
 
 static inline void ali3_three_begin(ali3_three *to, const double *a) { *to = (ali3_three){a[0], a[1], a[2], 0.0}; }
 
-static inline void ali3_three_add(ali3_three *to, const double *x, double a) { *to += a * *(const ali3_four *)x; }
+static inline void ali3_three_add(ali3_three *to, const double *x, double a) { *to += a * *(const ali3_double4 *)x; }
 
 static inline void ali3_three_add_each(ali3_three *to, const double *a, const double *x) {
-  *to += *(const ali3_four *)a * *(const ali3_four *)x;
+  *to += *(const ali3_double4 *)a * *(const ali3_double4 *)x;
 }
 
 /* Overwrites a fourth number, which is written afterwards or not used. */
-static inline void ali3_three_put(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
+static inline void ali3_three_put(double *to, const ali3_three *a) { *(ali3_double4 *)to = *a; }
 
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { *to += *a; }
 
 static inline double ali3_three_sum(double sum, const ali3_three *a, const double *x) {
-  const ali3_four product = *a * *(const ali3_four *)x;
+  const ali3_double4 product = *a * *(const ali3_double4 *)x;
   return sum + product[0] + product[1] + product[2];
 }
 #endif

@@ -1,7 +1,7 @@
 /* A number of one instance, or of several that advance together: sources written in `real` are compiled for one
- * instance and for each width of lanes (../lanes/), where a real is a vector of one number per instance and a truth a
- * mask; laws also for elements of one instance (../elements/element_fours.c). Selections copy bits and no sum combines
- * lanes, so that each lane has the bits of a single instance. */
+ * instance and for each width of lanes (../lanes/), where a real is a vector of one number per instance and a
+ * lane_mask its mask; laws also for elements of one instance (../elements/element_batches.c). Selections copy bits and
+ * no sum combines lanes, so that each lane has the bits of a single instance. */
 #ifndef ALI3_REAL_H
 #define ALI3_REAL_H
 #include <math.h>
@@ -25,26 +25,26 @@
 
 #ifdef ALI3_WIDTH
 typedef double real __attribute__((vector_size(8 * ALI3_WIDTH)));
-typedef int64_t truth __attribute__((vector_size(8 * ALI3_WIDTH)));
+typedef int64_t lane_mask __attribute__((vector_size(8 * ALI3_WIDTH)));
 
 /* The same number in all lanes. */
 static inline real ali3_same(double x) { return (real){0} + x; }
 /* a where c holds, otherwise b. */
-static inline real ali3_where(truth c, real a, real b) { return (real)((c & (truth)a) | (~c & (truth)b)); }
+static inline real ali3_where(lane_mask c, real a, real b) { return (real)((c & (lane_mask)a) | (~c & (lane_mask)b)); }
 /* x where c holds, otherwise x + y. */
-static inline real ali3_add_unless(truth c, real x, real y) { return ali3_where(c, x, x + y); }
-static inline truth ali3_not(truth c) { return ~c; }
-static inline real ali3_abs(real x) { return (real)((truth)x & INT64_MAX); }
+static inline real ali3_add_unless(lane_mask c, real x, real y) { return ali3_where(c, x, x + y); }
+static inline lane_mask ali3_not(lane_mask c) { return ~c; }
+static inline real ali3_abs(real x) { return (real)((lane_mask)x & INT64_MAX); }
 
 /* Whether c holds in a lane. */
-static inline bool ali3_any(truth c) {
+static inline bool ali3_any(lane_mask c) {
   int64_t any = 0;
   for (int l = 0; l < ALI3_WIDTH; l++) any |= c[l];
   return any != 0;
 }
 
 /* Whether the sign bit is set, also of -0 and NaN. */
-static inline truth ali3_negative(real x) { return (truth)x < 0; }
+static inline lane_mask ali3_negative(real x) { return (lane_mask)x < 0; }
 
 static inline real ali3_sqrt(real x) {
 #if defined(__has_builtin) && __has_builtin(__builtin_elementwise_sqrt)
@@ -74,19 +74,19 @@ static inline real ali3_floor(real x) {
 #define ALI3_COUNT_ANEW(in, counter) (*(in)->report.counter &= ~*(in)->at_work)
 #else
 typedef double real;
-typedef bool truth;
+typedef bool lane_mask;
 
 /* The same number in all lanes. */
 static inline real ali3_same(double x) { return x; }
 #define ali3_where(c, a, b) ((c) ? (a) : (b)) /* the other value is not evaluated: it may divide by zero */
 /* x where c holds, otherwise x + y. */
-static inline real ali3_add_unless(truth c, real x, real y) { return c ? x : x + y; }
-static inline truth ali3_not(truth c) { return !c; }
+static inline real ali3_add_unless(lane_mask c, real x, real y) { return c ? x : x + y; }
+static inline lane_mask ali3_not(lane_mask c) { return !c; }
 static inline real ali3_abs(real x) { return fabs(x); }
 /* Whether c holds in a lane. */
-static inline bool ali3_any(truth c) { return c; }
+static inline bool ali3_any(lane_mask c) { return c; }
 /* Whether the sign bit is set, also of -0 and NaN. */
-static inline truth ali3_negative(real x) { return signbit(x); }
+static inline lane_mask ali3_negative(real x) { return signbit(x); }
 static inline real ali3_sqrt(real x) { return sqrt(x); }
 static inline real ali3_floor(real x) { return floor(x); }
 

@@ -6,19 +6,19 @@
 #include "element.h"
 
 enum {
-  /* Index of an entry of the inputs, -1: none. */
+  /* Index of the first input, -1: none. */
   FIRST,
-  /* Index of an entry of the inputs, -1: none. */
+  /* Index of the second input, -1: none. */
   SECOND,
-  /* Index of an entry of the inputs, -1: none. */
+  /* Index of the third input, -1: none. */
   THIRD,
   BODY_FORCE_INTEGERS
 };
 #ifndef ALI3_WIDTH
 static const ali3_integer body_force_integers[] = {
-  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a force names an input that does not exist"},
-  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a force names an input that does not exist"},
-  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a force names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "the first input of a force names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "the second input of a force names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "the third input of a force names an input that does not exist"},
 };
 #define ALI3_BODY_FORCE \
   .nsig = 12, .nsig_plane = 4, .nint = 3, .integers = body_force_integers, \

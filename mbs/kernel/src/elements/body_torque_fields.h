@@ -6,11 +6,11 @@
 #include "element.h"
 
 enum {
-  /* Index of an entry of the inputs, -1: none. */
+  /* Index of the first input, -1: none. */
   FIRST,
-  /* Index of an entry of the inputs, -1: none. */
+  /* Index of the second input, -1: none. */
   SECOND,
-  /* Index of an entry of the inputs, -1: none. */
+  /* Index of the third input, -1: none. */
   THIRD,
   /* The axes. */
   AXES,
@@ -18,9 +18,9 @@ enum {
 };
 #ifndef ALI3_WIDTH
 static const ali3_integer body_torque_integers[] = {
-  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a torque names an input that does not exist"},
-  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a torque names an input that does not exist"},
-  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a torque names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "the first input of a torque names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "the second input of a torque names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "the third input of a torque names an input that does not exist"},
   {ALI3_OF_NUMBERS, 0, 1, 0, 0, "the axes of a torque must be 0 or 1"},
 };
 #define ALI3_BODY_TORQUE \

@@ -4,7 +4,7 @@
 #include <math.h>
 
 real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *energy) {
-  const truth is_open = ali3_not(x > 0.0);
+  const lane_mask is_open = ali3_not(x > 0.0);
   const real none = {0}, k = law->stiffness;
   if (!ali3_any(ali3_not(is_open))) return none;
   const real ratio = ali3_where(law->progression > 0.0, x / law->progression, none), square = ratio * ratio;
@@ -12,7 +12,7 @@ real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *
   *slope = ali3_add_unless(is_open, *slope, k * (1.0 + 3.0 * square));
   *energy = ali3_add_unless(is_open, *energy, 0.5 * k * x * x * (1.0 + 0.5 * square));
   const real hard_depth = x - law->end, K = law->hard_stiffness, w = law->onset;
-  const truth no_hard_end = is_open | ali3_not((K > 0.0) & (hard_depth > 0.0)), in_onset = hard_depth < w;
+  const lane_mask no_hard_end = is_open | ali3_not((K > 0.0) & (hard_depth > 0.0)), in_onset = hard_depth < w;
   if (ali3_any(ali3_not(no_hard_end))) {
     const real fraction = hard_depth / w, beyond = hard_depth - 0.5 * w;
     force = ali3_add_unless(no_hard_end, force, ali3_where(in_onset, 0.5 * K * hard_depth * fraction, K * beyond));
@@ -54,7 +54,7 @@ real ali3_contact_loss(const ali3_contact_law *law, real rate, real *slope) {
              saturation = 1.0 / (1.0 + ali3_abs(undamped) * (law->restitution / (1.0 - law->restitution)));
   const real w = undamped * saturation, unloading = 1.0 / (1.0 - w),
              loading_slope = law->loss * saturation * saturation;
-  const truth presses = w >= 0.0;
+  const lane_mask presses = w >= 0.0;
   *slope = ali3_where(presses, loading_slope, loading_slope * unloading * unloading);
   return ali3_where(presses, 1.0 + w, unloading);
 }

@@ -8,7 +8,7 @@
 /* r = -wK (change of element forces since the iterate, whose signals have the rates in->element.ud_at) - B' S times the
  * change of their signals to the changes of q and qd, where S are the tangents in F. Changes of signals are computed
  * from rates, as differences of large positions lose digits. */
-ALI3_PER_WIDTH void ali3_elements_defect(ali3_instance *in, double h, truth lanes, const real *q, const real *qd,
+ALI3_PER_WIDTH void ali3_elements_defect(ali3_instance *in, double h, lane_mask lanes, const real *q, const real *qd,
                                          real *r);
 
 /* Adds the defect of element e with rates ud of its signals and forces f to r. */

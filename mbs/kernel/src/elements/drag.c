@@ -13,7 +13,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[DRAG_OUT_FORCE] = factor * square;
   a->potential = ali3_same(0.0);
   if (!a->S) return;
-  const truth moves = speed > 0.0;
+  const lane_mask moves = speed > 0.0;
   for (int32_t i = 0; i < n; i++) a->S[i * n + i] = a->wC * factor * speed;
   if (ali3_any(moves)) ali3_add_outer(a->S, n, ali3_where(moves, a->wC * factor / speed, ali3_same(0.0)), a->ud);
 }

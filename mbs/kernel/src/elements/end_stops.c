@@ -25,7 +25,7 @@ static void read_stop_laws(const real *p, int progressive, ali3_contact_law law[
 void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t) {
   const real beyond[2] = {p[ALI3_BUMP_LENGTH] - length, length - p[ALI3_REBOUND_LENGTH]};
   for (int side = 0; side < 2; side++) {
-    const truth open = ali3_not(beyond[side] > 0.0);
+    const lane_mask open = ali3_not(beyond[side] > 0.0);
     if (!ali3_any(ali3_not(open))) continue;
     const double sign = side ? 1.0 : -1.0;
     ali3_contact_law law[2];

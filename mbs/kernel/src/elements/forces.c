@@ -7,7 +7,7 @@
 #include "../lookup/lookup.h"
 #include "defect.h"
 #include "element.h"
-#include "element_fours.h"
+#include "element_batches.h"
 #include "forces.h"
 #include "signals.h"
 
@@ -101,7 +101,7 @@ void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals are not contiguous */
   ali3_element_args a = common_arguments(in, call);
-  if (!call->discrete && S->n_four > 0) ali3_fours_forces(in, call); /* only on processors with AVX2 */
+  if (!call->discrete && S->n_batches > 0) ali3_batches_forces(in, call); /* only on processors with AVX2 */
   const int32_t n = call->discrete ? S->size.ne : S->n_alone;
   for (int32_t k = 0; k < n; k++) {
     const int32_t e = call->discrete ? k : S->alone[k];

@@ -12,7 +12,7 @@
 /* Divisor instead of the sine, and its slope: the sine, below LYING a parabola with the same slope there. */
 static real find_divisor(real sine, real *slope) {
   const real ratio = sine / LYING;
-  const truth is_lying = ratio < 1.0;
+  const lane_mask is_lying = ratio < 1.0;
   *slope = ali3_where(is_lying, ratio, ali3_same(1.0));
   return ali3_where(is_lying, 0.5 * LYING * (1.0 + ratio * ratio), sine);
 }
@@ -25,11 +25,11 @@ real ali3_half_space(const real centre[3], const real axis[3], real radius, cons
     height += n[i] * (centre[i] - q[i]);
   }
   real size = ali3_norm(inplane);
-  const truth is_flat = size < 1e-9;
+  const lane_mask is_flat = size < 1e-9;
   out->cosine = find_divisor(ali3_where(is_flat, ali3_same(0.0), size), &out->leaning);
   if (ali3_any(is_flat)) { /* any direction in the plane of the wheel */
     const real none = {0}, one = ali3_same(1.0);
-    const truth steep = ali3_abs(axis[0]) < 0.6;
+    const lane_mask steep = ali3_abs(axis[0]) < 0.6;
     const real auxiliary[3] = {ali3_where(steep, one, none), ali3_where(steep, none, one), none};
     real arbitrary[3];
     ali3_cross(axis, auxiliary, arbitrary);

@@ -6,17 +6,17 @@
 #include "element.h"
 
 enum {
-  /* Index of an entry of the inputs. */
+  /* Index of the force x input. */
   FORCE_X,
-  /* Index of an entry of the inputs. */
+  /* Index of the force y input. */
   FORCE_Y,
-  /* Index of an entry of the inputs. */
+  /* Index of the force z input. */
   FORCE_Z,
-  /* Index of an entry of the inputs. */
+  /* Index of the moment x input. */
   MOMENT_X,
-  /* Index of an entry of the inputs. */
+  /* Index of the moment y input. */
   MOMENT_Y,
-  /* Index of an entry of the inputs. */
+  /* Index of the moment z input. */
   MOMENT_Z,
   HUB_WRENCH_INTEGERS
 };
@@ -27,12 +27,12 @@ enum {
 };
 #ifndef ALI3_WIDTH
 static const ali3_integer hub_wrench_integers[] = {
-  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
-  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
-  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
-  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
-  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
-  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the force x input of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the force y input of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the force z input of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the moment x input of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the moment y input of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the moment z input of a wrench names an input that does not exist"},
 };
 #define ALI3_HUB_WRENCH \
   .nsig = 7, .nint = 6, .nout = 1, .integers = hub_wrench_integers, .nintegers = HUB_WRENCH_INTEGERS

@@ -1,5 +1,5 @@
 /* Roads for laws that are evaluated for several discs at once: of several instances (../lanes/) or of one
- * (element_fours.h). */
+ * (element_batches.h). */
 #ifndef ALI3_LANE_ROAD_H
 #define ALI3_LANE_ROAD_H
 #include "../algebra/real.h"

@@ -1,5 +1,5 @@
 /* Laws of elements compiled for vectors: a law evaluates one element of several instances (../lanes/kernels.h) or
- * several elements of one instance (element_fours.c). A converged lane is evaluated again with its last signals. */
+ * several elements of one instance (element_batches.c). A converged lane is evaluated again with its last signals. */
 #ifndef ALI3_LAWS_H
 #define ALI3_LAWS_H
 

@@ -18,7 +18,7 @@ static inline ali3_line ali3_line_at(const ali3_element_args *a) {
   real square = {0};
   for (int32_t i = 0; i < n; i++) square += a->u[i] * a->u[i];
   ali3_line line = {.length = ali3_sqrt(square)};
-  const truth directed = line.length > ALI3_MIN_LENGTH;
+  const lane_mask directed = line.length > ALI3_MIN_LENGTH;
   for (int32_t i = 0; i < n; i++) {
     line.dir[i] = ali3_where(directed, a->u[i] / line.length, line.dir[i]);
     line.rate = ali3_add_unless(ali3_not(directed), line.rate, line.dir[i] * a->ud[i]);
@@ -52,7 +52,7 @@ static inline void ali3_line_force(ali3_element_args *a, const ali3_line *line, 
                                    real damping) {
   const int32_t n = a->nsig;
   const real length = line->length, rate = line->rate, *dir = line->dir;
-  const truth apart = length > ALI3_MIN_LENGTH;
+  const lane_mask apart = length > ALI3_MIN_LENGTH;
   for (int32_t i = 0; i < n; i++) a->f[i] = -tension * dir[i];
   if (!a->S) return;
   const real along = a->wK * stiffness + a->wC * damping;

@@ -18,8 +18,8 @@ static int find_plane_contact(const real *p, const real centre[3], const real ax
 }
 
 /* Contact with the line x = edge[0], z = edge[2]. False if the wheel plane is nearly parallel to it. */
-static truth find_edge_contact(const real centre[3], const real axis[3], real radius, const real edge[3],
-                               ali3_contact *out) {
+static lane_mask find_edge_contact(const real centre[3], const real axis[3], real radius, const real edge[3],
+                                   ali3_contact *out) {
   const real none = {0};
   real offset[3] = {edge[0] - centre[0], none, edge[2] - centre[2]};
   offset[1] = -(offset[0] * axis[0] + offset[2] * axis[2]) / axis[1];
@@ -40,7 +40,7 @@ static truth find_edge_contact(const real centre[3], const real axis[3], real ra
 }
 
 /* Copies `from` to *to in the lanes of `mask`. */
-static void replace_where(truth mask, const ali3_contact *from, ali3_contact *to) {
+static void replace_where(lane_mask mask, const ali3_contact *from, ali3_contact *to) {
   const real *x = (const real *)from;
   real *y = (real *)to;
   for (size_t i = 0; i < sizeof *to / sizeof *y; i++) y[i] = ali3_where(mask, x[i], y[i]);
@@ -57,14 +57,14 @@ static int find_kerb_contacts(const real *p, const real centre[3], const real ax
   ali3_contact other;
   ali3_half_space(centre, axis, radius, edge, up, &other);
   ali3_half_space(centre, axis, radius, edge, face, &out[0]);
-  const truth is_above = above > 0.0, is_ahead = ahead > 0.0;
-  const truth top = (is_above & (side * (other.point[0] - edge[0]) <= 0.0)) |
-                    (ali3_not(is_above) & (ahead <= 0.0) & (above >= ahead));
-  const truth in_front = (is_ahead & (out[0].point[2] <= edge[2])) | (ali3_not(is_ahead) & (above <= 0.0));
-  const truth corner = ali3_not(top | in_front);
+  const lane_mask is_above = above > 0.0, is_ahead = ahead > 0.0;
+  const lane_mask top = (is_above & (side * (other.point[0] - edge[0]) <= 0.0)) |
+                        (ali3_not(is_above) & (ahead <= 0.0) & (above >= ahead));
+  const lane_mask in_front = (is_ahead & (out[0].point[2] <= edge[2])) | (ali3_not(is_ahead) & (above <= 0.0));
+  const lane_mask corner = ali3_not(top | in_front);
   replace_where(top, &other, &out[0]);
   ali3_half_space(centre, axis, radius, low, up, &out[1]);
-  truth misses = {0};
+  lane_mask misses = {0};
   if (ali3_any(corner)) {
     misses = corner & ali3_not(find_edge_contact(centre, axis, radius, edge, &other));
     replace_where(corner, &other, &out[0]);

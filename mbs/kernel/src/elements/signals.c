@@ -34,7 +34,7 @@ void ali3_add_forces(const ali3_instance *in, const real *f, real *Q) {
   const ali3_system *S = in->system;
   if (ALI3_GENERATED(S, forces, (S->sig_val, in->element.idle, f, Q))) return;
   for (int32_t e = 0; e < S->size.ne; e++) {
-    const truth idle = in->element.idle[e];
+    const lane_mask idle = in->element.idle[e];
     const bool some = ali3_any(idle);
     if (some && !ali3_any(ali3_not(idle))) continue;
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
@@ -49,7 +49,7 @@ void ali3_add_forces(const ali3_instance *in, const real *f, real *Q) {
 }
 
 /* y += a x except in idle lanes. */
-ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, truth idle, int64_t n) {
+ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, lane_mask idle, int64_t n) {
 #ifdef ALI3_WIDTH
   if (ali3_any(idle)) {
     for (int64_t i = 0; i < n; i++) y[i] = ali3_where(idle, y[i], y[i] + a * x[i]);
@@ -80,7 +80,7 @@ static inline place place_of(const ali3_system *S, int32_t e, real *F) {
 }
 
 /* Adds value times a row of S B to a coordinate's column of B' S B, from the diagonal on. */
-ALI3_INLINED void add_column(const place *p, int32_t j, const real *row, double value, truth idle) {
+ALI3_INLINED void add_column(const place *p, int32_t j, const real *row, double value, lane_mask idle) {
   real *restrict column = p->block + (int64_t)p->loc[j] * p->size;
   int32_t i = j;
   for (; i < p->apart; i++) column[p->loc[i]] = ali3_add_unless(idle, column[p->loc[i]], value * row[i]);
@@ -91,7 +91,7 @@ ALI3_INLINED void add_column(const place *p, int32_t j, const real *row, double 
  * or a few entries above, which are never read. */
 ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *row, const double *value,
                                        int32_t stride) {
-  const int32_t from = j > p->apart ? p->apart + ali3_by_fours(j - p->apart, p->m - p->apart) : p->apart;
+  const int32_t from = j > p->apart ? p->apart + ali3_padded_start(j - p->apart, p->m - p->apart) : p->apart;
   real *restrict a = p->block + (int64_t)p->loc[j] * p->size, *restrict b = a + p->size, *restrict c = b + p->size;
   const real *restrict x = row, *restrict y = x + p->m, *restrict z = y + p->m;
   const double first = value[0], second = value[stride], third = value[2 * stride];
@@ -107,9 +107,9 @@ ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *ro
 #ifndef ALI3_WIDTH
   ALI3_SHORT
   for (; i + 3 < p->m; i += 4) {
-    *(ali3_four *)(a + i) += first * *(const ali3_four *)(x + i);
-    *(ali3_four *)(b + i) += second * *(const ali3_four *)(y + i);
-    *(ali3_four *)(c + i) += third * *(const ali3_four *)(z + i);
+    *(ali3_double4 *)(a + i) += first * *(const ali3_double4 *)(x + i);
+    *(ali3_double4 *)(b + i) += second * *(const ali3_double4 *)(y + i);
+    *(ali3_double4 *)(c + i) += third * *(const ali3_double4 *)(z + i);
   }
 #endif
   ALI3_SHORT
@@ -138,7 +138,7 @@ ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
   const double *value = S->el_entry_value;
   real *SB = in->element.SB;
   for (int32_t e = 0; e < S->size.ne; e++) {
-    const truth idle = in->element.idle[e];
+    const lane_mask idle = in->element.idle[e];
     if (S->el_front[e] < 0 || !ali3_any(ali3_not(idle))) continue;
     const place p = place_of(S, e, F);
     if (p.m == 0) continue; /* all coordinates belong to a lookup-table body */

@@ -16,14 +16,14 @@ enum { ALI3_STICKS = 1, ALI3_SLIPS_UP = 2, ALI3_SLIPS_DOWN = 4 };
 typedef struct {
   real force; /* tau */
   real slope; /* d tau/dw for the tangent: D, or, where it slips, the safe part of the secant or 0 */
-  truth sticks; /* it sticks, and there is a bound */
+  lane_mask sticks; /* it sticks, and there is a bound */
 } ali3_slider;
 
 /* Slope of a slider that slips: the safe part of the secant, zero if the rate cannot return to sticking in this
  * step. */
 static inline real ali3_slip_slope(real D, real trial, real bound, real reach) {
   const real size = ali3_abs(trial), none = {0};
-  const truth stays = (reach > 0.0) & (size - bound > D * reach);
+  const lane_mask stays = (reach > 0.0) & (size - bound > D * reach);
   return ali3_where(stays, none, ALI3_SECANT_FRACTION * D * (bound / size));
 }
 
@@ -32,14 +32,14 @@ static inline ali3_slider ali3_slider_step(ali3_element_args *a, real k, real c,
   const double half = 0.5 * a->h;
   const real elastic = k * (a->y_old[0] + half * a->y_old[1]);
   const real D = c + half * k, trial = elastic + D * w;
-  const truth sticks = ali3_abs(trial) <= bound, holds = bound > 0.0, slips = holds & ali3_not(sticks);
+  const lane_mask sticks = ali3_abs(trial) <= bound, holds = bound > 0.0, slips = holds & ali3_not(sticks);
   const real force = ali3_where(sticks, trial, ali3_where(trial > 0.0, bound, -bound));
   a->y_new[0] = a->y_old[0];
   a->y_new[1] = a->y_old[1];
   if (a->h > 0.0) {
     a->y_new[1] = (force - elastic) / D;
     a->y_new[0] = (force - c * a->y_new[1]) / k;
-    const truth released = ali3_abs(a->y_new[0]) < ALI3_NEGLIGIBLE;
+    const lane_mask released = ali3_abs(a->y_new[0]) < ALI3_NEGLIGIBLE;
     for (int i = 0; i < 2; i++) a->y_new[i] = ali3_where(released, ali3_same(0.0), a->y_new[i]);
   }
   a->potential = 0.5 * k * a->y_new[0] * a->y_new[0];

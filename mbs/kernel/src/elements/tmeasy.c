@@ -72,7 +72,7 @@ static point evaluate_rise(const ali3_tmeasy *t, real s) {
 
 /* Cubic part of the curve, from the largest force to sliding, and the constant force of sliding. */
 static point evaluate_fall(const ali3_tmeasy *t, real s) {
-  const truth slides = ali3_not(s < t->slide_slip);
+  const lane_mask slides = ali3_not(s < t->slide_slip);
   real force = t->slide_force, force_slope = {0};
   point p = {.by.slide_force = 1.0 / s};
   if (ali3_any(ali3_not(slides))) {
@@ -92,7 +92,7 @@ static point evaluate_fall(const ali3_tmeasy *t, real s) {
 
 /* Force characteristic at slip s: rising part, then falling part. */
 static point evaluate_curve(const ali3_tmeasy *t, real s) {
-  const truth rises = s < t->max_slip;
+  const lane_mask rises = s < t->max_slip;
   if (!ali3_any(ali3_not(rises))) return evaluate_rise(t, s);
   if (!ali3_any(rises)) return evaluate_fall(t, s);
   const point rising = evaluate_rise(t, s), falling = evaluate_fall(t, s);
@@ -114,7 +114,7 @@ real ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const real n[2], real gradien
                                ali3_sqrt(a->slide_force + b->slide_force * weight),
                                ali3_sqrt(a->slide_slip + b->slide_slip * weight)};
   const point p = evaluate_curve(&current, s);
-  const truth slips = s > 0.0;
+  const lane_mask slips = s > 0.0;
   gradient[0] = gradient[1] = none;
   if (!ali3_any(slips)) return p.secant;
   const real by_weight =
@@ -132,7 +132,7 @@ real ali3_tmeasy_trail(const real pairs[6], real q, real friction_ratio, real s)
   const real r = limit_friction(friction_ratio), initial = interpolate_by_load(pairs, q),
              zero = r * interpolate_by_load(pairs + 2, q), end = r * interpolate_by_load(pairs + 4, q), w = zero / end,
              x = s / zero;
-  const truth past_zero = s >= zero, ended = s >= end;
+  const lane_mask past_zero = s >= zero, ended = s >= end;
   const real remaining = (end - s) / (end - zero), none = {0};
   const real falls = -initial * (1.0 - w) * (x - 1.0) * remaining * remaining;
   const real rises = initial * ((1.0 - w) * (1.0 - x) + w * (1.0 - (3.0 - 2.0 * x) * x * x));

@@ -44,7 +44,8 @@ static real find_friction_ratio(const real *p, const ali3_tyre_patch *contact) {
 
 /* Steady force -g v of TMeasy at a slip velocity v. */
 typedef struct {
-  truth loaded, grips; /* by load; by friction: without this limit the initial slope would transmit a force at rest at
+  lane_mask loaded,
+      grips; /* by load; by friction: without this limit the initial slope would transmit a force at rest at
                           almost no grip */
   real load_factor, friction_ratio, transport; /* transport speed, m/s */
   real g[2], max_force[2]; /* N s/m; N */
@@ -93,7 +94,7 @@ static ali3_tyre_force solve_carcass(const ali3_element_args *a, const steady_fo
 static void limit_force(ali3_element_args *a, const steady_force *s, ali3_tyre_force *f) {
   const real *most = s->max_force, *F = f->F, weight[2] = {most[0] * most[0], most[1] * most[1]};
   const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(most[0] * F[0], most[1] * F[1]);
-  const truth exceeds = s->loaded & (bound > 0.0) & (size2 > bound);
+  const lane_mask exceeds = s->loaded & (bound > 0.0) & (size2 > bound);
   ALI3_PIECE(&a->piece, exceeds, ALI3_TYRE_AT_LIMIT);
   if (!ali3_any(exceeds)) return;
   const real scale = size2 / bound;
@@ -153,7 +154,7 @@ typedef struct {
 
 static rolling find_rolling(real radius, real loaded, real omega) {
   const real none = {0};
-  const truth deflected = loaded < radius;
+  const lane_mask deflected = loaded < radius;
   rolling r = {.radius = (2.0 * radius + ali3_where(deflected, loaded, radius)) / 3.0};
   r.transport = r.radius * ali3_abs(omega);
   r.moving = ali3_tyre_moving(r.transport);

@@ -16,7 +16,7 @@ ali3_tyre_bore ali3_tyre_bore_at(const ali3_element_args *a, const real *numbers
 /* Secant damping g of the rotation over R^2, N s/m; `by`: horizontal force. */
 static real find_bore_damping(const ali3_tyre_horizontal_force *by) {
   const real none = {0};
-  const truth grips = by->most > 0.0, sticks = by->force < by->steady;
+  const lane_mask grips = by->most > 0.0, sticks = by->force < by->steady;
   const real share = ali3_where(sticks, by->force / by->steady, ali3_same(1.0)), share2 = share * share;
   return ali3_where(grips, by->slope * by->most / (by->transport * by->most + by->slip * share2 * share2 * by->slope),
                     none);
@@ -25,10 +25,10 @@ static real find_bore_damping(const ali3_tyre_horizontal_force *by) {
 /* Scales moment and derivative to the friction that force and moment share; returns the factor on the force. */
 static real share_friction(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_horizontal_force *by) {
   const real none = {0}, one = ali3_same(1.0), max_torque = b->lever * by->most, use = by->use;
-  const truth grips = by->most > 0.0;
+  const lane_mask grips = by->most > 0.0;
   const real torque_share = ali3_where(grips, b->moment / max_torque, none),
              demand = ali3_sqrt(use * use + torque_share * torque_share);
-  const truth slides = grips & (demand > 1.0);
+  const lane_mask slides = grips & (demand > 1.0);
   const real remaining = ali3_where(slides, 1.0 / demand, one);
   ALI3_PIECE(&a->piece, slides, ALI3_TYRE_AT_LIMIT);
   /* factor on the derivative, not below the safe part of the secant */
@@ -58,7 +58,7 @@ void ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyr
   new[1] = (b->moment - offset) / D;
   if (!(a->h > 0.0)) return;
   new[0] = (b->moment - d * new[1]) / c;
-  const truth negligible = ali3_abs(new[0]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
+  const lane_mask negligible = ali3_abs(new[0]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
   for (int i = 0; i < 2; i++) new[i] = ali3_where(negligible, none, new[i]);
 }
 

@@ -21,7 +21,7 @@ void ali3_tyre_deflect(ali3_element_args *a, const ali3_tyre_carcass *carcass, c
     a->y_new[2 + i] = (F[i] - carcass->offset[i]) / carcass->D[i];
     if (!(a->h > 0.0)) continue;
     a->y_new[i] = (F[i] - carcass->damping[i] * a->y_new[2 + i]) / carcass->stiffness[i];
-    const truth negligible = ali3_abs(a->y_new[i]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
+    const lane_mask negligible = ali3_abs(a->y_new[i]) < ALI3_NEGLIGIBLE; /* after a long time in the air */
     a->y_new[i] = ali3_where(negligible, none, a->y_new[i]);
     a->y_new[2 + i] = ali3_where(negligible, none, a->y_new[2 + i]);
   }
@@ -30,7 +30,7 @@ void ali3_tyre_deflect(ali3_element_args *a, const ali3_tyre_carcass *carcass, c
 /* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
 static void make_semidefinite(real C[3]) {
   const real mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
-  const truth semidefinite = mean >= split, splits = split > 0.0;
+  const lane_mask semidefinite = mean >= split, splits = split > 0.0;
   if (!ali3_any(ali3_not(semidefinite))) return;
   const real none = {0}, top = ali3_where(mean + split > 0.0, mean + split, none);
   const real cosine = ali3_where(splits, half / split, none), sine = ali3_where(splits, C[1] / split, none);

@@ -21,7 +21,7 @@ void ali3_tyre_axis(const real axis[3], real e[3]) {
 
 /* Load-weighted mean of `mean` (load `old`) and `new` (load `load`); total: sum of the loads; first: there is no old
  * load. */
-static real update_mean(truth first, real mean, real old, real new, real total, real load) {
+static real update_mean(lane_mask first, real mean, real old, real new, real total, real load) {
   return ali3_where(first, ali3_same(0.0), old / total * mean) + load / total * new;
 }
 
@@ -31,7 +31,7 @@ typedef struct {
   real bottoming_depth, bottoming; /* m beyond the bottoming radius; N/m, 0 above it */
   real ramp, share; /* 0 to 1: of the damping; of the load, borne by this contact */
   real spring, force; /* N: of the spring alone; against the gradient of the depth */
-  truth softened; /* the spring is beyond its largest force */
+  lane_mask softened; /* the spring is beyond its largest force */
 } radial_law;
 
 /* The law of a contact whose depth changes at `rate`, m/s. */
@@ -49,7 +49,7 @@ static radial_law evaluate_radial_law(const ali3_tyre_spring *s, const ali3_cont
 }
 
 /* Adds the energy of the spring and of the rim where the tyre touches. */
-static void add_radial_energy(ali3_element_args *a, const ali3_tyre_spring *s, const radial_law *r, truth touches) {
+static void add_radial_energy(ali3_element_args *a, const ali3_tyre_spring *s, const radial_law *r, lane_mask touches) {
   a->potential = ali3_add_unless(ali3_not(touches), a->potential,
                                  r->share * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * r->effective_depth) *
                                                         r->effective_depth * r->effective_depth +
@@ -68,8 +68,9 @@ static real find_radial_stiffness(const ali3_tyre_spring *s, const radial_law *r
 
 /* Includes a contact with a load in the mean patch where it presses: load-weighted, so that the mean is continuous when
  * a contact opens or closes. */
-static void add_to_patch(ali3_tyre_patch *mean, const ali3_contact *c, const real rho[3], real load, truth presses) {
-  const truth first = ali3_not(mean->load > 0.0);
+static void add_to_patch(ali3_tyre_patch *mean, const ali3_contact *c, const real rho[3], real load,
+                         lane_mask presses) {
+  const lane_mask first = ali3_not(mean->load > 0.0);
   const real total = mean->load + load;
   for (int i = 0; i < 3; i++) {
     const real weighted = load * c->normal[i], sum = ali3_where(first, weighted, mean->normal[i] + weighted);
@@ -84,7 +85,7 @@ static void add_to_patch(ali3_tyre_patch *mean, const ali3_contact *c, const rea
 /* The patch of one contact and minus the gradient of its depth by the signals of the tyre. */
 typedef struct {
   real rho[3], b[7]; /* m; m per unit of a signal */
-  truth hub_reached; /* the road is nearer to the wheel's centre than the patch may be */
+  lane_mask hub_reached; /* the road is nearer to the wheel's centre than the patch may be */
 } contact_place;
 
 static contact_place find_place(const ali3_contact *c, const real e[3], real radius) {
@@ -102,7 +103,7 @@ static contact_place find_place(const ali3_contact *c, const real e[3], real rad
 /* Makes a contact the nearest one of the patch if it is deeper than *deepest, m. */
 static void update_nearest(ali3_tyre_patch *mean, const ali3_contact *c, const contact_place *at, real *deepest) {
   const real depth = c->penetration;
-  const truth deeper = depth > *deepest;
+  const lane_mask deeper = depth > *deepest;
   *deepest = ali3_where(deeper, depth, *deepest);
   mean->beyond = ali3_where(at->hub_reached & (depth > mean->beyond), depth, mean->beyond);
   for (int i = 0; i < 3; i++) {
@@ -112,7 +113,7 @@ static void update_nearest(ali3_tyre_patch *mean, const ali3_contact *c, const c
 }
 
 /* Adds the bits of the smooth piece of the law at contact k. */
-static void add_pieces(ali3_element_args *a, int k, const radial_law *law, truth touches, truth presses) {
+static void add_pieces(ali3_element_args *a, int k, const radial_law *law, lane_mask touches, lane_mask presses) {
   const int32_t shift = ALI3_TYRE_CONTACT_BITS * k;
   ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << shift);
   ALI3_PIECE(&a->piece, touches & (law->bottoming_depth > 0.0), ALI3_TYRE_BOTTOMS << shift);
@@ -134,13 +135,13 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
       mean.friction = c->friction;
       for (int i = 0; i < 3; i++) mean.normal[i] = c->normal[i], mean.rho[i] = at.rho[i];
     }
-    const truth touches = c->penetration > 0.0;
+    const lane_mask touches = c->penetration > 0.0;
     if (!ali3_any(touches)) continue;
     real rate = none;
     for (int i = 0; i < 6; i++) rate -= at.b[i] * a->ud[i];
     const radial_law law = evaluate_radial_law(spring, c, rate);
     add_radial_energy(a, spring, &law, touches);
-    const truth presses = touches & (law.force > 0.0);
+    const lane_mask presses = touches & (law.force > 0.0);
     add_pieces(a, k, &law, touches, presses);
     if (!ali3_any(presses)) continue;
     for (int i = 0; i < 6; i++) a->f[i] = ali3_add_unless(ali3_not(presses), a->f[i], law.force * at.b[i]);
@@ -155,7 +156,7 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
     switching =
         ali3_where(presses, a->wK * c->switching * (law.spring + law.bottoming * law.bottoming_depth), switching);
   }
-  const truth switches = switching > 0.0;
+  const lane_mask switches = switching > 0.0;
   if (a->S && ali3_any(switches)) ali3_add_outer(a->S, 7, ali3_where(switches, switching, none), difference);
   const real size = ali3_norm(mean.normal);
   for (int i = 0; i < 3; i++) mean.normal[i] = ali3_where(size > 0.0, mean.normal[i] / size, ali3_same(i == 2));
@@ -168,7 +169,7 @@ ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const real e[3])
   m.loaded = ali3_norm(rho);
   ali3_cross(e, n, m.forward);
   m.upright = ali3_norm(m.forward);
-  const truth flat = m.upright < 1e-9;
+  const lane_mask flat = m.upright < 1e-9;
   for (int i = 0; i < 3; i++) m.forward[i] = ali3_where(flat, ali3_same(i == 0), m.forward[i] / m.upright);
   ali3_cross(n, m.forward, m.left);
   ali3_cross(e, rho, m.push);
@@ -217,7 +218,7 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
   a->out[TYRE_OUT_SLIP_ANGLE] = ali3_atan2(m->v[1], ali3_hypot(m->travel[0], min_speed));
   a->out[TYRE_OUT_DEFLECTION] = deflection;
   a->out[TYRE_OUT_LOADED_RADIUS] = radius - deflection;
-  const truth bears = contact->load > 0.0;
+  const lane_mask bears = contact->load > 0.0;
   for (int i = 0; i < 3; i++) {
     a->out[TYRE_OUT_CONTACT_X + i] = a->u[i] + ali3_where(bears, contact->rho[i], contact->near_rho[i]);
     a->out[TYRE_OUT_NORMAL_X + i] = ali3_where(bears, contact->normal[i], contact->near_normal[i]);

@@ -58,40 +58,40 @@ static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b)
 #ifndef ALI3_WIDTH
 enum { ALI3_FEW = 2, ALI3_MANY = 8 }; /* vectors of four rows in a tile: small and large tiles */
 
-/* Writes rows i to i + 4 fours - 1 of start + M x, summed in registers in the order of `ali3_add_product`. */
-ALI3_INLINED void ali3_tile(int64_t n, const double *M, const double *x, const ali3_four *start, int fours, int64_t i,
-                            double *out) {
-  ali3_four sum[ALI3_MANY];
+/* Writes rows i to i + 4 n_vectors - 1 of start + M x, summed in registers in the order of `ali3_add_product`. */
+ALI3_INLINED void ali3_tile(int64_t n, const double *M, const double *x, const ali3_double4 *start, int n_vectors,
+                            int64_t i, double *out) {
+  ali3_double4 sum[ALI3_MANY];
   ALI3_UNROLLED
-  for (int t = 0; t < fours; t++) sum[t] = start[t];
+  for (int t = 0; t < n_vectors; t++) sum[t] = start[t];
   const double *a = M + i, *b = a + n, *c = b + n, *d = c + n;
   int64_t l = 0;
   ALI3_SHORT
   for (; l + 3 < n; l += 4) {
     ALI3_UNROLLED
-    for (int t = 0; t < fours; t++)
-      sum[t] += (((const ali3_four *)a)[t] * x[l] + ((const ali3_four *)b)[t] * x[l + 1]) +
-                (((const ali3_four *)c)[t] * x[l + 2] + ((const ali3_four *)d)[t] * x[l + 3]);
+    for (int t = 0; t < n_vectors; t++)
+      sum[t] += (((const ali3_double4 *)a)[t] * x[l] + ((const ali3_double4 *)b)[t] * x[l + 1]) +
+                (((const ali3_double4 *)c)[t] * x[l + 2] + ((const ali3_double4 *)d)[t] * x[l + 3]);
     a += 4 * n, b += 4 * n, c += 4 * n, d += 4 * n;
   }
   ALI3_SHORT
   for (; l < n; l++, a += n) {
     ALI3_UNROLLED
-    for (int t = 0; t < fours; t++) sum[t] += ((const ali3_four *)a)[t] * x[l];
+    for (int t = 0; t < n_vectors; t++) sum[t] += ((const ali3_double4 *)a)[t] * x[l];
   }
   ALI3_UNROLLED
-  for (int t = 0; t < fours; t++) ((ali3_four *)(out + i))[t] = sum[t];
+  for (int t = 0; t < n_vectors; t++) ((ali3_double4 *)(out + i))[t] = sum[t];
 }
 
 /* out = start + M x, M by columns; four columns at once. The last rows may be computed twice, with the same result. */
 ALI3_INLINED void ali3_add_product(int32_t n, const double *restrict M, const double *restrict x, const double *start,
                                    double *out) {
   const int32_t few = 4 * ALI3_FEW, many = 4 * ALI3_MANY;
-  ali3_four last[ALI3_FEW] = {{0}}; /* before `out`, which may be `start`, is written */
+  ali3_double4 last[ALI3_FEW] = {{0}}; /* before `out`, which may be `start`, is written */
   int32_t i = 0;
-  for (int t = 0; t < ALI3_FEW && n >= few; t++) last[t] = ((const ali3_four *)(start + n - few))[t];
-  for (; i + many <= n; i += many) ali3_tile(n, M, x, (const ali3_four *)(start + i), ALI3_MANY, i, out);
-  for (; i + few <= n; i += few) ali3_tile(n, M, x, (const ali3_four *)(start + i), ALI3_FEW, i, out);
+  for (int t = 0; t < ALI3_FEW && n >= few; t++) last[t] = ((const ali3_double4 *)(start + n - few))[t];
+  for (; i + many <= n; i += many) ali3_tile(n, M, x, (const ali3_double4 *)(start + i), ALI3_MANY, i, out);
+  for (; i + few <= n; i += few) ali3_tile(n, M, x, (const ali3_double4 *)(start + i), ALI3_FEW, i, out);
   if (i < n && n >= few) ali3_tile(n, M, x, last, ALI3_FEW, n - few, out);
   for (; i < n && n < few; i++) {
     double sum = start[i];

@@ -29,7 +29,7 @@ ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
     const double *from = in->mass.front + S->front_off[f];
     int64_t j = 0;
     for (; j + 3 < n; j += 4, to += 4 * n, from += 4 * n) {
-      ALI3_EACH(ali3_by_fours(j, n), n, for (int k = 0; k < 4; k++) ALI3_AT(to + k * n) = ALI3_AT(from + k * n))
+      ALI3_EACH(ali3_padded_start(j, n), n, for (int k = 0; k < 4; k++) ALI3_AT(to + k * n) = ALI3_AT(from + k * n))
     }
     for (; j < n; j++, to += n, from += n) ali3_copy(to, from, n);
   }

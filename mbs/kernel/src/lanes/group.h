@@ -8,7 +8,7 @@
 #include "../instance.h"
 
 #ifdef ALI3_WIDTH
-typedef truth ali3_mask; /* all bits of a lane or none; also counters */
+typedef lane_mask ali3_mask; /* all bits of a lane or none; also counters */
 #else
 typedef int64_t ali3_mask;
 #endif

@@ -37,7 +37,7 @@ static void evaluate_law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   if (a.S != NULL) memset(a.S, 0, (size_t)(n * n) * sizeof *a.S);
   law_of(S->el_kind[e])(&a);
   g->potential[e] = a.potential;
-  g->element.idle[e] = (truth){0} - a.idle;
+  g->element.idle[e] = (lane_mask){0} - a.idle;
 }
 
 /* Evaluates element e in the lanes of in->evaluated. */
@@ -49,14 +49,14 @@ static void evaluate_element(ali3_lane_group *in, int32_t e, real *f, bool tange
 }
 
 /* Evaluates the elements of some lanes; of the others only tangents may change, which they do not read again. */
-static void evaluate_elements(ali3_lane_group *in, truth lanes, bool tangent) {
+static void evaluate_elements(ali3_lane_group *in, lane_mask lanes, bool tangent) {
   const ali3_system *S = in->system;
   *in->evaluated = lanes;
   for (int32_t e = 0; e < S->size.ne; e++) evaluate_element(in, e, in->element.force + S->el_sig_ptr[e], tangent);
 }
 
 /* Outputs other than f are overwritten by the next iterate; converged lanes get the same values. */
-void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real *q, const real *qd, real *r) {
+void ali3_elements_defect(ali3_lane_group *in, double h, lane_mask lanes, const real *q, const real *qd, real *r) {
   const ali3_system *S = in->system;
   real ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
   (void)h;
@@ -73,7 +73,7 @@ void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real
 }
 
 /* Generalised forces in->step.Q at in->next; tangents of elements if required. */
-static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
+static void evaluate_forces(ali3_lane_group *in, lane_mask lanes, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const real *q = in->next.q, *qd = in->next.qd;
@@ -96,7 +96,7 @@ static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
 }
 
 /* Positions, rates, rows, forces and residual of the iterate D. */
-static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
+static void evaluate(ali3_lane_group *in, lane_mask lanes, bool tangent) {
   place_iterate(in);
   evaluate_forces(in, lanes, tangent);
   find_residual(in);
@@ -104,10 +104,11 @@ static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
 
 /* Largest of n values |x| factor, infinite if one is NaN; *worst: index of the first largest one, unchanged if it is 0.
  * Factors differ by lane or are common to all. */
-static inline real largest_size(const real *x, const real *of_lanes, const double *of_all, int32_t n, truth *worst) {
+static inline real largest_size(const real *x, const real *of_lanes, const double *of_all, int32_t n,
+                                lane_mask *worst) {
   enum { CHAINS = 4 }; /* independent chains of comparisons hide their latency */
   real largest[CHAINS] = {0};
-  truth has_nan = {0};
+  lane_mask has_nan = {0};
 #define ALI3_SIZE(i) (ali3_abs(x[i]) * (of_all == NULL ? of_lanes[i] : ali3_same(of_all[i])))
   for (int32_t i = 0; i < n; i += CHAINS)
     for (int32_t k = 0; k < CHAINS && i + k < n; k++) {
@@ -116,9 +117,9 @@ static inline real largest_size(const real *x, const real *of_lanes, const doubl
       largest[k] = ali3_where(size > largest[k], size, largest[k]);
     }
   for (int k = 1; k < CHAINS; k++) largest[0] = ali3_where(largest[k] > largest[0], largest[k], largest[0]);
-  const truth is_positive = largest[0] > 0.0;
+  const lane_mask is_positive = largest[0] > 0.0;
   for (int32_t i = n - 1; i >= 0; i--) {
-    const truth is_worst = (ALI3_SIZE(i) == largest[0]) & is_positive;
+    const lane_mask is_worst = (ALI3_SIZE(i) == largest[0]) & is_positive;
     *worst = (is_worst & i) | (~is_worst & *worst);
   }
 #undef ALI3_SIZE
@@ -126,7 +127,7 @@ static inline real largest_size(const real *x, const real *of_lanes, const doubl
 }
 
 /* Sizes of the residual with the multipliers and of the violation; returns the lanes in which both are finite. */
-static truth update_residual(ali3_lane_group *in) {
+static lane_mask update_residual(ali3_lane_group *in) {
   const ali3_system *S = in->system;
   add_row_forces(in);
   *in->residual = largest_size(in->step.x, in->mass.floor_inverse, NULL, S->size.nq, in->worst_coordinate);
@@ -135,16 +136,16 @@ static truth update_residual(ali3_lane_group *in) {
 }
 
 /* Lanes in which all rows hold within the tolerance. */
-static truth rows_are_closed(const ali3_lane_group *in) {
+static lane_mask rows_are_closed(const ali3_lane_group *in) {
   const ali3_system *S = in->system;
-  truth open = {0};
+  lane_mask open = {0};
   for (int32_t k = 0; k < S->size.nc; k++)
     open |= ~(ali3_abs(in->step.Phi[k]) * S->row_measure[k] <= S->fine * in->settings.tolerance_phi + S->row_round[k]);
   return ~open;
 }
 
 /* Assembles and factorises the tangent (23) of the present iterate for some lanes; the others keep the earlier one. */
-static void tangent(ali3_lane_group *in, truth lanes, bool first) {
+static void tangent(ali3_lane_group *in, lane_mask lanes, bool first) {
   const ali3_system *S = in->system;
   real *F = first ? in->tangent.F : in->tangent.F_new;
   *in->at_work = lanes;
@@ -182,20 +183,20 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
 /* Newton's iteration; sets in->good. */
 static void newton(ali3_lane_group *in) {
   const double h = in->h;
-  truth active = *in->lanes, reused = {0}, accelerated = {0};
+  lane_mask active = *in->lanes, reused = {0}, accelerated = {0};
   real last_residual = ali3_same(HUGE_VAL);
   *in->good = *in->singular = *in->iterations = reused;
   *in->reach = (real){0};
   evaluate(in, active, true);
   for (int32_t iteration = 0; iteration < in->settings.max_iterations && ali3_any(active); iteration++) {
-    const truth outdated = active & ~reused;
+    const lane_mask outdated = active & ~reused;
     if (ali3_any(outdated)) tangent(in, outdated, iteration == 0);
     active &= ~*in->singular;
     active &= correct(in, h, in->alpha, active, iteration, reused, accelerated);
     *in->iterations -= active;
     evaluate(in, active, false);
     active &= update_residual(in);
-    const truth converged =
+    const lane_mask converged =
         active & (*in->residual <= in->system->fine * in->settings.tolerance_r) & rows_are_closed(in);
     *in->good |= converged;
     active &= ~converged;
@@ -203,7 +204,8 @@ static void newton(ali3_lane_group *in) {
       if (active[l] && ali3_lane_is_abrupt(in, l)) active[l] = 0;
     reused = (*in->violation <= REUSE_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) &
              (*in->residual <= REUSE_RESIDUAL * last_residual);
-    const truth decreasing = ali3_settles(in->system, iteration + 1) ? *in->residual <= last_residual : (truth){0};
+    const lane_mask decreasing =
+        ali3_settles(in->system, iteration + 1) ? *in->residual <= last_residual : (lane_mask){0};
     accelerated = reused | ~decreasing;
     *in->reach = ali3_where(decreasing, REACH * in->rule.rate * *in->residual, (real){0});
     last_residual = *in->residual;

@@ -102,15 +102,15 @@ ALI3_INLINED void compute_B(const ali3_instance *in, const ali3_lookup_group *of
 }
 
 /* Sum of the tangents of a group's elements by its signals, n x n; returns the lanes in which all elements are idle. */
-ALI3_INLINED truth sum_tangents(const ali3_instance *in, const ali3_lookup_group *of, real *sum) {
+ALI3_INLINED lane_mask sum_tangents(const ali3_instance *in, const ali3_lookup_group *of, real *sum) {
   const ali3_system *S = in->system;
-  truth idle = ali3_same(0.0) == 0.0;
+  lane_mask idle = ali3_same(0.0) == 0.0;
   memset(sum, 0, (size_t)(of->n_signal * of->n_signal) * sizeof *sum);
   for (int32_t o = of->first; o < of->end; o++) {
     const int32_t e = S->lookup_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
     const int32_t *place = S->lookup_signal + S->el_sig_ptr[e];
     const real *from = in->element.S + S->el_S_off[e];
-    const truth idle_lanes = in->element.idle[e];
+    const lane_mask idle_lanes = in->element.idle[e];
     if (!ali3_any(ali3_not(idle_lanes))) continue;
     idle &= idle_lanes;
     for (int32_t i = 0; i < n; i++) {
@@ -127,7 +127,7 @@ ALI3_INLINED void add_undivided(ali3_instance *in, const ali3_lookup_group *of, 
   const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
   const int32_t n = of->n_signal, m = of->m;
   real *block = F + S->front_off[of->front], *sum = in->lookup.square, *B = sum + n * n, *SB = B + n * m;
-  const truth idle = sum_tangents(in, of, sum);
+  const lane_mask idle = sum_tangents(in, of, sum);
   if (!ali3_any(ali3_not(idle))) return;
   compute_B(in, of, m, B);
   memset(SB, 0, (size_t)(n * m) * sizeof *SB);
@@ -175,7 +175,8 @@ ALI3_INLINED void compute_part_B(const ali3_instance *in, const ali3_lookup_grou
 }
 
 /* to (n) += from, except in idle lanes. */
-ALI3_INLINED void add_numbers(real *restrict to, const real *restrict from, truth idle_lanes, bool some, int32_t n) {
+ALI3_INLINED void add_numbers(real *restrict to, const real *restrict from, lane_mask idle_lanes, bool some,
+                              int32_t n) {
   if (!some)
     for (int32_t i = 0; i < n; i++) to[i] += from[i];
   else
@@ -183,9 +184,9 @@ ALI3_INLINED void add_numbers(real *restrict to, const real *restrict from, trut
 }
 
 /* Sum of the tangents of a group's elements by its parts, of numbers with vectors once; returns as `sum_tangents`. */
-ALI3_INLINED truth sum_part_tangents(const ali3_instance *in, const ali3_lookup_group *of, ali3_lookup_parts *p) {
+ALI3_INLINED lane_mask sum_part_tangents(const ali3_instance *in, const ali3_lookup_group *of, ali3_lookup_parts *p) {
   const ali3_system *S = in->system;
-  truth idle = ali3_same(0.0) == 0.0;
+  lane_mask idle = ali3_same(0.0) == 0.0;
   for (int32_t i = 0; i < of->n_vector; i++)
     for (int32_t k = 0; k < of->beside[i].n; k++) memset(p->vectors[i][of->beside[i].at[k]], 0, sizeof(real[9]));
   memset(p->mixed, 0, (size_t)of->n_number * sizeof *p->mixed);
@@ -194,7 +195,7 @@ ALI3_INLINED truth sum_part_tangents(const ali3_instance *in, const ali3_lookup_
     const int32_t e = S->lookup_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
     const int32_t *place = S->lookup_signal + S->el_sig_ptr[e];
     const real *from = in->element.S + S->el_S_off[e];
-    const truth idle_lanes = in->element.idle[e];
+    const lane_mask idle_lanes = in->element.idle[e];
     const bool some = ali3_any(idle_lanes);
     if (!ali3_any(ali3_not(idle_lanes))) continue;
     idle &= idle_lanes;
@@ -252,7 +253,7 @@ ALI3_INLINED void multiply_parts(const ali3_lookup_group *of, ali3_lookup_parts 
 
 /* Adds B' S B of the elements of a group with parts, except between the axes of its base, which is added to p->base. */
 ALI3_INLINED void add_by_parts(ali3_instance *in, const ali3_lookup_group *of, ali3_lookup_parts *p, real *F) {
-  const truth idle = sum_part_tangents(in, of, p);
+  const lane_mask idle = sum_part_tangents(in, of, p);
   const bool some = ali3_any(idle);
   if (!ali3_any(ali3_not(idle))) return;
   compute_part_B(in, of, p);

@@ -13,7 +13,7 @@ static const double MIN_FACTOR = -100.0, MAX_FACTOR = 0.5;
 
 /* in->step.x and in->step.lam have the corrections of D and of the multipliers and become the accelerated ones.
  * `enabled`: lanes that have a correction before this one. */
-ALI3_INLINED void accelerate(ali3_instance *in, truth enabled) {
+ALI3_INLINED void accelerate(ali3_instance *in, lane_mask enabled) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   real present = {0}, last = {0}, change = {0}, projection = {0}, theta = {0};
@@ -25,11 +25,11 @@ ALI3_INLINED void accelerate(ali3_instance *in, truth enabled) {
       change += m * difference * difference;
       projection += m * in->step.x[i] * difference;
     }
-    const truth slow = enabled & (present > LINEAR_RATIO * LINEAR_RATIO * last) & (change > 0.0);
+    const lane_mask slow = enabled & (present > LINEAR_RATIO * LINEAR_RATIO * last) & (change > 0.0);
     theta = ali3_where(slow, projection / change, theta);
     theta = ali3_where((theta >= MIN_FACTOR) & (theta <= MAX_FACTOR), theta, ali3_same(0.0));
   }
-  const truth mixed = theta != 0.0;
+  const lane_mask mixed = theta != 0.0;
   if (!ali3_any(mixed)) {
     ali3_copy(in->mixing.correction_q, in->step.x, nq);
     ali3_copy(in->mixing.step_q, in->step.x, nq);
@@ -53,4 +53,4 @@ ALI3_INLINED void accelerate(ali3_instance *in, truth enabled) {
   }
 }
 
-ALI3_BY_PROCESSOR(in->system, void, accelerate, (ali3_instance * in, truth enabled), (in, enabled))
+ALI3_BY_PROCESSOR(in->system, void, accelerate, (ali3_instance * in, lane_mask enabled), (in, enabled))

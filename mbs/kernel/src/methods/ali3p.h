@@ -87,8 +87,8 @@ ALI3_INLINED void add_row_forces(ali3_instance *in) {
  * `reused`: the tangent belongs to an earlier iterate, and in->step.x has the residual of (20). `accelerated`: the
  * correction is combined with the one before it. The penalty uses the Phi_q of the tangent, as it would amplify the
  * part of a later Phi_q outside its range. */
-ALI3_INLINED truth correct(ali3_instance *in, double h, double alpha, truth lanes, int32_t iteration, truth reused,
-                           truth accelerated) {
+ALI3_INLINED lane_mask correct(ali3_instance *in, double h, double alpha, lane_mask lanes, int32_t iteration,
+                               lane_mask reused, lane_mask accelerated) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
@@ -99,7 +99,7 @@ ALI3_INLINED truth correct(ali3_instance *in, double h, double alpha, truth lane
   ali3_rows_transposed(S, in->tangent.J_made, mu, in->step.w);
   ALI3_EACH(0, nq, ALI3_AT(x) = -(ali3_where(reused, ALI3_AT(x), ALI3_AT(r)) + c * ALI3_AT(w)))
   ali3_solve(in, in->tangent.F, x);
-  const truth finite = ali3_finite_inlined(x, nq);
+  const lane_mask finite = ali3_finite_inlined(x, nq);
   if (!ali3_any(finite)) return finite;
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, h, iteration, lanes & finite);
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
@@ -128,7 +128,7 @@ typedef struct {
 
 /* Projections (24), (25) of velocities and accelerations of some lanes; in->step.Phit holds the rates of the rows.
  * open_power: of the last step; its work in this one is part of the error. *violation: of velocities before, m/s. */
-ALI3_INLINED step_energy project_rates(ali3_instance *in, double h, double alpha, truth lanes, real open_power,
+ALI3_INLINED step_energy project_rates(ali3_instance *in, double h, double alpha, lane_mask lanes, real open_power,
                                        real *violation) {
   const double c = in->rule.c, limit = ali3_allowed_round_off(in->system, c);
   ali3_vectors *to = &in->next;

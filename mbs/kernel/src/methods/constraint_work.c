@@ -37,8 +37,8 @@ static void drive_weights(ali3_instance *in, double h) {
 }
 
 /* Whether the work of drives is the work of their rows: filtered driving functions move, or there is no projection. */
-static truth work_by_rows(const ali3_instance *in) {
-  truth uses_rows = {0};
+static lane_mask work_by_rows(const ali3_instance *in) {
+  lane_mask uses_rows = {0};
   for (int32_t g = 0; g < in->system->size.ng; g++) uses_rows |= in->driving.follows[g] != 0.0;
   if (!in->settings.project) uses_rows |= ali3_not(uses_rows);
   return uses_rows;
@@ -50,7 +50,7 @@ static truth work_by_rows(const ali3_instance *in) {
 real ali3_constraint_work(ali3_instance *in, double h, real *driving_work) {
   const ali3_system *S = in->system;
   real work = {0}, rate_work = {0}, drive_work = {0}, newton_term = {0};
-  truth use_rows = {0};
+  lane_mask use_rows = {0};
   if (S->n_driven > 0) {
     drive_weights(in, h);
     use_rows = work_by_rows(in);
@@ -99,7 +99,7 @@ ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, r
   *end = 0.5 * (twice + added);
   *open = power;
   if (S->n_driven == 0) return added;
-  const truth use_rows = work_by_rows(in);
+  const lane_mask use_rows = work_by_rows(in);
   *driving_work += ali3_where(use_rows, added, drive);
   return ali3_where(use_rows, ali3_same(0.0), added - drive);
 }

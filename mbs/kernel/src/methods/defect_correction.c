@@ -18,7 +18,7 @@ static const double SMALL_CORRECTION = 10.0; /* in tolerances: a smaller correct
 static const double CONTRACTION = 0.5; /* largest ratio of successive changes of d; above it forces are too nonlinear */
 
 /* Writes the negative change of d to `change` and d to `last`; returns the size of the change, m. */
-static real defect(ali3_instance *in, double h, truth lanes, real *last, real *change) {
+static real defect(ali3_instance *in, double h, lane_mask lanes, real *last, real *change) {
   const int32_t nq = in->system->size.nq;
   real *q = in->step.w, *qd = in->step.stage + 2 * nq, largest = {0};
   for (int32_t i = 0; i < nq; i++) {
@@ -36,12 +36,12 @@ static real defect(ali3_instance *in, double h, truth lanes, real *last, real *c
 }
 
 /* in->step.x has the Newton correction; forces and signals belong to the present iterate. */
-void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, truth lanes) {
+void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, lane_mask lanes) {
   const int32_t nq = in->system->size.nq;
   const double tolerance = in->system->fine * in->settings.tolerance_r;
   real *last = in->step.stage, *change = last + nq, before = ali3_same(HUGE_VAL);
   const real largest = ali3_largest(in->step.x, nq);
-  truth open = lanes & ali3_not(largest < SMALL_CORRECTION * tolerance);
+  lane_mask open = lanes & ali3_not(largest < SMALL_CORRECTION * tolerance);
   if (iteration == 0) open &= ali3_not(largest > LARGE_CORRECTION);
   if (!ali3_any(open)) return;
   memcpy(in->element.ud_at, in->element.ud, (size_t)in->system->size.nsig * sizeof *in->element.ud);

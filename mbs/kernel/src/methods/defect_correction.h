@@ -8,5 +8,5 @@
 static inline bool ali3_defect_corrected(const ali3_system *S) { return S->n_flexible > 0 && S->n_lookup == 0; }
 
 /* Adds defect corrections to the Newton correction in in->step.x of these lanes; h: step, s. */
-ALI3_PER_WIDTH void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, truth lanes);
+ALI3_PER_WIDTH void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, lane_mask lanes);
 #endif

@@ -77,12 +77,12 @@ ALI3_INLINED void balance_squares(const ali3_instance *in, double h, const doubl
                                   const double *v1, double out[3]) {
   const double *m = in->mass.floor;
   const int32_t nq = in->system->size.nq;
-  ali3_four speed = {0}, change = {0}, miss = {0};
+  ali3_double4 speed = {0}, change = {0}, miss = {0};
   int32_t i = 0;
   ALI3_SHORT
   for (; i + 3 < nq; i += 4) {
-    const ali3_four w = *(const ali3_four *)(m + i), v = *(const ali3_four *)(v1 + i);
-    const ali3_four d = v - *(const ali3_four *)(v0 + i), e = d - h * *(const ali3_four *)(a + i);
+    const ali3_double4 w = *(const ali3_double4 *)(m + i), v = *(const ali3_double4 *)(v1 + i);
+    const ali3_double4 d = v - *(const ali3_double4 *)(v0 + i), e = d - h * *(const ali3_double4 *)(a + i);
     speed += w * v * v;
     change += w * d * d;
     miss += w * e * e;

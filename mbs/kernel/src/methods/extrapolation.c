@@ -33,12 +33,12 @@ ALI3_BY_PROCESSOR(in->system, void, history_miss, (const ali3_instance *in, int3
                   (in, n, weight))
 
 /* Whether, before a step h, the n steps before the last predict it much better than constant acceleration. */
-ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h, bool controlled) {
+ALI3_INLINED lane_mask history_smooth(const ali3_instance *in, int32_t n, double h, bool controlled) {
   const int32_t nq = in->system->size.nq;
   const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a, *miss = in->step.w;
   real weight[ALI3_PAST], error = {0}, change = {0};
-  const truth near = (history[ALI3_HISTORY_COUNT] > (double)n) &
-                     ((controlled ? CONTROLLED_MAX_RATIO : MAX_RATIO) * (time[0] - time[1]) > h);
+  const lane_mask near = (history[ALI3_HISTORY_COUNT] > (double)n) &
+                         ((controlled ? CONTROLLED_MAX_RATIO : MAX_RATIO) * (time[0] - time[1]) > h);
   if (!ali3_any(near)) return near;
   ali3_lagrange(time + 1, n, time[0], weight);
   history_miss(in, n, weight);
@@ -50,8 +50,8 @@ ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h, 
   return near & (error < SMOOTH_RATIO * SMOOTH_RATIO * change);
 }
 
-ALI3_BY_PROCESSOR(in->system, truth, history_smooth, (const ali3_instance *in, int32_t n, double h, bool controlled),
-                  (in, n, h, controlled))
+ALI3_BY_PROCESSOR(in->system, lane_mask, history_smooth,
+                  (const ali3_instance *in, int32_t n, double h, bool controlled), (in, n, h, controlled))
 
 /* Weighted sum of n vectors of a length. */
 ALI3_INLINED void sum_weighted_vectors(real *restrict to, const real *restrict from, int64_t length, const real *weight,

@@ -11,7 +11,7 @@ ALI3_PER_WIDTH void ali3_lagrange(const real *time, int32_t n, real t, real *wei
  * (nq). */
 ALI3_PER_WIDTH void ali3_history_miss(const ali3_instance *in, int32_t n, const real *weight);
 /* Whether, before a step h, s, the n steps before the last predict it much better than constant acceleration. */
-ALI3_PER_WIDTH truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h, bool controlled);
+ALI3_PER_WIDTH lane_mask ali3_history_smooth(const ali3_instance *in, int32_t n, double h, bool controlled);
 /* Acceleration a (nq) and multipliers lam (nc) `time_ahead` ahead of now, s, extrapolated from n > 0 past ones. */
 ALI3_PER_WIDTH void ali3_extrapolate(const ali3_instance *in, double time_ahead, int32_t n, real *a, real *lam);
 #endif

@@ -16,5 +16,5 @@ ali3_status ali3_newton_failure(const ali3_instance *in, ali3_status status);
 void ali3_iterations_since(ali3_instance *in, int64_t before);
 /* Replaces the corrections in in->step.x and in->step.lam by accelerated ones; `enabled`: lanes with an earlier
  * correction. */
-ALI3_PER_WIDTH void ali3_accelerate(ali3_instance *in, truth enabled);
+ALI3_PER_WIDTH void ali3_accelerate(ali3_instance *in, lane_mask enabled);
 #endif

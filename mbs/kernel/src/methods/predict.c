@@ -13,12 +13,12 @@
 
 /* Writes the prediction of a step h, s; returns the lanes whose past steps were used. `from_past` false: none;
  * `controlled`: as in a request. */
-ALI3_INLINED truth predict(ali3_instance *in, double h, bool from_past, bool controlled) {
+ALI3_INLINED lane_mask predict(ali3_instance *in, double h, bool from_past, bool controlled) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const real *qd = in->now.qd, *qdd = in->now.qdd, *last = in->now.lam;
   real *D = in->step.D, *x = in->step.x, *lam = in->next.lam;
-  truth extrapolates = {0};
+  lane_mask extrapolates = {0};
   if (S->n_flexible > 0) {
     for (int32_t i = 0; i < nq; i++) D[i] = h * (2.0 * in->now.mean[i] - in->now.mean_before[i]);
     memcpy(lam, last, (size_t)nc * sizeof *lam);

@@ -11,8 +11,8 @@
 
 /* Whether Phi_q v, in in->step.mu, plus b is below the tolerance times the largest of v, or below `round_off`; writes
  * the sum to in->step.mu and its size to *violation. */
-ALI3_INLINED truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double round_off,
-                               real *violation) {
+ALI3_INLINED lane_mask rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double round_off,
+                                   real *violation) {
   const ali3_system *S = in->system;
   ali3_add(in->step.mu, b, S->size.nc);
   *violation = ali3_largest_product(in->step.mu, S->row_measure, S->size.nc);
@@ -20,13 +20,13 @@ ALI3_INLINED truth rates_below(ali3_instance *in, const real *b, const real *v, 
   return (*violation <= round_off) | (*violation <= limit * ali3_largest(v, S->size.nq));
 }
 
-ALI3_INLINED truth rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double round_off,
-                                real *violation) {
+ALI3_INLINED lane_mask rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double round_off,
+                                    real *violation) {
   ali3_rows_times(in->system, in->tangent.J, v, in->step.mu);
   return rates_below(in, b, v, tolerance, round_off, violation);
 }
 
-ALI3_BY_PROCESSOR(in->system, truth, rates_closed,
+ALI3_BY_PROCESSOR(in->system, lane_mask, rates_closed,
                   (ali3_instance * in, const real *b, const real *v, double tolerance, double round_off,
                    real *violation),
                   (in, b, v, tolerance, round_off, violation))
@@ -42,7 +42,7 @@ ALI3_INLINED real project(ali3_instance *in, double factor, const real *b, real 
   const int32_t nq = S->size.nq, nc = S->size.nc;
   real violation = {0}, *mu = in->step.mu, *x = in->step.x, *correction = in->step.lam;
   if (!has_rates) ali3_rows_times(S, in->tangent.J, v, mu);
-  truth active = ALI3_AT_WORK_OF(in, ali3_not(rates_below(in, b, v, tolerance, round_off, &violation)));
+  lane_mask active = ALI3_AT_WORK_OF(in, ali3_not(rates_below(in, b, v, tolerance, round_off, &violation)));
   for (int32_t sweep = 0; sweep < sweeps && ali3_any(active); sweep++) {
     ALI3_AT_WORK(in, active);
     ALI3_EACH(0, nc, ALI3_AT(mu) *= factor)

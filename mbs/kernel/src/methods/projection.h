@@ -7,8 +7,8 @@
 #include "../instance.h"
 
 /* Whether they are closed; writes Phi_q v + b to in->step.mu and its size to *violation, m/s or m/s^2. */
-ALI3_PER_WIDTH truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance,
-                                       double round_off, real *violation);
+ALI3_PER_WIDTH lane_mask ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance,
+                                           double round_off, real *violation);
 /* Corrects v in at most `sweeps` solutions until the rows are closed; returns the violation. factor: weight of Phi_q'
  * Phi_q in that tangent, c alpha of a step or ALI3_INDEX_ONE_PENALTY; lam (nc), NULL for velocities: multipliers,
  * corrected too; `has_rates`: in->step.mu already holds Phi_q v. */

@@ -51,7 +51,7 @@ ALI3_INLINED void add_square_of_four(const ali3_system *S, const int32_t *rows, 
   const real *a = J + first[k], *b = J + first[rows[1]], *c = J + first[rows[2]], *d = J + first[rows[3]];
   for (int64_t j = 0; j < length; j++) {
     const real factor[4] = {weight * a[j], weight * b[j], weight * c[j], weight * d[j]};
-    int64_t from = j < 3 ? j : ali3_by_fours_unclipped(j, length);
+    int64_t from = j < 3 ? j : ali3_padded_start_unclipped(j, length);
     real *column = block + (loc[first[k]] + j) * n + loc[first[k]] + from;
     add_four(column, a + from, b + from, c + from, d + from, factor, length - from);
   }

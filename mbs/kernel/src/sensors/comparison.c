@@ -61,7 +61,7 @@ static void clear_sizes(const ali3_judged *judged, int32_t n, int32_t kind, doub
 }
 
 void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compared *seen, double length, double energy,
-                         int32_t guided, double *size) {
+                         int32_t exclude_prescribed, double *size) {
   double largest[ALI3_JUDGED_COUNT * KINDS] = {0.0}, range[ALI3_JUDGED_COUNT * KINDS] = {0.0};
   double moved[ALI3_JUDGED_COUNT * KINDS] = {0.0}; /* by how much places of the other motion are off */
   bool others_move = false, only_loads = true, positions_differ = false;
@@ -95,7 +95,8 @@ void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compar
     if (others_move && judged[i].unit == ALI3_JUDGED_RAD && ALI3_AGREED * size[i] <= ALI3_STILL) size[i] = 0.0;
     if (!(size[i] > 0.0)) continue;
     only_loads &= (judged[i].kind & ALI3_JUDGED_LOAD) != 0;
-    positions_differ |= judged[i].kind & ALI3_JUDGED_PLACE && (!guided || seen[i].gap > ALI3_STILL * size[i]);
+    positions_differ |=
+        judged[i].kind & ALI3_JUDGED_PLACE && (!exclude_prescribed || seen[i].gap > ALI3_STILL * size[i]);
   }
   if (only_loads || positions_differ) clear_sizes(judged, n, ALI3_JUDGED_ALWAYS, size);
 }

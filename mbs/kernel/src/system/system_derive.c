@@ -5,7 +5,7 @@
 
 #include "../algebra/processor.h"
 #include "../elements/element.h"
-#include "../elements/element_fours.h"
+#include "../elements/element_batches.h"
 #include "../system.h"
 #include "../tree/tree.h"
 #include "check.h"
@@ -47,9 +47,9 @@ static void place_arrays(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
   s->active_triple = ali3_pool_items(p, (size_t)s->size.nsig, 1);
   s->el_triple = ali3_pool_items(p, (size_t)s->n_el_sig, 1);
-  s->four = ali3_pool_items(p, 2 * ne, sizeof(int32_t));
+  s->batch = ali3_pool_items(p, 2 * ne, sizeof(int32_t));
   s->alone = ali3_pool_items(p, ne, sizeof(int32_t));
-  s->el_in_four = ali3_pool_items(p, ne, 1);
+  s->el_in_batch = ali3_pool_items(p, ne, 1);
   s->el_beside = ali3_pool_items(p, ne, sizeof(int32_t));
   s->flex_square = ali3_pool_items(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
   ali3_lookup_place(s, p, n_entry);
@@ -142,7 +142,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_mass(s);
   ali3_rows_derive(s);
   ali3_elements_derive(s);
-  ali3_fours_derive(s);
+  ali3_batches_derive(s);
   derive_flexible(s);
   const ali3_status lookup = ali3_lookup_derive(s, m);
   if (lookup != ALI3_OK) return lookup;

@@ -2,10 +2,11 @@
 import { el } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Cluster } from "./cluster.js";
-import { WorldMap, WorldPlan } from "./map.js";
+import { WorldMap } from "./map.js";
 import style from "./style.css";
 import { frictionOf } from "./surfaces.js";
 import { Tyres, wheelsOf } from "./tyres.js";
+import { WorldPlan } from "./world_plan.js";
 
 /** Least time between two drawings of the small map, s. */
 const MAP_INTERVAL = 0.1;

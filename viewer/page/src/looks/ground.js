@@ -8,6 +8,8 @@ import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
 
 /** Periods of the layers of the pattern, m: grain, patches, tones, painted lines. */
 const PERIODS = [1.1, 7.3, 61, 10];
+/** Linear colour of grass. */
+const GRASS = new THREE.Color(0.105, 0.125, 0.052);
 
 const PARAMETERS = /* glsl */ `
 uniform vec3 aX, aY;
@@ -19,6 +21,15 @@ varying vec3 vGround;
 varying vec2 vSlick;
 `;
 
+/** Linear colours of the ground. */
+const COLOURS = /* glsl */ `
+const vec3 STONE = vec3(0.118, 0.119, 0.12), PAINT = vec3(0.62), ICE = vec3(0.55, 0.66, 0.74), PAVING = vec3(0.46, 0.455, 0.44);
+const float SPECK = 0.09; // of bright stones, added
+const float WET = 0.58; // share of the light that a film of water takes
+const float HALF_LINE = 0.06; // half the width of a painted line, m
+`;
+
+/** Colour: grain, patches and tones of the noise; painted lines; vSlick: film of water (-1: stone) and ice. */
 const ASPHALT = /* glsl */ `
 vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
 vec4 near = texture2D(aNoise, (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)});
@@ -26,21 +37,21 @@ float grain = near.r;
 float speck = near.a;
 float patches = texture2D(aNoise, (plane + aOffset[1]) / ${PERIODS[1].toFixed(1)}).g;
 float tone = texture2D(aNoise, (plane + aOffset[2]) / ${PERIODS[2].toFixed(1)}).b;
-vec3 stone = vec3(0.118, 0.119, 0.12) * (0.3 + 1.05 * grain + 0.45 * (patches - 0.5) + 0.6 * (tone - 0.5)) + 0.09 * speck;
+vec3 stone = STONE * (0.3 + 1.05 * grain + 0.45 * (patches - 0.5) + 0.6 * (tone - 0.5)) + SPECK * speck;
 #ifdef A_GRASS
 stone = aGrass * (0.35 + 0.75 * grain * patches + 1.1 * (tone - 0.3));
 #endif
 if (aPaint > 0.0) {
   vec2 line = abs(mod(plane + aOffset[3] + ${(PERIODS[3] / 2).toFixed(1)}, ${PERIODS[3].toFixed(1)}) - ${(PERIODS[3] / 2).toFixed(1)});
   vec2 soft = max(fwidth(plane), 1e-5);
-  vec2 on = 1.0 - smoothstep(0.06 - 0.5 * soft, 0.06 + 0.5 * soft + 1e-4, line);
-  on *= min(vec2(1.0), 0.12 / soft);
-  stone = mix(stone, vec3(0.62) * (0.75 + 0.3 * patches), aPaint * max(on.x, on.y) * (0.55 + 0.45 * grain));
+  vec2 on = 1.0 - smoothstep(HALF_LINE - 0.5 * soft, HALF_LINE + 0.5 * soft + 1e-4, line);
+  on *= min(vec2(1.0), 2.0 * HALF_LINE / soft);
+  stone = mix(stone, PAINT * (0.75 + 0.3 * patches), aPaint * max(on.x, on.y) * (0.55 + 0.45 * grain));
 }
-vec3 ice = vec3(0.55, 0.66, 0.74) * (0.8 + 0.3 * patches);
-stone = mix(stone, vec3(0.46, 0.455, 0.44) * (0.7 + 0.45 * grain), clamp(-vSlick.x, 0.0, 1.0));
+vec3 ice = ICE * (0.8 + 0.3 * patches);
+stone = mix(stone, PAVING * (0.7 + 0.45 * grain), clamp(-vSlick.x, 0.0, 1.0));
 float film = max(vSlick.x, 0.0);
-stone = mix(stone * (1.0 - 0.58 * film), ice, vSlick.y);
+stone = mix(stone * (1.0 - WET * film), ice, vSlick.y);
 diffuseColor.rgb *= stone;
 `;
 
@@ -76,7 +87,7 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
     aOffset: { value: PERIODS.map(() => new THREE.Vector2()) },
     aNoise: { value: noise },
     aPaint: { value: paint },
-    aGrass: { value: new THREE.Color(0.105, 0.125, 0.052) },
+    aGrass: { value: GRASS },
   };
   const material = fine ? new THREE.MeshStandardMaterial({ metalness: 0 }) : new THREE.MeshLambertMaterial();
   material.defines = { ...material.defines, ...(grass ? { A_GRASS: 1 } : {}) };
@@ -105,5 +116,5 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
 function addPattern(shader) {
   onTheEarth(shader);
   atEachPoint(shader, "attribute vec2 slick;\nvarying vec2 vSlick;", "vSlick = slick;");
-  atEachPixel(shader, PARAMETERS, { map_fragment: ASPHALT });
+  atEachPixel(shader, PARAMETERS + COLOURS, { map_fragment: ASPHALT });
 }

@@ -8,7 +8,7 @@ import { groundMaterial } from "./ground.js";
 import { reflecting } from "./environment_map.js";
 import { noiseTexture } from "./noise.js";
 import { makeRoads } from "./roads.js";
-import { HAZE, seenSky, skyBall } from "./sky.js";
+import { HAZE, skyBackground, skySphere } from "./sky.js";
 import { sunLight } from "./sun.js";
 import { makeWorld } from "./world.js";
 
@@ -36,14 +36,14 @@ export function outdoors(view, fine) {
   const environment = {};
   const pixels = new THREE.Vector2();
   const noise = noiseTexture(fine ? 8 : 1);
-  const sky = seenSky();
+  const sky = skyBackground();
   world.add(sky);
   const land = makeWorld(scene, { up, noise, sun: new THREE.Vector3(...direction), fine });
   if (land !== null) world.add(land.group);
   /** Draws the sky to a cube for background and reflections; returns it as a scene. */
   const makeSky = () => {
     environment.cube?.dispose();
-    const skyScene = new THREE.Scene().add(skyBall(up, new THREE.Vector3(...direction), noise));
+    const skyScene = new THREE.Scene().add(skySphere(up, new THREE.Vector3(...direction), noise));
     environment.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
     new THREE.CubeCamera(0.1, 100, environment.cube).update(renderer, skyScene);
     sky.material.uniforms.cube.value = environment.cube.texture;

@@ -6,14 +6,14 @@ import { terrainBorder } from "./terrain_border.js";
 import { bundles, coarsest, parts, pieceParts } from "./terrain_mesh.js";
 
 /**
- * Fineness of a ground: cells of a side of a part; pieces, which are not drawn outside the picture; largest number of
+ * Level of detail of a ground: cells of a side of a part; pieces, which are not drawn outside the picture; largest number of
  * triangles; and allowed error of heights, m: `least` up to the distance `near`, plus `error` for each metre beyond.
- * @typedef {{cells: number, pieces: number, most: number, least: number, near: number, error: number}} Fineness
+ * @typedef {{cells: number, pieces: number, most: number, least: number, near: number, error: number}} LevelOfDetail
  */
 
-/** The error is below a pixel where paint is wider than a pixel. @type {Fineness} */
+/** The error is below a pixel where paint is wider than a pixel. @type {LevelOfDetail} */
 export const FINE = { cells: 128, pieces: 120, most: Infinity, least: 2e-3, near: 150, error: 7e-4 };
-/** For few calls; the error near the camera is covered by the depth offset of paint. @type {Fineness} */
+/** For few calls; the error near the camera is covered by the depth offset of paint. @type {LevelOfDetail} */
 export const ROUGH = { cells: 64, pieces: 14, most: 15000, least: 8e-3, near: 0, error: 2.5e-3 };
 /** Largest number of points of a piece. */
 const MAX_POINTS = 60000;
@@ -27,13 +27,13 @@ const UPDATE_DISTANCE = 15;
  * @param {THREE.Material} material
  * @param {number[][]} axes x, y and up of the world
  * @param {import("./heights.js").HeightField} field
- * @param {Fineness} fineness
+ * @param {LevelOfDetail} detail
  */
-export function terrain(material, axes, field, fineness) {
+export function terrain(material, axes, field, detail) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
-  const pieces = bundles(parts(field.patches, fineness.cells), fineness.pieces, MAX_POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
-  const around = terrainBorder(field, material, fineness.least);
+  const pieces = bundles(parts(field.patches, detail.cells), detail.pieces, MAX_POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
+  const around = terrainBorder(field, material, detail.least);
   group.add(...pieces.map(({ mesh }) => mesh), around.mesh);
   let chosen = null;
   /** @param {number[]} origin earth position of the origin of the picture, m @param {number[]} eye camera, relative to the origin, m */
@@ -45,7 +45,7 @@ export function terrain(material, axes, field, fineness) {
     for (const { mesh, base } of pieces) mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
     if (!moved) return;
     chosen = camera;
-    const levels = levelsWithin(pieces.map(({ parts: drawn }) => drawn), camera, fineness);
+    const levels = levelsWithin(pieces.map(({ parts: drawn }) => drawn), camera, detail);
     pieces.forEach(({ choose }, k) => choose(levels[k]));
   };
   const dispose = () => {
@@ -57,7 +57,7 @@ export function terrain(material, axes, field, fineness) {
 /**
  * Levels of all parts of all pieces, within the largest number of triangles.
  * @param {{middle: number[], radius: number, levels: {error: number, count: number}[]}[][]} pieces
- * @param {number[]} eye x and y in the world @param {Fineness} fineness
+ * @param {number[]} eye x and y in the world @param {LevelOfDetail} detail
  * @returns {number[][]}
  */
 export function levelsWithin(pieces, eye, { most, least, near, error: first }) {

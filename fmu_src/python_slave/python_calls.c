@@ -27,14 +27,14 @@ typedef struct {
   python_link link;
   fmi2CallbackFunctions callbacks; /* PythonFMU keeps a pointer to them */
   fmi2Component inner;             /* PythonFMU's instance; NULL once an exception of Python has ended it */
-} detour;
+} python_instance;
 
 static const pythonfmu *py; /* loaded with the first instance; it stays, as the interpreter does */
 
 /* PythonFMU hands over finished text: an exception of Python, or what the class in Python logs. */
 static void log_of_python(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
                           fmi2String text, ...) {
-  const detour *d = environment;
+  const python_instance *d = environment;
   (void)name, (void)category;
   slave_log(d->link.s, status >= fmi2Error ? SLAVE_ERROR : (slave_status)status, "%s", text);
 }
@@ -56,7 +56,7 @@ static bool has_module(slave *s) {
 static bool python_has_ended(void) { return py != NULL && !py->is_initialized(); }
 
 /* Makes PythonFMU's instance; true without one once the interpreter has ended. False: an error was logged. */
-static bool start_python(detour *d) {
+static bool start_python(python_instance *d) {
   slave *s = d->link.s;
   char address[32], uri[SLAVE_PATH + 16], problem[SLAVE_TEXT / 2];
   if (python_has_ended()) return true;
@@ -78,14 +78,14 @@ slave *fmi2_new(fmi2_adapter *adapter, const ali3_memory *memory, slave_logger *
                 const char *token, const char *resources) {
   slave *s = slave_new(memory, adapter, logger, logging, name, token, resources);
   if (s == NULL) return NULL;
-  detour *d = memory->allocate(1, sizeof *d);
+  python_instance *d = memory->allocate(1, sizeof *d);
   adapter->s = s;
-  adapter->detour = d;
+  adapter->python = d;
   if (d != NULL) {
-    const detour fresh = {{s, s->name, 0, slave_setup, slave_enter, slave_exit, slave_step, slave_terminate, slave_get,
-                           slave_set, slave_get_whole, slave_set_whole},
-                          {log_of_python, memory->allocate, memory->release, NULL, d},
-                          NULL};
+    const python_instance fresh = {{s, s->name, 0, slave_setup, slave_enter, slave_exit, slave_step, slave_terminate,
+                                    slave_get, slave_set, slave_get_whole, slave_set_whole},
+                                   {log_of_python, memory->allocate, memory->release, NULL, d},
+                                   NULL};
     *d = fresh;
   }
   if (d != NULL && start_python(d)) return s;
@@ -95,7 +95,7 @@ slave *fmi2_new(fmi2_adapter *adapter, const ali3_memory *memory, slave_logger *
 }
 
 void fmi2_free(fmi2_adapter *adapter) {
-  detour *d = adapter->detour;
+  python_instance *d = adapter->python;
   slave *s = adapter->s;
   if (d != NULL && d->inner != NULL && !python_has_ended()) {
     /* At its end the interpreter ends threads that wait for it; in PythonFMU's destructor that would abort the host. */
@@ -109,8 +109,8 @@ void fmi2_free(fmi2_adapter *adapter) {
 
 /* PythonFMU's instance behind a slave, or NULL if the interpreter has ended or, which is logged, after an exception of
  * Python. */
-static detour *begin(slave *s) {
-  detour *d = ((fmi2_adapter *)s->host)->detour;
+static python_instance *begin(slave *s) {
+  python_instance *d = ((fmi2_adapter *)s->host)->python;
   d->link.answer = SLAVE_ERROR; /* unless Python brings another one */
   if (python_has_ended()) return NULL;
   if (d->inner != NULL) return d;
@@ -122,41 +122,41 @@ static detour *begin(slave *s) {
 #define AT_ONCE(call) (python_has_ended() ? (call) : SLAVE_ERROR)
 
 /* PythonFMU frees its instance after an exception. */
-static slave_status end(detour *d, fmi2Status status) {
+static slave_status end(python_instance *d, fmi2Status status) {
   if (status < fmi2Error) return (slave_status)d->link.answer;
   d->inner = NULL;
   return SLAVE_ERROR;
 }
 
 slave_status fmi2_setup(slave *s, double start_time, bool stop_defined, double stop_time) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->setup(d->inner, 0, 0.0, start_time, stop_defined, stop_time))
                    : AT_ONCE(slave_setup(s, start_time, stop_defined, stop_time));
 }
 
 slave_status fmi2_enter(slave *s) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->enter(d->inner)) : AT_ONCE(slave_enter(s));
 }
 
 slave_status fmi2_exit(slave *s) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->exit(d->inner)) : AT_ONCE(slave_exit(s));
 }
 
 slave_status fmi2_step(slave *s, double time, double step) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->step(d->inner, time, step, 0)) : AT_ONCE(slave_step(s, time, step));
 }
 
 slave_status fmi2_terminate(slave *s) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->terminate(d->inner)) : AT_ONCE(slave_terminate(s));
 }
 
 /* PythonFMU makes a new object of the class, which finds the same link. */
 slave_status fmi2_reset(slave *s) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   if (d == NULL) return AT_ONCE(slave_reset(s));
   d->link.answer = SLAVE_OK;
   const slave_status status = end(d, py->reset(d->inner));
@@ -164,23 +164,23 @@ slave_status fmi2_reset(slave *s) {
 }
 
 slave_status fmi2_get(slave *s, const uint32_t *reference, size_t n, double *value) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->get_real(d->inner, reference, n, value)) : AT_ONCE(slave_get(s, reference, n, value));
 }
 
 slave_status fmi2_set(slave *s, const uint32_t *reference, size_t n, const double *value) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->set_real(d->inner, reference, n, value)) : AT_ONCE(slave_set(s, reference, n, value));
 }
 
 slave_status fmi2_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->get_integer(d->inner, reference, n, value))
                    : AT_ONCE(slave_get_whole(s, reference, n, value));
 }
 
 slave_status fmi2_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value) {
-  detour *d = begin(s);
+  python_instance *d = begin(s);
   return d != NULL ? end(d, py->set_integer(d->inner, reference, n, value))
                    : AT_ONCE(slave_set_whole(s, reference, n, value));
 }

@@ -2,16 +2,16 @@
 #include <string.h>
 
 #include "element.h"
-#include "element_fours.h"
+#include "element_batches.h"
 #include "laws.h"
 #include "road.h"
 
-/* Whether element e has a vector law and fits into the arrays of element_fours.c. */
+/* Whether element e has a vector law and fits into the arrays of element_batches.c. */
 static bool has_vector_law(const ali3_system *s, int32_t e) {
   const ali3_element_type *type = s->el_kind[e];
   const ali3_element_size *z = s->el_size + e;
-  if (!s->has_avx2 || z->nreal > ALI3_FOUR_REALS || z->nstate > ALI3_FOUR_STATES || z->nout > ALI3_FOUR_OUTPUTS ||
-      z->nint > ALI3_FOUR_INTEGERS)
+  if (!s->has_avx2 || z->nreal > ALI3_BATCH_REALS || z->nstate > ALI3_BATCH_STATES || z->nout > ALI3_BATCH_OUTPUTS ||
+      z->nint > ALI3_BATCH_INTEGERS)
     return false;
 #define ALI3_IS(name) || type == &ali3_##name
   return false ALI3_LAWS_OF_SIGNALS(ALI3_IS);
@@ -26,29 +26,29 @@ static bool is_same_kind(const ali3_system *s, int32_t a, int32_t b) {
          memcmp(s->el_int + x->integer, s->el_int + y->integer, (size_t)x->nint * sizeof(int32_t)) == 0;
 }
 
-void ali3_fours_derive(ali3_system *s) {
+void ali3_batches_derive(ali3_system *s) {
   const int32_t ne = s->size.ne;
-  int32_t *four = s->four;
-  unsigned char *grouped = s->el_in_four;
+  int32_t *batch = s->batch;
+  unsigned char *grouped = s->el_in_batch;
   memset(grouped, 0, (size_t)ne);
-  s->n_four = s->n_alone = 0;
+  s->n_batches = s->n_alone = 0;
   for (int32_t e = 0; e < ne; e++) {
     int32_t m = 0;
-    for (int32_t k = e; k < ne && m < ALI3_FOUR && !grouped[e] && has_vector_law(s, e); k++)
-      if (!grouped[k] && is_same_kind(s, e, k)) four[m++] = k;
+    for (int32_t k = e; k < ne && m < ALI3_BATCH && !grouped[e] && has_vector_law(s, e); k++)
+      if (!grouped[k] && is_same_kind(s, e, k)) batch[m++] = k;
     if (m < 2) {
       if (!grouped[e]) s->alone[s->n_alone++] = e;
       continue;
     }
-    for (int32_t l = 0; l < m; l++) grouped[four[l]] = 1;
-    for (; m < ALI3_FOUR; m++) four[m] = e; /* repeated, with the same result */
-    four += ALI3_FOUR;
-    s->n_four++;
+    for (int32_t l = 0; l < m; l++) grouped[batch[l]] = 1;
+    for (; m < ALI3_BATCH; m++) batch[m] = e; /* repeated, with the same result */
+    batch += ALI3_BATCH;
+    s->n_batches++;
   }
 }
 
-const struct ali3_road *ali3_fours_road(const ali3_instance *in, int32_t number, int32_t *type, double *numbers,
-                                        double *friction_factor) {
+const struct ali3_road *ali3_batches_road(const ali3_instance *in, int32_t number, int32_t *type, double *numbers,
+                                          double *friction_factor) {
   *type = ali3_road_numbers(in->roads.used + number, numbers, friction_factor);
   return in->roads.used + number;
 }
