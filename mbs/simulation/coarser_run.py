@@ -88,8 +88,8 @@ class CoarserRuns:
         halvings, so that a run that is halved almost to the same steps has to be nearer.
 
         None if the steps are too few or were halved to the first run's, the run fails or ends at another time,
-        or a sensor differs by more than `limit` of its range. `iterations`: largest number of Newton iterations per
-        step; 0: no limit.
+        a sensor differs by more than `limit` of its range, or the energy of that run drifts by more, with which it may
+        agree by chance. `iterations`: largest number of Newton iterations per step; 0: no limit.
         """
         refined, times = self.refined, self.refined.run[0].t
         # the steps end at each sample, or at every `stride`-th one if they are longer than the sampling interval
@@ -114,7 +114,12 @@ class CoarserRuns:
         parts = self._mean_parts(stride * (len(other[0].t) - 1))
         made_ratio = step_ratio * parts / mean_parts(made.steps, made.halvings)
         least = max(2, min(len(run[0].t) - 1, smooth_from))
-        if made_ratio <= 1.0 or len(other[0].t) < least or (coordinates and len(other[1]) != len(run[1])):
+        if (
+            accuracy.energy_drift(made) > limit
+            or made_ratio <= 1.0
+            or len(other[0].t) < least
+            or (coordinates and len(other[1]) != len(run[1]))
+        ):
             return None
         return refined.estimate(run, other, h, 1.0 / made_ratio), max(made_ratio, step_ratio)
 
