@@ -505,3 +505,8 @@ def turning_six_bar() -> mbs.Model:
 def nearly_thrown() -> mbs.Model:
     """A suspension that turns inside out with steps of 20 ms, and not with steps of 10 ms."""
     return suspension(5.85)
+
+
+def thrown_over() -> mbs.Model:
+    """A suspension that turns inside out, with half of steps of 10 ms one step later."""
+    return suspension(6.6)
