@@ -474,7 +474,6 @@ void slave_half_steps_end(slave *s) {
   slave_half_steps_settle(s);
   report_motion(s, ali3_time(s->fidelity.kernel), true);
   s->half_steps.saved->remaining = 0.0; /* no more is to be known of assembly modes */
-  slave_watch(s);
 }
 
 slave_status slave_half_steps_advance(slave *s) {
