@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 import mbs
+from benchmarks.methods import random_mechanisms
 from benchmarks.methods.free_wheels import WHEELS
 from mbs.common.affine import Affine
 from mbs.elements import ContactPoints, CoordinateFriction, EndStops, GridRoad, PlaneRoad, PortRoad
@@ -16,6 +17,7 @@ from mbs.model.records import Ahead
 from mbs.scenes import cart_pole
 from tests.elements.tyre_data import TYRE
 from tests.model.test_parametric_inertias import DRAWN, thrown_model
+from tests.simulation.loops import suspension
 
 
 def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
@@ -488,3 +490,23 @@ def fast_cart() -> mbs.Model:
     m = cart_pole.build()
     m.step, m.stop_time = 1e-3, 0.3
     return m
+
+
+def passing_four_bar() -> mbs.Model:
+    """A four-bar that passes near a singular position at 0.17 s, where its steps are halved and lose energy."""
+    return random_mechanisms.model_of(random_mechanisms.random_mechanism(np.random.default_rng([5, 30]))[1])
+
+
+def turning_six_bar() -> mbs.Model:
+    """A six-bar of which a loop leaves its assembly mode at 0.956 s, with steps of any length."""
+    return random_mechanisms.model_of(random_mechanisms.random_mechanism(np.random.default_rng([5, 29]))[1])
+
+
+def nearly_thrown() -> mbs.Model:
+    """A suspension that turns inside out with steps of 20 ms, and not with steps of 10 ms."""
+    return suspension(5.85)
+
+
+def thrown_over() -> mbs.Model:
+    """A suspension that turns inside out, with half of steps of 10 ms one step later."""
+    return suspension(6.6)

@@ -16,7 +16,7 @@ from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar
 from mbs.vehicle import load
 from tests.fmu.calls import ERROR, OK, WARNING
-from tests.fmu.scenes import contradicting_arm, driven_crank, piston_of
+from tests.fmu.scenes import contradicting_arm, driven_crank, passing_four_bar, piston_of, turning_six_bar
 
 SCENES = Path(__file__).parent / "scenes.py"
 TORQUE = 4.0
@@ -120,6 +120,47 @@ def test_a_changed_assembly_mode_is_reported_once(tmp_path, host):
     assert "1.6 s" in messages
     assert "'B', 'C'" in messages
     assert driven.get("solver.status") == Status.BRANCH_CHANGED
+
+
+@pytest.mark.parametrize(("steps", "wrong"), [(350, True), (14000, False)])
+def test_an_error_that_both_motions_share_is_reported(build, host, steps, wrong):
+    """Past a singular position half the step loses as much energy: the motions differ by 2.6 %, the true one by 6 %."""
+    driven, h = host(build("passing_four_bar")), 3.5 / steps
+    driven.start({"step_size": h})
+    found = [driven.get("tip0.x")]
+    for k in range(steps):
+        driven.step(k * h, h)
+        found += [driven.get("tip0.x")] if (k + 1) % (steps // 350) == 0 else []
+    driven.slave.terminate()
+    true = mbs.simulate(
+        mbs.compile(passing_four_bar()), 3.5, tolerance=1e-5, times=np.linspace(0.0, 3.5, 351), progress=False
+    )["tip0.x"]
+    assert (np.abs(np.array(found) - true).max() > 0.05 * np.ptp(true)) == wrong
+    assert [m.count("not tried, until this is not reported") for m in driven.messages] == [1] * wrong
+
+
+@pytest.mark.filterwarnings("ignore::mbs.results.accuracy.AccuracyWarning")  # of the long steps with which it is built
+def test_a_mode_that_the_second_motion_leaves_too_is_not_reported(build, host):
+    """The run is right to 0.4 %: its motion leaves the mode and not its steps."""
+    driven, h = host(build("turning_six_bar")), 1e-3
+    driven.start({"step_size": h})
+    for k in range(1500):
+        driven.step(k * h, h)
+    driven.slave.terminate()
+    assert driven.messages == []
+    run = mbs.simulate(mbs.compile(turning_six_bar()), 1.5, h, estimate_error=False, progress=False)
+    assert run.report is not None
+    assert 0.9 < run.report.branch_time < 1.0
+
+
+@pytest.mark.parametrize(("scene", "h", "reported"), [("nearly_thrown", 0.02, True), ("thrown_over", 0.01, False)])
+def test_a_mode_that_only_the_run_leaves_is_reported_once(scene, h, reported, build, host):
+    driven = host(build(scene))
+    driven.start({"step_size": h})
+    for k in range(round(0.6 / h)):
+        driven.step(k * h, h)
+    driven.slave.terminate()
+    assert ["left its assembly mode" in m for m in driven.messages].count(True) == reported
 
 
 @pytest.mark.parametrize(("h", "reported"), [(0.01, True), (0.00125, False)])

@@ -2,6 +2,7 @@
  * and after a start in long steps, the motion is computed again with 1/2 of a short step up to 1/8 of a long one, and
  * at most half of the mean part of a halved one, until both motions agree for 0.5 s or the budget is spent; the
  * difference of their outputs estimates the error of the step. Without a road the growth of the error is extrapolated.
+ * If both lose the same energy, as past a singular position, shorter steps do not show the error, which is reported.
  * There is no second motion in runs without abrupt forces, or after a warning. It is a snapshot of the same instance;
  * late steps are those that it has not computed yet: expensive ones are left to calls with fewer iterations. */
 #include <math.h>
@@ -136,7 +137,8 @@ void slave_half_steps_begin(slave *s) {
       log_unchecked(s, ali3_time(s->fidelity.kernel), "there is not enough memory for it");
     return;
   }
-  *t->saved = (slave_second_motion){.scheduled = -HUGE_VAL, .predicted = HUGE_VAL, .checked = -HUGE_VAL};
+  *t->saved =
+      (slave_second_motion){.scheduled = -HUGE_VAL, .predicted = HUGE_VAL, .shared = HUGE_VAL, .checked = -HUGE_VAL};
   memset(t->compared, 0, (size_t)t->n * sizeof *t->compared);
   ali3_snapshot_take(s->fidelity.kernel, t->second); /* a valid one until the second motion starts */
   if (ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output) == ALI3_OK)
@@ -218,15 +220,45 @@ static void log_conclusion(slave *s, const slave_late_step *step, double differe
   log_unchecked(s, step->end, why);
 }
 
+/* Ratio of the energy balance to which positions become wrong: (1 + rotation of the motion, rad). */
+static double energy_drift(const ali3_report *report) {
+  return ali3_energy_balance(report) * (1.0 + report->velocity_path / report->speed_peak);
+}
+
+/* Whether the second motion has a wrong energy, and not by less than half of the error of the first: both share an
+ * error. Roads, driving functions and abrupt forces have errors of the energy by which positions are not wrong. */
+static bool shares_error(const slave *s, const slave_late_step *step, const ali3_report *second) {
+  return !has_road(s) && ali3_system_sizes(s->fidelity.system).ng == 0 &&
+         second->abrupt_steps + second->divisions == 0 && fabs(second->energy_error) > second->energy_floor &&
+         2.0 * fabs(second->energy_error) > fabs(step->energy_error) && energy_drift(second) > ALI3_WRONG_ERROR;
+}
+
+/* Whether the second motion has run from the start, without a road, and not ended: only then it shows whether the
+ * motion, and not its steps, changes an assembly mode. */
+static bool runs_from_start(const slave *s) {
+  const slave_second_motion *saved = s->half_steps.saved;
+  return saved != NULL && !has_road(s) && saved->checked == -HUGE_VAL &&
+         (saved->remaining > 0.0 || s->half_steps.n_late > 0);
+}
+
+bool slave_half_steps_may_follow(const slave *s, double time) {
+  return !s->error_warned && runs_from_start(s) &&
+         (s->half_steps.n_late > 0 || ali3_time(s->fidelity.kernel) < time + SPAN * stretch(s->completed.h));
+}
+
 /* Compares both motions at the end of a late step. */
 static void compare(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
   const double length = counted_length(step->n, step->h), start = start_span(s, step->h);
+  const ali3_report second = get_report(s);
   int32_t worst;
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->output);
   ali3_compare(t->judged, t->n, 1, &step->end, step->values + input_count(s), t->output, t->compared);
-  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
+  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, second.energy_floor, 0, t->size);
   const double difference = ali3_compared_error(t->n, t->compared, t->size, 1, &worst);
+  t->saved->shared = shares_error(s, step, &second) ? fmin(t->saved->shared, step->end) : HUGE_VAL;
+  if (runs_from_start(s) && step->branch_changes > 0 && second.branch_changes > 0)
+    s->calls.mode_warned = 1; /* the motion changes its mode and not its steps */
   if (difference > t->saved->difference) {
     t->saved->difference = difference;
     t->saved->time = step->end;
@@ -305,6 +337,7 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->start_needed = starts || (t->start_needed && t->n_late > 1);
   if (span > 0.0) t->saved->scheduled = fmax(t->saved->scheduled, begin + span * stretch(s->completed.h));
+  const ali3_report report = get_report(s);
   slave_read_step(s, step->parameter, step->values);
   slave_inputs_at(s, 0.0, step->values);
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, step->values + input_count(s));
@@ -315,6 +348,8 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
                             .ratio = (double)n_parts / made,
                             .span = span,
                             .simulated = t->saved->simulated,
+                            .energy_error = report.energy_error,
+                            .branch_changes = report.branch_changes,
                             .values = step->values,
                             .parameter = step->parameter,
                             .sloped = s->completed.sloped,
@@ -362,12 +397,30 @@ static slave_status report_prediction(slave *s, double now) {
                    100.0 * extrapolated_error(t->saved->late_difference, t->saved->ratio), 0.5 * t->saved->h);
 }
 
-/* Logs a difference after SPAN, or at the end of the run, and a prediction at its time. */
+/* Logs that both motions have a wrong energy. */
+static slave_status report_shared_error(slave *s) {
+  const ali3_report report = get_report(s);
+  const double h = s->completed.h;
+  s->error_warned = true;
+  return slave_log(
+      s, SLAVE_WARNING,
+      "Up to %.4g s the steps have added or lost %.3g J without a force, %.2g %% of the energy in the "
+      "motion, and shorter steps lost more than half as much, as past a position in which bodies of a loop "
+      "lie in line: by how much outputs are off is not known. Run again with a step_size of %.2g s or "
+      "less, which was not tried, until this is not reported.",
+      ali3_time(s->fidelity.kernel), report.energy_error, 100.0 * ali3_energy_balance(&report),
+      h / (double)ALI3_MOST_PARTS);
+}
+
+/* Logs a shared error or a difference after SPAN, or at the end of the run, and a prediction at its time. */
 static slave_status report_motion(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
   const slave_status judged =
       t->saved->difference > 0.0 && (ended || now > t->saved->time + SPAN * stretch(t->saved->h)) ? report_difference(s)
                                                                                                   : SLAVE_OK;
+  if (!s->error_warned && !s->calls.energy_warned &&
+      (ended ? isfinite(t->saved->shared) : now > t->saved->shared + SPAN * stretch(s->completed.h)))
+    return report_shared_error(s);
   return s->error_warned || now < t->saved->predicted ? judged : report_prediction(s, now);
 }
 
@@ -389,7 +442,8 @@ ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char 
                            saved.h,         saved.ratio, saved.early_difference, saved.late_difference};
   for (size_t i = 0; i < sizeof finite / sizeof *finite; i++)
     if (!isfinite(finite[i])) return ALI3_BAD_STATE;
-  if (isnan(saved.scheduled) || isnan(saved.checked) || isnan(saved.predicted)) return ALI3_BAD_STATE;
+  if (isnan(saved.scheduled) || isnan(saved.checked) || isnan(saved.predicted) || isnan(saved.shared))
+    return ALI3_BAD_STATE;
   if (saved.difference > 0.0 && !(saved.parts >= 2 && saved.h > 0.0 && saved.ratio > 0.0)) return ALI3_BAD_STATE;
   return saved.remaining > 0.0 ? ali3_snapshot_check(f->kernel, bytes + sizeof saved + n * sizeof(ali3_compared))
                                : ALI3_OK;
@@ -419,6 +473,7 @@ void slave_half_steps_end(slave *s) {
     return;
   slave_half_steps_settle(s);
   report_motion(s, ali3_time(s->fidelity.kernel), true);
+  s->half_steps.saved->remaining = 0.0; /* no more is to be known of assembly modes */
 }
 
 slave_status slave_half_steps_advance(slave *s) {

@@ -117,10 +117,16 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
   return NULL;
 }
 
+/* Logs what is known only at the end of a run. */
+static void end_run(slave *s) {
+  slave_half_steps_end(s);
+  slave_watch(s);
+}
+
 void slave_free(slave *s) {
   if (s == NULL) return;
   void (*const release)(void *) = s->memory.release;
-  slave_half_steps_end(s);
+  end_run(s);
   if (s->value != NULL) release(s->value);
   slave_half_steps_free(s);
   slave_intermediate_free(s);
@@ -164,13 +170,13 @@ slave_status slave_exit(slave *s) {
 }
 
 slave_status slave_terminate(slave *s) {
-  slave_half_steps_end(s);
+  end_run(s);
   s->calls.phase = SLAVE_TERMINATED;
   return SLAVE_OK;
 }
 
 slave_status slave_reset(slave *s) {
-  slave_half_steps_end(s);
+  end_run(s);
   ali3_reset(s->fidelity.kernel);
   set_start_values(s);
   return slave_texts_reset(s) ? SLAVE_OK : SLAVE_ERROR;

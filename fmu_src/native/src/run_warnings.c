@@ -20,10 +20,11 @@ static slave_status watch_energy(slave *s, const ali3_report *report) {
       s->value[s->step_reference]);
 }
 
-/* Warns of a closed loop that left its assembly mode. */
+/* Warns of a closed loop that changed its assembly mode, of one that left it unless the second motion does so, too. */
 static slave_status watch_modes(slave *s, const ali3_report *report) {
   char text[SLAVE_TEXT / 2];
   if (s->calls.mode_warned || report->branch_changes == 0) return SLAVE_OK;
+  if (report->branch_kind == ALI3_BRANCH_LEFT && slave_half_steps_may_follow(s, report->branch_time)) return SLAVE_OK;
   if (ali3_branch_text(s->fidelity.kernel, text, sizeof text) != ALI3_OK) return SLAVE_OK;
   s->calls.mode_warned = 1;
   return slave_log(s, SLAVE_WARNING, "%s This is reported once.", text);

@@ -141,6 +141,8 @@ typedef struct { /* a communication step that the second motion has not computed
   double ratio; /* mean step of the first motion, halved or not, divided by the step of the second */
   double span; /* s, for which the second motion runs from its start, as a force changed abruptly; 0: it did not */
   double simulated; /* s, as in slave_second_motion */
+  double energy_error; /* J, of the first motion at its end */
+  int64_t branch_changes; /* likewise */
   double *values; /* inputs at its start, then compared outputs at its end */
   double *parameter;
   bool sloped, starts; /* inputs have slopes; the second motion may start here from `start` */
@@ -154,6 +156,7 @@ typedef struct { /* numbers of the second motion, which states have beside its s
   int64_t parts; /* of that step in the second motion */
   double early_difference, late_difference; /* largest in the second quarter of a start, and after it; relative */
   double checked, predicted; /* s: end of the comparison of a start; time at which the growing error is large */
+  double shared; /* s: since when both motions have a wrong energy; HUGE_VAL: they do not */
   int64_t worst; /* compared output that has late_difference */
 } slave_second_motion;
 
@@ -410,6 +413,8 @@ void slave_end_ramps(slave *s);
 slave_status slave_half_steps_advance(slave *s);
 /* After a start: forgets the second motion; the next step begins it. */
 void slave_half_steps_begin(slave *s);
+/* Whether the second motion may still follow the first one in a change of its assembly mode at `time`, s. */
+bool slave_half_steps_may_follow(const slave *s, double time);
 /* Before a state is saved and at the end: computes the late steps. */
 void slave_half_steps_settle(slave *s);
 /* Bytes of `saved` that are part of a state, from which the second motion goes on as it was; writes it into bytes that

@@ -27,7 +27,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers the bytes after it; only serialized states have one. */
-enum { STATE_VERSION = 10, CRC_OFFSET = 12, CRC_START = 16 };
+enum { STATE_VERSION = 11, CRC_OFFSET = 12, CRC_START = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
