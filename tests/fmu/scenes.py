@@ -488,3 +488,8 @@ def fast_cart() -> mbs.Model:
     m = cart_pole.build()
     m.step, m.stop_time = 1e-3, 0.3
     return m
+
+
+def van() -> mbs.Model:
+    """A car whose file has no points at which its body touches the ground."""
+    return mbs.vehicle.load("commonroad_vanagon").model()
