@@ -65,8 +65,8 @@ class Report:
         Steps or parts of steps that were halved because a force of a contact or a stop changed abruptly in them, and
         parts of steps that ended at a jump or peak of an input or at a row of a force by table.
     abrupt_steps : int
-        Steps in which such a force changed by more than a tenth of the largest one; without roads, the force of a
-        spring beyond its stop; steps that ended at a row of a force by table.
+        Steps in which such a force, or one of a tyre along the road, changed by more than a tenth of the largest one;
+        without roads, the force of a spring beyond its stop; steps that ended at a row of a force by table.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float

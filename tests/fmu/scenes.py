@@ -510,3 +510,8 @@ def nearly_thrown() -> mbs.Model:
 def thrown_over() -> mbs.Model:
     """A suspension that turns inside out, with half of steps of 10 ms one step later."""
     return suspension(6.6)
+
+
+def van() -> mbs.Model:
+    """A car whose file has no points at which its body touches the ground."""
+    return mbs.vehicle.load("commonroad_vanagon").model()

@@ -337,6 +337,22 @@ def test_a_car_on_its_roof_is_reported_once(car, host):
     assert sum("has rolled over" in line for line in driven.messages) == 1
 
 
+def test_a_car_without_points_on_its_body_that_rolls_over_is_called_wrong_and_no_wall_is_blamed(build, host):
+    """It brakes on two frictions; on its side its rims hit level ground harder than they hold."""
+    driven = on_road(host(build("van")), FOLDER / "split.road", {"initial.speed": 20.0, "selector": 0})
+    load, rolled = 0.0, False
+    for k in range(800):
+        driven.set("brake", 0.6 * (k > 50))
+        driven.step(k * 0.01, 0.01)
+        load = max(load, driven.get("wheel_FR.Fz"))
+        rolled |= abs(driven.get("chassis.roll")) > np.pi / 2.0
+    assert rolled
+    assert load > 1e5
+    (line,) = [m for m in driven.messages if "has rolled over" in m]
+    assert "What follows is wrong: no point of its body touches the ground" in line
+    assert not any("rim is pressed in" in m for m in driven.messages)
+
+
 def test_values_with_which_no_car_works_are_reported_with_those_that_do(car, host):
     driven = host(car).start({})
     works = {}

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from ali3.plausibility import Mistake, Plausibility, Quantity, Value
+from mbs import Pose, compile, simulate
 from mbs.model.model import Model
 from mbs.tyre_files.tyre_plausibility import tmeasy_plausibility
 from mbs.vehicle import built_car, car_names, load
@@ -185,6 +186,18 @@ def test_the_table_is_one_screen_with_a_column_for_each_axle():
     shown = replace(plausibility, values=[far if v is hidden else v for v in plausibility.values]).text()
     (line,) = (line for line in shown.splitlines() if line.startswith(hidden.quantity.name))
     assert line.endswith("<- outside")
+
+
+@pytest.mark.parametrize("name", ["hatchback", "ferrari_250_lm"])
+def test_the_top_speed_in_gear_is_that_of_a_rolling_wheel(name):
+    car = load(name)
+    values = [v for v in car.plausibility()[0].values if v.quantity.name == "top speed in gear"]
+    overall = [v.value for v in car.plausibility()[0].values if v.quantity.name == "overall ratio"]
+    run = simulate(compile(car.model()), 0.5, 0.005, {"selector": 0}, pose=Pose(speed=10.0), estimate_error=False)
+    wheel = f"wheel_{car.drive.wheels[0].upper()}L.omega"
+    for shown, ratio in zip(values, overall, strict=True):
+        expected = 3.6 * car.drive.limit_speed / ratio * run["speed"][-1] / run[wheel][-1]
+        assert shown.value == pytest.approx(expected, rel=0.005)
 
 
 @pytest.mark.slow

@@ -51,12 +51,12 @@ static slave_status watch_limit(slave *s, const ali3_report *report) {
 }
 
 /* Warns of a wheel that hit a wall or fell deep into the ground: the step converges, so that there is no other
- * message. */
+ * message. Wheels of a vehicle that has rolled over fall in any direction, which was said. */
 static slave_status watch_rims(slave *s, const ali3_report *report) {
   const slave_table *t = &slave_the_table;
   char text[SLAVE_TEXT / 2];
   int32_t element = -1;
-  if (s->rim_warned || !(report->rim_pressed > 0.0)) return SLAVE_OK;
+  if (s->rim_warned || s->overturned_warned || !(report->rim_pressed > 0.0)) return SLAVE_OK;
   if (ali3_rim_text(s->fidelity.kernel, &element, text, sizeof text) != ALI3_OK || element < 0) return SLAVE_OK;
   s->rim_warned = true;
   return slave_log(s, SLAVE_WARNING, "%s It is the wheel of '%.64s'. This is reported once.", text,
@@ -80,11 +80,15 @@ void slave_watch_outputs(slave *s) {
       !(fabs(s->value[t->roll] / t->variable[t->roll].scale) > QUARTER_TURN))
     return;
   s->overturned_warned = true;
-  slave_log(
-      s, SLAVE_WARNING,
-      "At %.6g s the vehicle has rolled over: %s is %.4g%s, more than a quarter turn. What follows is a vehicle that "
-      "slides on its body, as far as points of it touch the ground. This is reported once.",
-      ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
+  const char *follows =
+      t->ground < t->n_variables
+          ? "What follows is a vehicle that slides on its body, as far as points of it touch the ground."
+          : "What follows is wrong: no point of its body touches the ground, so it sinks in as far as "
+            "its wheels let it. A car file gives such points as chassis.ground_contact.";
+  slave_log(s, SLAVE_WARNING,
+            "At %.6g s the vehicle has rolled over: %s is %.4g%s, more than a quarter turn. %s This is reported once.",
+            ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit,
+            follows);
 }
 
 void slave_watch_start(slave *s) {

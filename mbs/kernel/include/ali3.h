@@ -194,8 +194,8 @@ typedef struct {
   double rim_pressed, rim_time, rim_x, rim_y;
   int64_t rim_element;
   double largest_force, largest_load; /* of a tyre, a contact or a spring with end stops; load of a tyre, N */
-  int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest;
-                           without roads of springs beyond a stop; and those that end at a point of a force's table */
+  int64_t abrupt_steps; /* in which one of these changed by more than a tenth of the largest; without roads of springs
+                           beyond a stop; and those that end at a point of a force's table */
   int64_t divisions; /* of steps where such a force changes quickly, a stop is met or left, at breaks of inputs, or at a
                         point of a force's table */
   double change_rate; /* change of such a force in the last part of a step over its limit and the part's length, 1/s */

@@ -57,7 +57,7 @@ typedef struct {
 
 typedef struct { /* outputs of an element that are forces of a contact or a stop, N */
   int32_t element, first, n; /* its index; first of these outputs among those of all elements, and their number */
-  /* outputs checked for abrupt changes; of a tyre its load only, as its other forces follow pedals, which jump */
+  /* outputs at whose abrupt changes a step is divided; of a tyre its load only, as its other forces follow pedals */
   int32_t judged, n_judged;
   bool tyre, touches; /* the element is a tyre; it has a depth in a road */
 } ali3_contact_forces_of;

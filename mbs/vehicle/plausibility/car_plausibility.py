@@ -181,8 +181,9 @@ def _driving_values(car: CarContent, rest: Rest) -> Iterator[Value]:
     else:
         ratios, keys = [drive.ratio], {drive.key("ratio"): drive.ratio}
     keys[drive.key("limit_speed")] = drive.limit_speed
+    radius = driven.tyre.rolling_radius(driven.wheel.centre[2])
     for k, overall in enumerate(ratios):
-        of, speed = f"{k + 1}:", 3.6 * drive.limit_speed / overall * driven.wheel.centre[2]
+        of, speed = f"{k + 1}:", 3.6 * drive.limit_speed / overall * radius
         yield Value(CAR["overall"], overall, keys, of)
         yield Value(CAR["gear_speed"], speed, keys, of)
         if k == 0 and len(ratios) > 1:

@@ -130,6 +130,17 @@ static double step_change(const ali3_instance *in) {
   return change;
 }
 
+/* Largest change of a force of a tyre in the step, those along the road among them. */
+static double tyre_change(const ali3_instance *in) {
+  double change = 0.0;
+  for (int32_t c = 0; c < in->system->n_contact; c++) {
+    const ali3_contact_forces_of *contact = in->system->contact + c;
+    for (int32_t i = contact->first; contact->tyre && i < contact->first + contact->n; i++)
+      change = larger(change, fabs(in->now.out[i] - in->next.out[i]));
+  }
+  return change;
+}
+
 void ali3_abrupt_force(ali3_instance *in) {
   ali3_report *r = &in->report;
   for (int32_t c = 0; c < in->system->n_contact; c++) {
@@ -138,8 +149,8 @@ void ali3_abrupt_force(ali3_instance *in) {
     if (contact->tyre) /* the load at the start belongs to no step */
       r->largest_load = larger(larger(r->largest_load, in->next.out[contact->judged]), in->now.out[contact->judged]);
   }
-  if ((in->parting.changed < 0.0 ? step_change(in) : in->parting.changed) > ABRUPT * r->largest_force)
-    r->abrupt_steps++;
+  const double change = in->parting.changed < 0.0 ? step_change(in) : in->parting.changed;
+  if (larger(change, tyre_change(in)) > ABRUPT * r->largest_force) r->abrupt_steps++;
 }
 
 bool ali3_divides_to_resolve(ali3_instance *in, const ali3_request *request, bool at_row) {
