@@ -101,7 +101,7 @@ def _run(options: argparse.Namespace) -> int:
         without_manoeuvre = options.manoeuvre is None
         stem = snake_case(path.stem) if without_manoeuvre else f"{snake_case(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
-        step = communication_step(fmu, manoeuvre, options.step)
+        step = communication_step(fmu, manoeuvre, options.step, options.interval)
         steps_per_row = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, steps_per_row)
     course_rows, gates = ([], None) if driver is None else course_result(result, driver)
