@@ -70,6 +70,7 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
+    from ali3.locks import locked
     from hosts.common.road import options_with_road
     from hosts.driving.driver import driver_of, with_settings
     from hosts.driving.manoeuvre import with_names_of
@@ -106,10 +107,11 @@ def _run(options: argparse.Namespace) -> int:
         result = run_with_bar(fmu, manoeuvre, step, driver, steps_per_row)
     course_rows, gates = ([], None) if driver is None else course_result(result, driver)
     rows = summary(result, step, course_rows)
-    write_csv(result, table)
-    write_record(fmu, manoeuvre, step, settings, result, record, driver, source.of_record)
     title = settings.title(path.stem if without_manoeuvre else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
-    plot_page(result, picture, title, rows, gates)
+    with locked(options.out):  # of several runs into one folder all files of one stay
+        write_csv(result, table)
+        write_record(fmu, manoeuvre, step, settings, result, record, driver, source.of_record)
+        plot_page(result, picture, title, rows, gates)
     printed = (settings.rows(), [*rows, pace(result, step)], energy_balance(result))
     return print_result(printed, result, (table, picture, record))
 

@@ -14,6 +14,7 @@ from fmpy import platform
 from fmpy.util import read_csv
 from matplotlib import image
 
+from ali3.locks import locked
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.run_checks import communication_step
@@ -224,3 +225,14 @@ def test_a_full_disk_leaves_no_table(fmus, turn, tmp_path):
         r"^error: The rows of the run take [\d.]+ MB, which cannot be kept: file too large\.$", done.stderr, re.M
     )
     assert not out.exists() or list(out.iterdir()) == []
+
+
+def test_files_of_runs_into_one_folder_are_of_one_run(fmus, tmp_path):
+    command = [sys.executable, "-m", "ali3", "run", fmus["sledge"], "--stop-time", "0.1", "--out", tmp_path]
+    with locked(tmp_path):  # as another run that writes its files
+        other = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL)
+        with pytest.raises(subprocess.TimeoutExpired):
+            other.wait(8.0)
+        assert not [*tmp_path.glob("[!.]*")]
+    assert other.wait() == 0
+    assert {path.suffix for path in tmp_path.glob("[!.]*")} == {".csv", ".png", ".json"}
