@@ -87,6 +87,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.run.run_summary import energy_balance, pace, summary
 
     check_manoeuvre_option(options.manoeuvre)
+    set_options = options_with_road(options, options.out)
     path = fmu_file(options.fmu)
     with Fmu(path) as opened:
         source = FmuSource.named(opened.path, opened.table, options.aliases)
@@ -96,7 +97,6 @@ def _run(options: argparse.Namespace) -> int:
         manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
-        set_options = options_with_road(options, options.out)
         manoeuvre, settings = apply_settings(opened, manoeuvre, set_options, options.fidelity, source.fmu_values)
         manoeuvre = replace(manoeuvre, start=source.ali3_values(manoeuvre.start))
         without_manoeuvre = options.manoeuvre is None
