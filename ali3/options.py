@@ -1,13 +1,12 @@
 """Command-line options that several commands share."""
 
 import argparse
-import math
 import re
 import sys
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
-from ali3 import file_options
 from ali3.decimal_number import DECIMAL, number, short
 from ali3.message_text import brief, shortened
 from ali3.near_names import near_names
@@ -58,19 +57,19 @@ class Option(NamedTuple):
     other_names: tuple[str, ...] = ()
 
 
+def folder(text: str) -> Path:
+    """Path of an output folder. Raises `argparse.ArgumentTypeError`: the name has the suffix of a file."""
+    path = Path(text)
+    if path.suffix.lower() in _FILE_SUFFIXES:
+        raise argparse.ArgumentTypeError(f"{text} is the name of a file; --out names the output folder")
+    return path
+
+
 def count(text: str) -> int:
     """A whole number of at least 1."""
     if not re.fullmatch(r"[0-9]{1,9}", text, re.ASCII) or int(text) < 1:
         raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a whole number of at least 1")
     return int(text)
-
-
-def duration(text: str) -> float:
-    """A positive time in s, or with another unit."""
-    seconds = quantity("s")(text)
-    if not 0.0 < seconds < math.inf:
-        raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a positive time, in s")
-    return seconds
 
 
 def name_and_text(text: str) -> tuple[str, str]:
@@ -87,19 +86,24 @@ def assignment(text: str) -> tuple[str, float]:
     return name, number(value)
 
 
+_FILE_SUFFIXES = (
+    *(".html", ".htm", ".csv", ".json", ".toml", ".ssv", ".fmu", ".ssp", ".zip", ".so", ".dll", ".dylib", ".wasm"),
+    *(".png", ".svg", ".pdf", ".mp4", ".glb", ".gltf"),
+)
+
 SHARED: dict[str, Option] = {
-    "--out": Option("DIR", "output folder", file_options.output_folder),
-    "--json": Option("FILE", "also write all numbers there", file_options.output_file),
-    "--picture": Option("FILE", "draw what was read as PNG", file_options.output_file),
+    "--out": Option("DIR", "output folder", folder),
+    "--json": Option("FILE", "also write all numbers there", Path),
+    "--picture": Option("FILE", "draw what was read as PNG", Path),
     "--list": Option("", "list the choices, and stop"),
     "--again": Option("", "redo what earlier calls have completed"),
     "--no-open": Option("", "do not open a browser"),
     "--show-parameters": Option("", "print the parameters"),
     "--jobs": Option("N", "number of parallel processes", count),
     "--fidelity": Option("N", "level of detail of the model, if there is a choice", number),
-    "--step": Option("H", "communication step, s", duration),
-    "--interval": Option("T", "time between recorded rows, a whole multiple of the step, s", duration),
-    "--stop-time": Option("T", "duration of a run, s", duration),
+    "--step": Option("H", "communication step, s", quantity("s")),
+    "--interval": Option("T", "time between recorded rows, a whole multiple of the step, s", quantity("s")),
+    "--stop-time": Option("T", "duration of a run, s", quantity("s")),
     "--from": Option("T", "time from which the record is used, s", quantity("s")),
     "--to": Option("T", "use the record up to this time, s", quantity("s")),
     "--seed": Option("S", "a random driver moves the inputs; the same number gives the same drive", int),
@@ -109,9 +113,7 @@ SHARED: dict[str, Option] = {
         str,
         ("-m", "--input"),
     ),
-    "--parameters": Option(
-        "SSV", "parameter set (SSV file) that is applied before the start; repeatable", file_options.parameter_set
-    ),
+    "--parameters": Option("SSV", "parameter set (SSV file) that is applied before the start; repeatable", Path),
     "--set": Option(
         "NAME=VALUE",
         "value of a parameter or input at the start, in the unit of the FMU or its own, such as 20kN/m; overrides "
@@ -122,13 +124,12 @@ SHARED: dict[str, Option] = {
         "FILE",
         "ALi3's names for the variables of an FMU with other names: a TOML file, or chrono, carmaker, carsim, osi or "
         "vehicle_interfaces, which come with the package",
-        file_options.aliases,
+        Path,
     ),
     "--road": Option(
         "FILE",
         "road under a car: a road file, the name of one in the FMU (plane.road, kerb.road, rough.road, split.road, "
         "washboard.road), or any INPUT of 'ali3 road'",
-        file_options.road,
     ),
     "--confined": Option(
         "", "run the FMU without network, home and other files: by bubblewrap, on Linux; otherwise the command stops"
@@ -140,13 +141,13 @@ SHARED: dict[str, Option] = {
 def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", **more: Any) -> None:
     """Add an option of `SHARED`.
 
-    `name`: key of `SHARED`; `usual`: description of the default for the help; `more`: ``default``, ``action``,
-    ``dest`` and another ``type`` for ``add_argument``.
+    `name`: key of `SHARED`; `usual`: description of the default for the help; `more`: ``default``, ``action`` and
+    ``dest`` for ``add_argument``.
     """
     option = SHARED[name]
     message = option.help + (f"; default: {usual}" if usual else "")
     if option.metavar:
-        more = {"metavar": option.metavar, "type": option.type} | more
+        more |= {"metavar": option.metavar, "type": option.type}
     else:
         more["action"] = "store_true"
     if more.get("action") == "append":

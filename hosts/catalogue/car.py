@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hosts.common.errors import FailedFmuError, HostError
 from hosts.common.numbers import Value
-from hosts.common.options import AS_IS, NO_ALIASES, FmuOptions
+from hosts.common.options import FmuOptions
 from hosts.driving.co_simulation import run
 from hosts.driving.ground_marks import with_ground_marks
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
@@ -117,6 +117,10 @@ class TestedCar:
         return self.fmu.path
 
 
+AS_IS = "as-is"
+"""In place of a parameter set: the FMU as it is."""
+NO_ALIASES = "none"
+"""Instead of an alias file: the FMU has ALi3 names."""
 _SET_BY_TESTS = (
     *("initial.speed", "initial.lateral_speed", "initial.yaw_rate", "initial.settling"),
     *("initial.x", "initial.y", "initial.z", "initial.yaw"),

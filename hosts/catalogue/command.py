@@ -9,9 +9,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.command_run import run_command
-from ali3.file_options import aliases, input_file, parameter_set, unless
 from ali3.options import Parser, add_option, assignment
-from hosts.common.options import AS_IS, NO_ALIASES, add_fmu
+from hosts.common.options import add_fmu
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -> int:
@@ -23,17 +22,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
     )
     add_option(parser, "--list")
     add_option(
-        parser,
-        "--aliases",
-        "none; one file for all FMUs, or one for each in their order or 'none'",
-        action="append",
-        type=unless(NO_ALIASES, aliases),
+        parser, "--aliases", "none; one file for all FMUs, or one for each in their order or 'none'", action="append"
     )
     parser.add_argument(
         "--variant",
         action="append",
         default=[],
-        type=unless(AS_IS, parameter_set),
+        type=Path,
         metavar="SSV",
         help="parameter set with which every FMU is a car, in place of the FMU as it is; 'as-is' adds that; repeatable",
     )
@@ -51,7 +46,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
     add_option(parser, "--again", "tests that are already complete in the folder are kept")
     parser.add_argument(
         "--limits",
-        type=input_file,
+        type=Path,
         metavar="FILE",
         help="a TOML file with a table [limits], such as a study file: limits of measures, in addition to those of "
         "standards",
@@ -72,4 +67,4 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
 
         return run_catalogue(options, [*prog.split(), *words])
 
-    return run_command(run, is_confined=options.confined)
+    return run_command(run, options=options)

@@ -16,7 +16,6 @@ from ali3.command_run import run_command
 from ali3.cores import available_cores
 from ali3.decimal_number import number
 from ali3.extras import command_needs
-from ali3.file_options import input_path, output_file, parameter_set
 from ali3.message_text import shortened
 from ali3.options import Parser, add_option, assignment, count, options_given
 from hosts.check.verdict_files import Case, write_junit, write_sarif
@@ -47,7 +46,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> in
     """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _run(options, parser), is_confined=options.confined)
+    return run_command(lambda: _run(options, parser), options=options)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
@@ -63,14 +62,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "--time-limit", type=number, metavar="S", help=f"seconds that a check may take; default: {_TIME_LIMIT:g}"
     )
     parser.add_argument(
-        "--junit",
-        type=output_file,
-        metavar="FILE",
-        help="also write the verdict of the check or of --reference there",
+        "--junit", type=Path, metavar="FILE", help="also write the verdict of the check or of --reference there"
     )
-    parser.add_argument(
-        "--sarif", type=output_file, metavar="FILE", help="also write the verdict there, as SARIF 2.1.0"
-    )
+    parser.add_argument("--sarif", type=Path, metavar="FILE", help="also write the verdict there, as SARIF 2.1.0")
     parser.add_argument(
         "--thorough", action="store_true", help=f"runs of {_THOROUGH_STEPS} steps, up to a minute in all"
     )
@@ -78,14 +72,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(parser, "--confined")
     table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, instead of the check")
     add_option(table, "--show-parameters")
+    table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all of them to this file, as set")
     table.add_argument(
-        "--save-parameters", type=output_file, metavar="SSV", help="write all of them to this file, as set"
-    )
-    table.add_argument(
-        "--diff",
-        type=parameter_set,
-        metavar="SSV",
-        help="print only where this set differs from the FMU and the given values",
+        "--diff", type=Path, metavar="SSV", help="print only where this set differs from the FMU and the given values"
     )
     reference = parser.add_argument_group(
         "against a reference, instead of the check",
@@ -93,10 +82,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "result of 'ali3 run' is such a table.",
     )
     reference.add_argument(
-        "--reference",
-        type=input_path,
-        metavar="CSV|DIR",
-        help="compare results with this table, or all tables of a folder",
+        "--reference", type=Path, metavar="CSV|DIR", help="compare results with this table, or all tables of a folder"
     )
     add_option(reference, "--manoeuvre", "the columns of the table")
     reference.add_argument(

@@ -10,10 +10,6 @@ from hosts.common.numbers import Value, text_of
 
 ROAD = "road.file"
 """Parameter of an FMU for the file of its road."""
-AS_IS = "as-is"
-"""In place of a parameter set: the FMU as it is."""
-NO_ALIASES = "none"
-"""Instead of an alias file: the FMU has ALi3 names."""
 
 
 @dataclass(frozen=True)

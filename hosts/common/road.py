@@ -9,8 +9,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ali3.file_options import MADE_OF
 from ali3.files import make_folder
+from ali3.given_files import MADE_OF
 from ali3.json_reading import read_json
 from ali3.reading import is_file, is_file_or_folder
 from ali3.temporary_folder import temporary_folder

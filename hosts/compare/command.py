@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.command_run import run_command
-from ali3.file_options import aliases, input_file
 from ali3.options import Parser, add_option, count
 from ali3.units import quantity
 from hosts.common.options import add_fmu, add_setting_options
@@ -22,17 +21,15 @@ _SECONDS = quantity("s")
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> int:
     """Run the command, which the user typed as `prog`; 1 if the comparison or the fit is not good."""
     options = parser_of(prog).parse_args(arguments)
-    return run_command(lambda: _compare(options), is_confined=options.confined)
+    return run_command(lambda: _compare(options), options=options)
 
 
 def parser_of(prog: str = "ali3 compare") -> Parser:
     """The parser of the options of the command."""
     parser = Parser(prog=prog, description=__doc__)
     add_fmu(parser)
-    parser.add_argument("log", type=input_file, metavar="LOG", help="CSV as data loggers write it, or Parquet")
-    parser.add_argument(
-        "--log-aliases", type=aliases, metavar="FILE", help="alias file of the log: names, units, clock"
-    )
+    parser.add_argument("log", type=Path, metavar="LOG", help="CSV as data loggers write it, or Parquet")
+    parser.add_argument("--log-aliases", type=Path, metavar="FILE", help="alias file of the log: names, units, clock")
     add_option(parser, "--aliases")
     parser.add_argument("--signals", type=_names, metavar="NAME,...", help="compare only these outputs; default: all")
     parser.add_argument(

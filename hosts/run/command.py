@@ -53,7 +53,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
     add_option(parser, "--confined")
     add_option(parser, "--out", "out", default=Path("out"))
     options = parser.parse_args(arguments)
-    return run_command(lambda: _kerb(options, parser) if options.kerb else _run(options), is_confined=options.confined)
+    return run_command(lambda: _kerb(options, parser) if options.kerb else _run(options), options=options)
 
 
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:

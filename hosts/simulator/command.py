@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
     options = parser.parse_args(arguments)
     return run_command(
         lambda: _simulate(options, begin) if options.recording is None else _use_recording(parser, options),
-        is_confined=options.confined,
+        options=options,
     )
 
 

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from ali3.command_run import run_command
 from ali3.decimal_number import number
-from ali3.file_options import input_path, output_file
 from ali3.options import Parser, add_option, options_given
 from ali3.units import quantity
 from hosts.common.errors import HostError
@@ -27,7 +26,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 view") -> int
     """Run the command, which the user typed as `prog`."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _view(options, parser), is_confined=options.confined)
+    return run_command(lambda: _view(options, parser), options=options)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
@@ -58,9 +57,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     )
     live.add_argument("--paused", action="store_true", help="the page waits until it is started")
     shown = parser.add_argument_group("display of results")
-    shown.add_argument(
-        "--geometry", type=input_path, metavar="FILE", help="FMU (or scene) with which results are drawn"
-    )
+    shown.add_argument("--geometry", type=Path, metavar="FILE", help="FMU (or scene) with which results are drawn")
     add_option(shown, "--from", dest="begin")
     add_option(shown, "--to", dest="end")
     shown.add_argument("--most", type=int, default=5001, metavar="N", help="times in the page at most; default: 5001")
@@ -69,13 +66,10 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     shown.add_argument("--arrows", action="store_true", help="draw forces as arrows")
     shown.add_argument("--stress", action="store_true", help="colour flexible frames by their stress")
     shown.add_argument("--deformation", type=number, metavar="N", help="magnify deformations N times; default: 1")
-    shown.add_argument("--png", type=output_file, metavar="FILE", help="write a picture at the time --at, and no page")
-    shown.add_argument("--mp4", type=output_file, metavar="FILE", help="write a film, and no page")
+    shown.add_argument("--png", type=Path, metavar="FILE", help="write a picture at the time --at, and no page")
+    shown.add_argument("--mp4", type=Path, metavar="FILE", help="write a film, and no page")
     shown.add_argument(
-        "--gltf",
-        type=output_file,
-        metavar="FILE",
-        help="write the first result as an animation, .glb or .gltf",
+        "--gltf", type=Path, metavar="FILE", help="write the first result as an animation, .glb or .gltf"
     )
     shown.add_argument("--size", type=int, nargs=2, default=(1280, 720), metavar=("W", "H"), help="pixels of pictures")
     return parser
