@@ -228,9 +228,8 @@ def numbers(
 ) -> NDArray[np.float64]:
     """Return numbers as an array of any shape; they need not be finite. Text and truth values are refused."""
     if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "iuf":
-        return np.asarray(
-            np.ma.filled(value.astype(float), math.nan)
-        )  # masked entries are missing, not what lies under the mask
+        # masked entries are missing, whatever number is under the mask
+        return np.asarray(np.ma.filled(value.astype(float), math.nan))
     if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":
         return np.array(value, dtype=float)
     if isinstance(value, (list, tuple)) and {float} == {*map(type, value)}:
