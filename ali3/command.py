@@ -12,7 +12,6 @@ from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.options import Parser
 from ali3.processes import store_typed_name
-from ali3.search_path import forget_current_folder
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
@@ -22,7 +21,6 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     `ali3.command_run`.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
-    forget_current_folder()
     store_typed_name(prog)
     if words and not words[0].startswith("-"):
         command = next((c for c in COMMANDS if c.name == words[0]), None)

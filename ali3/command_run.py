@@ -1,5 +1,6 @@
 """Runs a command: errors become one sentence, Ctrl-C one line, and the exit code gives the result."""
 
+import argparse
 import errno
 import io
 import os
@@ -21,19 +22,22 @@ signals); closed reader of the output (128 + SIGPIPE)."""
 _NO_THREAD = "can't start new thread"
 
 
-def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (), is_confined: bool = False) -> int:
+def run_command(
+    work: Callable[[], int], errors: Sequence[type[Exception]] = (), options: argparse.Namespace | None = None
+) -> int:
     """Run the work of a command, in which SIGTERM and SIGHUP raise a `KeyboardInterrupt`, as Ctrl-C does.
 
     `work`: returns the exit code; `errors`: errors of the user besides `UserError` and `OSError`, whose message is
-    printed with the exit code 2; `is_confined`: the option ``--confined``. Returns the exit code.
+    printed with the exit code 2; `options`: of the command line; the files they name are checked, and ``--confined`` is
+    obeyed before the work. Returns the exit code.
     """
     _open_closed_streams()
     if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors in ("strict", "surrogateescape"):
         sys.stdout.reconfigure(errors="backslashreplace")  # what its encoding lacks ends no command
     try:
         with stopped_by_signals():
-            if is_confined:
-                confine()
+            if options is not None:
+                _prepare(options)
             status = work()
             sys.stdout.flush()
         return status
@@ -49,6 +53,14 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
         if message is None:
             raise
         return _print_end(f"error: {shortened(message)}", getattr(error, "status", WRONG_USE))
+
+
+def _prepare(options: argparse.Namespace) -> None:
+    from ali3.given_files import check_given_files
+
+    check_given_files(options)
+    if getattr(options, "confined", False):
+        confine()
 
 
 def _open_closed_streams() -> None:

@@ -28,7 +28,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
 
         return run_catalogue(options, [*prog.split(), *words])
 
-    return run_command(run, is_confined=options.confined)
+    return run_command(run, options=options)
 
 
 def _parser(prog: str) -> Parser:

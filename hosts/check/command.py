@@ -16,7 +16,6 @@ from ali3.command_run import run_command
 from ali3.cores import available_cores
 from ali3.decimal_number import number
 from ali3.extras import command_needs
-from ali3.files import check_writable
 from ali3.message_text import shortened
 from ali3.options import Parser, add_option, assignment, count, options_given
 from hosts.check.verdict_files import Case, write_junit, write_sarif
@@ -47,7 +46,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> in
     """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _run(options, parser), is_confined=options.confined)
+    return run_command(lambda: _run(options, parser), options=options)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
@@ -175,8 +174,6 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         from hosts.soak.soak import soak
 
         return soak(options, parser.prog)
-    for file in filter(None, (options.junit, options.sarif)):
-        check_writable(file)
     if options.manoeuvre is not None:
         from hosts.recordings.load_manoeuvre import check_manoeuvre_option
 

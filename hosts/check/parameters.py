@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.columns import in_columns
-from ali3.files import check_writable
 from ali3.message_text import shortened
 from ali3.units import typeset
 from ali3.write_parameter_set import write_parameter_set
@@ -30,8 +29,6 @@ def report_parameters(fmu: Path, options: FmuOptions, out: Path | None, diff: Pa
     `options`: values that are set first; `out`: file of the written set; `diff`: parameter set of which only differing
     values are printed; `show`: whether the table is printed also when a set is written. Returns the exit code.
     """
-    if out is not None:
-        check_writable(out)
     description = described(fmu)
     variables = Variables(description)
     settings = settings_of(variables, options)

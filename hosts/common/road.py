@@ -10,14 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from ali3.files import make_folder
+from ali3.given_files import MADE_OF
 from ali3.json_reading import read_json
 from ali3.reading import is_file, is_file_or_folder
 from ali3.temporary_folder import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.options import ROAD, FmuOptions, fmu_options
-
-MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml", ".crg", ".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
-"""Suffixes of what ``ali3 road`` makes a road file of."""
 
 
 def options_with_road(options: argparse.Namespace, out: Path) -> FmuOptions:

@@ -21,7 +21,7 @@ _SECONDS = quantity("s")
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> int:
     """Run the command, which the user typed as `prog`; 1 if the comparison or the fit is not good."""
     options = parser_of(prog).parse_args(arguments)
-    return run_command(lambda: _compare(options), is_confined=options.confined)
+    return run_command(lambda: _compare(options), options=options)
 
 
 def parser_of(prog: str = "ali3 compare") -> Parser:

@@ -20,6 +20,7 @@ from hosts.measures.log_signals import SPEEDS
 
 _SPEED = "initial.speed"
 _LATERAL_SPEED = "initial.lateral_speed"
+_NEARER = 3.0  # times as far off is a speed in the present unit; parameters of a car change a coasting speed less
 
 
 def inverted_signals(compared: Comparison) -> dict[str, ComparedSignal]:
@@ -61,18 +62,17 @@ def inverted_input(task: Task, compared: Comparison, inverted: dict[str, Compare
 def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> str:
     """A sentence on the unit of the measured speed with which all other signals correlate; otherwise empty.
 
-    Units are tried where no other signal correlates. `right`: signals that agree with others of the log.
+    Units are tried where no other signal correlates. Without other signals the speed itself has to correlate in that
+    unit and deviate much less than in the present one. `right`: signals that agree with others of the log.
     """
-    speed = next((s.measured for n, s in compared.signals.items() if n in SPEEDS and n not in right), None)
-    signals = {n: s for n, s in compared.signals.items() if n not in SPEEDS}
+    speeds = {n: s for n, s in compared.signals.items() if n in SPEEDS and n not in right}
+    others = {n: s for n, s in compared.signals.items() if n not in SPEEDS}
+    is_held = any(s.speed is not None for s in task.segments)  # a driver makes the simulated speed the measured one
+    signals = others or ({} if is_held else speeds)
     begins = any(_SPEED in s.manoeuvre.start for s in task.segments)
-    if (
-        speed is None
-        or not signals
-        or not begins
-        or any(s.deviations.correlation >= MIN_CORRELATION for s in signals.values())
-    ):
+    if not speeds or not signals or not begins or any(_is_like(s.deviations) for s in others.values()):
         return ""
+    speed = next(iter(speeds.values())).measured
     alike: list[tuple[float, float, Misread]] = []
     for mistake in misread(speed.unit):
         try:
@@ -80,22 +80,37 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
                 result = replay.run()
         except HostError:  # the FMU does not start so fast
             continue
-        found = [_deviations(s, Curve(result, n)) for n, s in signals.items()]
-        if not result.failed_steps and all(d.correlation >= MIN_CORRELATION for d in found):
-            alike.append((max(d.normalised for d in found), min(d.correlation for d in found), mistake))
+        found = {n: _deviations(s, Curve(result, n), mistake.factor) for n, s in signals.items()}
+        nearer = all(_NEARER * d.normalised < signals[n].deviations.normalised for n, d in found.items())
+        if not result.failed_steps and all(map(_is_like, found.values())) and (others or nearer):
+            alike.append(
+                (max(d.normalised for d in found.values()), min(d.correlation for d in found.values()), mistake)
+            )
     if not alike:
         return ""
-    _, correlation, mistake = min(alike, key=lambda one: one[0])  # signals of near speeds correlate, too
+    normalised, correlation, mistake = min(alike, key=lambda one: one[0])  # signals of near speeds correlate, too
+    present = max(s.deviations.normalised for s in signals.values())
+    reason = (
+        f"the other signals are like those of the simulation (correlation {correlation:.2f} and more), as none is with "
+        "the present unit."
+        if others
+        else f"it deviates by {normalised:.2g} of its standard deviation, with the present unit by {present:.2g}."
+    )
     return (
-        f"'{speed.source}' ({speed.name}) looks like {mistake.words}: with a car that starts so the other "
-        f"signals are like those of the simulation (correlation {correlation:.2f} and more), as none is with "
-        f'the present unit. unit = "{mistake.unit}" in the alias file.'
+        f"'{speed.source}' ({speed.name}) looks like {mistake.words}: with a car that starts so {reason} "
+        f'unit = "{mistake.unit}" in the alias file.'
     )
 
 
-def _deviations(compared: ComparedSignal, curve: Curve) -> Deviations:
+def _is_like(deviation: Deviations) -> bool:
+    return deviation.correlation >= MIN_CORRELATION
+
+
+def _deviations(compared: ComparedSignal, curve: Curve, speed_factor: float) -> Deviations:
+    """Deviations of a simulated signal from the measured one; a measured speed is scaled by `speed_factor`."""
     measured = curve.with_nearest_turns(compared.measured.between(0.0, curve.end))
-    return deviations(measured.time, measured.values, curve(measured.time))
+    factor = speed_factor if measured.name in SPEEDS else 1.0
+    return deviations(measured.time, factor * measured.values, curve(measured.time))
 
 
 def _with_scaled_speed(segment: Segment, factor: float) -> Segment:

@@ -45,10 +45,10 @@ def paths_of(options: argparse.Namespace) -> dict[str, Path]:
     """Paths of the files that are written, by suffix. Raises `FileError` if one cannot be written."""
     kinds = [".html", ".svg", ".csv", *([".ssv"] if options.fit else [])]
     paths = {kind: options.out / f"{options.log.stem}{kind}" for kind in kinds}
-    if options.json is not None:
-        paths[".json"] = options.json
     for file in paths.values():
         check_writable(file)
+    if options.json is not None:
+        paths[".json"] = options.json
     if paths[".csv"].resolve() == options.log.resolve():
         paths[".csv"] = options.out / f"{options.log.stem}_compared.csv"  # never over the log
     return paths

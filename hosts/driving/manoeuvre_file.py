@@ -40,7 +40,7 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     key and the reason.
     """
     path = Path(manoeuvre)
-    check_manoeuvre(manoeuvre)
+    _check_name(manoeuvre)
     if path.suffix not in SUFFIXES:
         path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if is_file(p))
     if path.suffix == ".toml":
@@ -56,7 +56,7 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     return table
 
 
-def check_manoeuvre(manoeuvre: str) -> None:
+def _check_name(manoeuvre: str) -> None:
     """Raise `HostError` with similar names if a text is neither a file nor the name of a manoeuvre.
 
     `manoeuvre`: see `read_manoeuvre`.

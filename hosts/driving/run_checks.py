@@ -1,6 +1,7 @@
 """Checks before a run: the step, and columns that the FMU has no input for."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -14,11 +15,13 @@ from hosts.fmu.variables import default_step
 _LARGEST_RECORD = 4e9  # bytes
 
 
-def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
+def communication_step(
+    fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None, interval: float | None = None
+) -> float:
     """The communication step of a run, s: the requested `step`, else that of the manoeuvre or of the FMU.
 
-    Raises `HostError` if it or the stop time is not positive, or if it is longer than the manoeuvre or so short that
-    the record would not fit into the memory.
+    `interval`: time between recorded rows, s; by default the step. Raises `HostError` if the step or the stop time is
+    not positive, or if the step is longer than the manoeuvre, or if the record would not fit into the memory.
     """
     if step is None:
         step = manoeuvre.step
@@ -30,15 +33,28 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
     if not 0.0 < step <= stop:
         raise HostError(f"The step is {step:g} s; it must be positive and not longer than {stop:g} s.")
     columns = len(fmu.names("input")) + len(fmu.names("output")) + 1
-    record = 8.0 * columns * (stop / step + 1.0)
-    if record > _LARGEST_RECORD:
-        shortest = stop * 8.0 * columns / (_LARGEST_RECORD - 8.0 * columns)
+    between = step if interval is None else max(step, interval)
+    rows, most = stop / between, _LARGEST_RECORD / (8.0 * columns) - 1.0
+    if rows > most:
+        name = "steps" if between == step else "intervals"
+        usual = default_step(fmu.description)
+        remedy = (
+            f"{name} of at least {_rounded(stop / most, math.ceil):g} s"
+            if stop / most <= usual  # the FMU takes longer steps with a loss of accuracy, or not at all
+            else f"a stop time of at most {_rounded(max(between, usual) * most, math.floor):g} s"
+        )
         raise HostError(
-            f"{stop:g} s in steps of {step:g} s are {stop / step:.3g} rows of {columns} values: {1e-9 * record:.3g} GB "
-            f"where at most {1e-9 * _LARGEST_RECORD:g} GB can be recorded; take a step of at least {shortest:.2g} s, "
-            "or a shorter time."
+            f"{stop:g} s in {name} of {between:g} s are {rows:.3g} rows of {columns} values: "
+            f"{8e-9 * columns * (rows + 1.0):.3g} GB where at most {1e-9 * _LARGEST_RECORD:g} GB can be recorded; take "
+            f"{remedy}."
         )
     return step
+
+
+def _rounded(value: float, towards: Callable[[float], int]) -> float:
+    """A positive number with two digits, rounded up or down by `towards`."""
+    digit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return towards(value / digit) * digit
 
 
 def steps_of(interval: float, step: float, subject: str) -> int:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_file import check_manoeuvre, read_manoeuvre
+from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.recordings.format import is_recording
 from hosts.recordings.last_drive import recorded_manoeuvre
@@ -25,9 +25,9 @@ def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
 
 
 def check_manoeuvre_option(manoeuvre: str | None) -> None:
-    """Raise `HostError` if there is no such manoeuvre, before an FMU is built. `manoeuvre`: see `load_manoeuvre`."""
+    """Raise `HostError` if a manoeuvre cannot be read, before an FMU is built. `manoeuvre`: see `load_manoeuvre`."""
     if manoeuvre is not None and not is_recording(Path(manoeuvre)):
-        check_manoeuvre(manoeuvre)
+        read_manoeuvre(manoeuvre, stop_time=1.0)  # a table may leave the stop time to the option
 
 
 def manoeuvre_of(fmu: SimulatedFmu, manoeuvre: str | None, stop_time: float | None) -> Manoeuvre:

@@ -53,7 +53,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
     add_option(parser, "--confined")
     add_option(parser, "--out", "out", default=Path("out"))
     options = parser.parse_args(arguments)
-    return run_command(lambda: _kerb(options, parser) if options.kerb else _run(options), is_confined=options.confined)
+    return run_command(lambda: _kerb(options, parser) if options.kerb else _run(options), options=options)
 
 
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
@@ -70,6 +70,7 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
+    from ali3.locks import locked
     from hosts.common.road import options_with_road
     from hosts.driving.driver import driver_of, with_settings
     from hosts.driving.manoeuvre import with_names_of
@@ -86,6 +87,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.run.run_summary import energy_balance, pace, summary
 
     check_manoeuvre_option(options.manoeuvre)
+    set_options = options_with_road(options, options.out)
     path = fmu_file(options.fmu)
     with Fmu(path) as opened:
         source = FmuSource.named(opened.path, opened.table, options.aliases)
@@ -95,21 +97,21 @@ def _run(options: argparse.Namespace) -> int:
         manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
-        set_options = options_with_road(options, options.out)
         manoeuvre, settings = apply_settings(opened, manoeuvre, set_options, options.fidelity, source.fmu_values)
         manoeuvre = replace(manoeuvre, start=source.ali3_values(manoeuvre.start))
         without_manoeuvre = options.manoeuvre is None
         stem = snake_case(path.stem) if without_manoeuvre else f"{snake_case(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
-        step = communication_step(fmu, manoeuvre, options.step)
+        step = communication_step(fmu, manoeuvre, options.step, options.interval)
         steps_per_row = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, steps_per_row)
     course_rows, gates = ([], None) if driver is None else course_result(result, driver)
     rows = summary(result, step, course_rows)
-    write_csv(result, table)
-    write_record(fmu, manoeuvre, step, settings, result, record, driver, source.of_record)
     title = settings.title(path.stem if without_manoeuvre else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
-    plot_page(result, picture, title, rows, gates)
+    with locked(options.out):  # of several runs into one folder all files of one stay
+        write_csv(result, table)
+        write_record(fmu, manoeuvre, step, settings, result, record, driver, source.of_record)
+        plot_page(result, picture, title, rows, gates)
     printed = (settings.rows(), [*rows, pace(result, step)], energy_balance(result))
     return print_result(printed, result, (table, picture, record))
 

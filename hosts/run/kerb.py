@@ -14,6 +14,7 @@ from matplotlib import pyplot as plt
 
 from ali3.chart_style import BLACK, BLUE, RED
 from ali3.charts import save_picture
+from ali3.locks import locked
 from ali3.low_pass import low_pass
 from ali3.processes import command_name
 from hosts.common.errors import HostError
@@ -62,10 +63,11 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, step))
     if result["stress.computed"][0] != 1.0:
         raise HostError(f"{path} does not compute the moments (stress.computed is 0); build it with all fidelities.")
-    write_csv(result, table)
-    write_record(fmu, manoeuvre, step, settings, result, record)
     rows = moments(result, step)
-    draw(result, step, picture)
+    with locked(out):  # of several runs into one folder all files of one stay
+        write_csv(result, table)
+        write_record(fmu, manoeuvre, step, settings, result, record)
+        draw(result, step, picture)
     print(f"{'gauge':<6}{'rest':>9}{'range':>18}{'filtered range':>18}{'end - rest':>12}   N m")
     for row in rows:
         print(

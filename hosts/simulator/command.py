@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
     options = parser.parse_args(arguments)
     return run_command(
         lambda: _simulate(options, begin) if options.recording is None else _use_recording(parser, options),
-        is_confined=options.confined,
+        options=options,
     )
 
 
@@ -101,11 +101,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 
 def _simulate(options: argparse.Namespace, begin: float) -> int:
-    from ali3.files import check_writable
-
     _check_options(options)
-    if options.json is not None:
-        check_writable(options.json)
     return _drive_headless(options, begin) if options.headless else _drive_with_pages(options, begin)
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from ali3.columns import in_columns
 from ali3.cores import available_cores
-from ali3.files import check_writable, make_folder, write_json
+from ali3.files import make_folder, write_json
 from ali3.isolated_processes import Lost
 from ali3.processes import command_name
 from hosts.common.errors import HostError
@@ -114,8 +114,6 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     fraction = next((n for n in options.fidelity if not float(n).is_integer()), None)
     if fraction is not None:
         raise HostError(f"--fidelity is {fraction:g}; it must be a whole number.")
-    if options.json is not None:
-        check_writable(options.json)
     path, out = fmu_file(options.fmu).absolute(), make_folder(options.out or OUT).absolute()
     with Fmu(path) as fmu:
         start = settings_of(fmu.table, fmu_options(options)).start

@@ -48,7 +48,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
     options = parser.parse_args(arguments)
     return run_command(
         lambda: _run_study(options, prog) if options.target is None else _find_target(options, parser),
-        is_confined=options.confined,
+        options=options,
     )
 
 

@@ -26,7 +26,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 view") -> int
     """Run the command, which the user typed as `prog`."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _view(options, parser), is_confined=options.confined)
+    return run_command(lambda: _view(options, parser), options=options)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:

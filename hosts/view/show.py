@@ -35,12 +35,11 @@ def show(options: argparse.Namespace) -> int:
     """Write the page or other files, and open the page; returns the exit code."""
     page = _page_path(options)
     check_manoeuvre_option(options.manoeuvre)
-    options.what = [fmu_file(path) if is_car(path) else path for path in options.what]
-    for file in (page, options.png, options.mp4, options.gltf):
-        if file is not None:
-            check_writable(file)
+    if page is not None:
+        check_writable(page)
     folder = page.parent if page is not None else Path("out")
     set_options = options_with_road(options, folder)
+    options.what = [fmu_file(path) if is_car(path) else path for path in options.what]
     run = ViewRunOptions(options.manoeuvre, options.stop_time, options.step, set_options)
     recordings, lines, good = recordings_of(options.what, options.geometry, run)
     for line in lines:

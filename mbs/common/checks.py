@@ -37,7 +37,7 @@ def shown(value: object) -> str:
     if isinstance(name, str) and not isinstance(value, type):
         return f"{type(value).__name__} {name!r}"
     text = repr(value)
-    if " at 0x" in text:
+    if " at 0x" in text or "\n" in text:  # a table of pandas has several lines
         return f"an object of type {type(value).__name__}"
     return text if len(text) <= SHOWN else f"{text[:SHOWN]}..."
 
@@ -52,8 +52,8 @@ def is_number(value: object) -> bool:
     if isinstance(value, float):  # most values; the check by the abstract class is slower
         return True
     if isinstance(value, np.ndarray):
-        return value.ndim == 0 and value.dtype.kind in "iuf"
-    return isinstance(value, Real) and not isinstance(value, bool)
+        return value.ndim == 0 and value.dtype.kind in "iuf" and value is not np.ma.masked
+    return isinstance(value, Real) and not isinstance(value, (bool, np.timedelta64))  # which NumPy calls an integer
 
 
 def is_finite(value: object) -> bool:
@@ -227,6 +227,9 @@ def numbers(
     value: object, subject: str, error: Error = ValueError, wanted: str = "a sequence of numbers"
 ) -> NDArray[np.float64]:
     """Return numbers as an array of any shape; they need not be finite. Text and truth values are refused."""
+    if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "iuf":
+        # masked entries are missing, whatever number is under the mask
+        return np.asarray(np.ma.filled(value.astype(float), math.nan))
     if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":
         return np.array(value, dtype=float)
     if isinstance(value, (list, tuple)) and {float} == {*map(type, value)}:

@@ -57,10 +57,10 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         parser.error("a CAR is needed, or --list")
     if options.kinematics and not options.list:
         command_needs("hosts")
-        return run_command(lambda: _kinematics(options, parser), (ModelError,))
+        return run_command(lambda: _kinematics(options, parser), (ModelError,), options)
     if options.cheapest is not None and not options.list:
-        return run_command(lambda: _cheapest(options, parser), (ValueError, RuntimeError))
-    return run_command(lambda: _run(options, parser), (ValueError,))
+        return run_command(lambda: _cheapest(options, parser), (ValueError, RuntimeError), options)
+    return run_command(lambda: _run(options, parser), (ValueError,), options)
 
 
 def _cheapest(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:

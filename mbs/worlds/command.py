@@ -70,7 +70,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     add_option(parser, "--world", "none, the road of INPUT")
     add_option(parser, "--out", "out/worlds")
     options = parser.parse_args(arguments)
-    return run_command(lambda: _run(options, parser), (ValueError,))
+    return run_command(lambda: _run(options, parser), (ValueError,), options)
 
 
 def _finite_number(text: str, unit: str = "1") -> float:

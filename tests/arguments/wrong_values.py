@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from mbs.common.checks import shown
 from mbs.common.errors import ArgumentTypeError, ModelError
@@ -32,6 +33,9 @@ WRONG: dict[str, Any] = {
     "a matrix": np.ones((2, 5)),
     "an array of nan": np.full(3, math.nan),
     "an array of nothing": np.array([]),
+    "a masked array": np.ma.array([1.0, 2.0, 3.0], mask=[False, True, False]),
+    "a duration of NumPy": np.timedelta64(10, "ms"),
+    "a column of text": pd.Series(["1", "2"]),
 }
 PYTHON = r"could not convert|unsupported operand|object is not (?!an interface)|cannot unpack|has no attribute"
 BEGINNINGS = ("every =", "n =", "side =", "estimate_error =")

@@ -22,7 +22,7 @@ from ali3.options import SHARED, Parser, assignment, count, name_and_text
 
 ROOT = Path(ali3.__file__).parents[1]
 # What an installation writes into the folder of programs.
-SCRIPT = "import sys\nfrom ali3.command import main\nif __name__ == '__main__':\n    sys.exit(main())\n"
+SCRIPT = "import sys\nfrom ali3.__main__ import main\nif __name__ == '__main__':\n    sys.exit(main())\n"
 # Names of ours, of what we import, and of the standard library.
 NAMES = (
     *("ali3", "mbs", "fmu_src", "hosts", "benchmarks", "build_fmu", "numpy", "scipy", "fmpy", "matplotlib", "tqdm"),
@@ -269,6 +269,18 @@ def test_as_a_module_it_forgets_the_current_folder(crowded):
         (crowded / f"{name}.py").unlink()
     done = ran(["-m", "ali3", "run", "none.fmu"], crowded)
     assert (done.returncode, done.stderr) == (2, "error: There is no file none.fmu.\n")
+
+
+def test_ctrl_c_while_modules_are_imported_is_one_line(tmp_path):
+    text = (
+        "import sys\n"
+        "class Interrupt:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'ali3.command_run': raise KeyboardInterrupt\n"
+        "sys.meta_path.insert(0, Interrupt())\n"
+    )
+    done = ran(["-c", text + SCRIPT, "--help"], tmp_path)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "stopped by Ctrl-C\n")
 
 
 def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path):

@@ -66,7 +66,7 @@ def test_its_command_is_ali3_and_its_drawer_is_found(wheel: Path) -> None:
         parser = ConfigParser()
         parser.read_string(archive.read(points).decode())
     assert {name: dict(parser[name]) for name in parser.sections()} == {
-        "console_scripts": {"ali3": "ali3.command:main"},
+        "console_scripts": {"ali3": "ali3.__main__:main"},
         "ali3.drawers": {"page": "viewer.drawer"},
     }
 

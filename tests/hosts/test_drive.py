@@ -14,7 +14,10 @@ from fmpy import platform
 from fmpy.util import read_csv
 from matplotlib import image
 
+from ali3.locks import locked
 from hosts.common.errors import HostError
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.run_checks import communication_step
 from hosts.fmu.fmu import Fmu
 from hosts.run.command import main
 from tests.hosts.changed_fmu import changed_fmu
@@ -175,12 +178,23 @@ def test_runs_that_no_memory_holds_are_refused(fmus, turn, tmp_path):
     done = run(main, fmus["sledge"], "-m", turn, "--step", 1e-9, "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "3 s in steps of 1e-09 s are 3e+09 rows of" in done.stderr
-    assert "take a step of at least" in done.stderr
+    assert re.search(r"take steps of at least [0-9.e-]+ s\.$", done.stderr.strip())
     done = run(main, fmus["sledge"], "--stop-time", "inf", "--out", tmp_path / "out")
     assert done.stderr == "error: The stop time is inf s; it must be positive and finite.\n"
     done = run(main, fmus["sledge"], "-m", turn, "--stop-time", 1e12, "--out", tmp_path / "out")
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert "1e+12 s in steps of" in done.stderr
+    longest = re.search(r"take a stop time of at most (\S+) s\.$", done.stderr.strip())
+    assert longest is not None
+    with Fmu(fmus["sledge"]) as fmu:  # the remedy is taken, and little more is not; fewer rows hold a longer time
+
+        def step_of(stop: float, interval: float | None = None) -> float:
+            return communication_step(fmu, Manoeuvre("", np.zeros(0), {}, stop), None, interval)
+
+        step = step_of(float(longest[1]))
+        with pytest.raises(HostError, match="take a stop time of at most"):
+            step_of(1.2 * float(longest[1]))
+        assert step_of(1.2 * float(longest[1]), 2.0 * step) == step
     assert not (tmp_path / "out").exists()
 
 
@@ -211,3 +225,14 @@ def test_a_full_disk_leaves_no_table(fmus, turn, tmp_path):
         r"^error: The rows of the run take [\d.]+ MB, which cannot be kept: file too large\.$", done.stderr, re.M
     )
     assert not out.exists() or list(out.iterdir()) == []
+
+
+def test_files_of_runs_into_one_folder_are_of_one_run(fmus, tmp_path):
+    command = [sys.executable, "-m", "ali3", "run", fmus["sledge"], "--stop-time", "0.1", "--out", tmp_path]
+    with locked(tmp_path):  # as another run that writes its files
+        other = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL)
+        with pytest.raises(subprocess.TimeoutExpired):
+            other.wait(8.0)
+        assert not [*tmp_path.glob("[!.]*")]
+    assert other.wait() == 0
+    assert {path.suffix for path in tmp_path.glob("[!.]*")} == {".csv", ".png", ".json"}

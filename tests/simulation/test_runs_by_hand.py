@@ -1,5 +1,7 @@
 """Runs of a Simulation: checked by repeats from their start, to a tolerance, with switches in between."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -34,6 +36,14 @@ def test_a_checked_run_continues_bit_for_bit() -> None:
         simulation.set_switch("hold", False)
         simulation.run(1.0, 0.005, inputs={"push": lambda t: np.sin(t)}, estimate_error=estimate, **QUIET)
     assert checked.instance.save() == plain.instance.save()
+
+
+def test_steps_that_threads_make_of_one_simulation_are_made_one_after_the_other() -> None:
+    shared, alone = Simulation(swing()), Simulation(swing())
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(lambda _: shared.step(0.001, 5), range(400)))
+    alone.step(0.001, 2000)
+    assert shared.instance.save() == alone.instance.save()
 
 
 def test_the_refined_instance_continues_from_run_to_run() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from ctypes import byref, c_char_p, c_double, c_int32, c_int64, c_void_p
@@ -28,6 +29,7 @@ class Instance(StandingInstance):
         self._input_error: BaseException | None = None
         super().__init__(system)
         self._step = self._library.ali3_step
+        self._turn = threading.RLock()  # calls release Python's lock, and the work space is for one step at a time
         self._inputs: Any = None  # keeps alive the function or the tables that the kernel uses
 
     def _check(self, status: int) -> None:
@@ -206,7 +208,8 @@ class Instance(StandingInstance):
 
     def step(self, h: float) -> None:
         """Make one step of `h` seconds with the present inputs."""
-        status = self._step(self._handle, h)
+        with self._turn:
+            status = self._step(self._handle, h)
         if status:
             self._check(status)
 
@@ -242,7 +245,9 @@ class Instance(StandingInstance):
             buffer(positions, records * sizes.nq, "positions", writable=True),
         )
         steps_done = c_int64()
-        self._check(self._library.ali3_run(self._handle, h, n, *buffers, byref(steps_done)))
+        with self._turn:
+            status = self._library.ali3_run(self._handle, h, n, *buffers, byref(steps_done))
+        self._check(status)
         return steps_done.value
 
     def control_run(
@@ -289,9 +294,10 @@ class Instance(StandingInstance):
         record = RecordFields(n, *map(pointer, rows))
         written = c_int64(done)
         lengths = buffer(scale, sizes.nq, "scale", writable=False)
-        status = self._library.ali3_control_run(
-            self._handle, byref(control), lengths, t_end, max_steps, byref(record), byref(written)
-        )
+        with self._turn:
+            status = self._library.ali3_control_run(
+                self._handle, byref(control), lengths, t_end, max_steps, byref(record), byref(written)
+            )
         self._check(status)
         return written.value
 

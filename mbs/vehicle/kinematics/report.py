@@ -43,7 +43,7 @@ def report(options: argparse.Namespace) -> int:
     )
     folder = options.out or Path("out", "kinematics", car.name)
     names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in (*MOTIONS, "table")]
-    for file in (folder / "kinematics.html", *(folder / n for n in names), *([options.json] if options.json else [])):
+    for file in (folder / "kinematics.html", *(folder / n for n in names)):
         check_writable(file)
     with progress_for(None) as bar:
         car_kinematics = kinematics(car, (low, high), POINTS if options.points is None else options.points, bar.update)

@@ -10,7 +10,7 @@ from typing import Any
 from ali3.columns import in_columns
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
-from ali3.files import check_writable, write_json
+from ali3.files import write_json
 from ali3.message_text import brief, word_list
 from ali3.near_names import did_you_mean
 from ali3.units import number_with_unit
@@ -32,8 +32,6 @@ TITLES = {"path": "of the path", "load": "of the wheel loads", "moment": "of the
 def report(options: argparse.Namespace) -> int:
     """Measure the levels, print their table and the cheapest one, write the JSON file; returns the exit code."""
     tolerances, file, speed = parse_options(options.cheapest)
-    if options.json:
-        check_writable(options.json)
     with warning_lines():
         car = load(options.car)
     if "moment" in tolerances and Fidelity.QUASI_STATIC not in car.fidelities():

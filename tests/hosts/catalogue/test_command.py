@@ -80,7 +80,7 @@ def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(scene_fmu, tmp_path
         (["--set", "road.frction=1"], "did you mean 'road.friction'"),
         (["--set", "initial.speed=3"], "the tests themselves say where a car starts"),
         (["--variant", "none.ssv"], "none.ssv"),
-        (["--aliases", "a.toml", "--aliases", "b.toml"], "1 FMUs and 2 alias files"),
+        (["--aliases", "carsim", "--aliases", "osi"], "1 FMUs and 2 alias files"),
         (["--step", "0.5"], "at most 0.1 s"),
     ],
 )
