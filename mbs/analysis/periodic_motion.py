@@ -152,7 +152,7 @@ def _warn_of_steps(method: str, h: float, start: Array, end: Array, finer: Array
     remedy = f"of {needed:.2g} s" if needed is not None else f"much shorter than {h / 2.0:.2g} s"
     warnings.warn(
         f"With steps of {h:.3g} s disturbances after a period are off by about {error:.1%}, by a run with half the "
-        f"step, and so are the multipliers. Take steps {remedy}, or a method of higher order.",
+        f"step; the multipliers may be off by as much. Take steps {remedy}, or a method of higher order.",
         AccuracyWarning,
         stacklevel=3,
     )
