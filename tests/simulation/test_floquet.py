@@ -1,11 +1,14 @@
 """Floquet multipliers against the reduced equation of a shaken pendulum and against a steady motion."""
 
+import warnings
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import BPoly, PPoly
 
-from mbs import Model, Settings, Simulation, compile, floquet
+from mbs import AccuracyWarning, BendingWarning, Model, Settings, Simulation, compile, floquet
+from tests.flexible_engine.bodies import soft_pendulum
 
 GRAVITY = 9.81
 
@@ -49,3 +52,44 @@ def test_a_motion_that_does_not_come_back_is_refused():
     m.distance("rod", (m.ground, (0.0, 0.0)), bob)
     with pytest.raises(ValueError, match="from where it began"):
         floquet(Simulation(compile(m)), 1.0, 0.01)
+
+
+def _oscillator(damping=0.5):
+    """1 kg on 900 N/m: 30 rad/s."""
+    m = Model("oscillator", dimension=2, gravity=(0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(1.0, 0.0))
+    m.point_on_line("line", (mass, None), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
+    m.spring_damper("spring", (m.ground, (2.0, 0.0)), (mass, None), stiffness=900.0, damping=damping, free_length=1.0)
+    return compile(m)
+
+
+@pytest.mark.parametrize(
+    ("method", "h", "advice"), [("ali3p", 0.02, 0.0025), ("ali3p", 0.05, None), ("radau_5", 0.1, 0.041)]
+)
+def test_steps_that_are_too_long_are_reported_and_the_advised_ones_are_right(method, h, advice):
+    """At rest every period comes back, so that the motion itself shows nothing of the step."""
+    system = _oscillator()
+    expected = np.exp(np.roots([1.0, 0.5, 900.0]))
+    words = "much shorter than 0.025 s" if advice is None else f"Take steps of {advice:g} s"
+    with pytest.warns(AccuracyWarning, match=words):
+        wrong = floquet(Simulation(system, settings=Settings(method=method)), 1.0, h).multipliers
+    assert np.abs(np.sort_complex(wrong) - np.sort_complex(expected)).max() > 0.2
+    if advice is None:
+        return
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        right = floquet(Simulation(system, settings=Settings(method=method)), 1.0, advice).multipliers
+    np.testing.assert_allclose(np.sort_complex(right), np.sort_complex(expected), atol=0.02)
+
+
+def test_disturbances_that_die_away_are_not_reported():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        model = floquet(Simulation(_oscillator(damping=60.0)), 1.0, 0.002)
+    assert np.abs(model.multipliers).max() < 1e-6
+
+
+def test_bending_during_the_period_is_reported():
+    """A soft bar that falls from rest is straight at the start."""
+    with pytest.warns(BendingWarning, match="bends by"), pytest.raises(ValueError, match="from where it began"):
+        floquet(Simulation(soft_pendulum(1)), 1.0, 0.0025)
