@@ -75,21 +75,22 @@ class CoarserRuns:
             compared = self.run(factor, iterations, limit)
             if compared is None:
                 continue
-            estimate, ratio = compared
-            if largest_difference(estimate, settings.method, ratio) <= limit:
+            estimate, ratio, drift = compared
+            # where its energy drifts, a chaotic motion may agree by chance
+            if largest_difference(estimate, settings.method, ratio) <= (limit if drift <= limit else clear):
                 order = METHOD_TABLE[settings.method].order
                 return refined.at_least(estimate, accuracy.energy_drift(report)) if order > 2 else estimate
         return None
 
-    def run(self, factor: int, iterations: int, limit: float) -> tuple[Accuracy, float] | None:
-        """Accuracy by a run with steps about `factor` times as long, and the ratio of both steps.
+    def run(self, factor: int, iterations: int, limit: float) -> tuple[Accuracy, float, float] | None:
+        """Accuracy by a run with steps about `factor` times as long, the ratio of both steps, and its energy drift.
 
         The estimate counts the steps that were made; the ratio is not smaller than the ratio of the steps before
         halvings, so that a run that is halved almost to the same steps has to be nearer.
 
         None if the steps are too few or were halved to the first run's, the run fails or ends at another time,
-        a sensor differs by more than `limit` of its range, or the energy of that run drifts by more, with which it may
-        agree by chance. `iterations`: largest number of Newton iterations per step; 0: no limit.
+        or a sensor differs by more than `limit` of its range. `iterations`: largest number of Newton iterations per
+        step; 0: no limit.
         """
         refined, times = self.refined, self.refined.run[0].t
         # the steps end at each sample, or at every `stride`-th one if they are longer than the sampling interval
@@ -114,14 +115,10 @@ class CoarserRuns:
         parts = self._mean_parts(stride * (len(other[0].t) - 1))
         made_ratio = step_ratio * parts / mean_parts(made.steps, made.halvings)
         least = max(2, min(len(run[0].t) - 1, smooth_from))
-        if (
-            accuracy.energy_drift(made) > limit
-            or made_ratio <= 1.0
-            or len(other[0].t) < least
-            or (coordinates and len(other[1]) != len(run[1]))
-        ):
+        if made_ratio <= 1.0 or len(other[0].t) < least or (coordinates and len(other[1]) != len(run[1])):
             return None
-        return refined.estimate(run, other, h, 1.0 / made_ratio), max(made_ratio, step_ratio)
+        estimate = refined.estimate(run, other, h, 1.0 / made_ratio)
+        return estimate, max(made_ratio, step_ratio), accuracy.energy_drift(made)
 
     def _mean_parts(self, samples: int) -> float:
         """Mean number of parts into which the first run halved its steps, up to a number of samples."""
