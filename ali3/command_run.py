@@ -37,7 +37,7 @@ def run_command(
     try:
         with stopped_by_signals():
             if options is not None:
-                _prepare(options)
+                prepare(options)
             status = work()
             sys.stdout.flush()
         return status
@@ -55,7 +55,8 @@ def run_command(
         return _print_end(f"error: {shortened(message)}", getattr(error, "status", WRONG_USE))
 
 
-def _prepare(options: argparse.Namespace) -> None:
+def prepare(options: argparse.Namespace) -> None:
+    """Check the files that options of a command name, and obey ``--confined``."""
     from ali3.given_files import check_given_files
 
     check_given_files(options)

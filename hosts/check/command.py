@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.command_run import run_command
+from ali3.command_run import prepare, run_command
 from ali3.cores import available_cores
 from ali3.decimal_number import number
 from ali3.extras import command_needs
@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> in
     """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _run(options, parser), options=options)
+    return run_command(lambda: _run(options, parser))
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
@@ -169,24 +169,25 @@ def _refuse_combinations(options: argparse.Namespace, parser: argparse.ArgumentP
 
 def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     _refuse_combinations(options, parser)
-    if options.soak:
-        command_needs("simulator")
-        from hosts.soak.soak import soak
-
-        return soak(options, parser.prog)
-    if options.manoeuvre is not None:
-        from hosts.recordings.load_manoeuvre import check_manoeuvre_option
-
-        check_manoeuvre_option(options.manoeuvre)
-    fmu = fmu_file(options.fmu)
-    if options_given(parser, options, _PARAMETER_OPTIONS):
-        from hosts.check.parameters import report_parameters
-
-        return report_parameters(
-            fmu, fmu_options(options), options.save_parameters, options.diff, options.show_parameters
-        )
-    cases: list[Case] = []
+    fmu, cases = Path(options.fmu or "FMU"), list[Case]()
     try:
+        prepare(options)
+        if options.soak:
+            command_needs("simulator")
+            from hosts.soak.soak import soak
+
+            return soak(options, parser.prog)
+        if options.manoeuvre is not None:
+            from hosts.recordings.load_manoeuvre import check_manoeuvre_option
+
+            check_manoeuvre_option(options.manoeuvre)
+        fmu = fmu_file(options.fmu)
+        if options_given(parser, options, _PARAMETER_OPTIONS):
+            from hosts.check.parameters import report_parameters
+
+            return report_parameters(
+                fmu, fmu_options(options), options.save_parameters, options.diff, options.show_parameters
+            )
         if options.reference is not None:
             return _compare_with_reference(fmu, options, cases)
         return _run_checks(fmu, options, cases)

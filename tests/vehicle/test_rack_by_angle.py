@@ -34,13 +34,13 @@ def car():
 def test_an_angle_in_rad_steers_as_its_share_of_full_lock_does(car):
     largest = CAR.steering.wheel_angle_max
     one, two, both = (Simulation(car) for _ in range(3))
-    a = one.run(3.0, 0.01, inputs=TURN)
+    a = one.run(3.0, 0.005, inputs=TURN)
     b = two.run(
         3.0,
-        0.01,
+        0.005,
         inputs=TURN | {"steering": 0.0, "steering_wheel_angle_demand": lambda t: largest * TURN["steering"](t)},
     )
-    c = both.run(3.0, 0.01, inputs=TURN | {"steering_wheel_angle_demand": 0.5})
+    c = both.run(3.0, 0.005, inputs=TURN | {"steering_wheel_angle_demand": 0.5})
     for name in ("chassis.y", "chassis.wz", "steering_wheel_torque", "wheel_FL.steer"):
         np.testing.assert_allclose(b[name], a[name], rtol=0, atol=1e-9 * np.ptp(a[name]))
     assert c["steering_wheel_angle"][-1] == pytest.approx(a["steering_wheel_angle"][-1] + 0.5, rel=1e-6)

@@ -89,7 +89,7 @@ ENTRY(ali3_status, ali3_sensor_rates, (ali3_instance *in, double *rates, unsigne
 ENTRY(ali3_status, ali3_report_get, (const ali3_instance *in, ali3_report *out), (in, out), NULL)
 ENTRY(double, ali3_energy_balance, (const ali3_report *report), (report), NULL)
 PROCEDURE(ali3_compare, (const ali3_judged *judged, int32_t n, int64_t rows, const double *time, const double *one, const double *other, ali3_compared *seen), (judged, n, rows, time, one, other, seen), NULL)
-PROCEDURE(ali3_compared_sizes, (const ali3_judged *judged, int32_t n, const ali3_compared *seen, double length, double energy, int32_t guided, double *size), (judged, n, seen, length, energy, guided, size), NULL)
+PROCEDURE(ali3_compared_sizes, (const ali3_judged *judged, int32_t n, const ali3_compared *seen, double length, double energy, int32_t exclude_prescribed, double *size), (judged, n, seen, length, energy, exclude_prescribed, size), NULL)
 ENTRY(double, ali3_compared_error, (int32_t n, const ali3_compared *seen, const double *size, int32_t latest, int32_t *worst), (n, seen, size, latest, worst), NULL)
 ENTRY(ali3_status, ali3_branch_text, (const ali3_instance *in, char *text, size_t size), (in, text, size), NULL)
 ENTRY(double, ali3_time, (const ali3_instance *in), (in), NULL)
