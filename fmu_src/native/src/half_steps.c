@@ -220,9 +220,10 @@ static void log_conclusion(slave *s, const slave_late_step *step, double differe
   log_unchecked(s, step->end, why);
 }
 
-/* Ratio of the energy balance to which positions become wrong: (1 + rotation of the motion, rad). */
+/* Energy balance times (1 + rotation of the motion, rad), as errors of positions accumulate. */
 static double energy_drift(const ali3_report *report) {
-  return ali3_energy_balance(report) * (1.0 + report->velocity_path / report->speed_peak);
+  const double rotation = report->speed_peak > 0.0 ? report->velocity_path / report->speed_peak : 0.0;
+  return ali3_energy_balance(report) * (1.0 + rotation);
 }
 
 /* Whether the second motion has a wrong energy, and not by less than half of the error of the first: both share an
