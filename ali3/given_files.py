@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
-from ali3.alias_file import alias_file, read_content
+from ali3.alias_file import alias_file
 from ali3.errors import FileError, UserError
 from ali3.files import check_writable
 from ali3.read_parameter_set import read_parameter_set
@@ -35,7 +35,7 @@ def _check_input_or_folder(path: Path) -> None:
 
 
 def _check_aliases(file: Path) -> None:
-    read_content(alias_file(file))
+    _check_input(alias_file(file))
 
 
 def _check_road(road: Path) -> None:
@@ -56,9 +56,9 @@ def _check_output_folder(folder: Path) -> None:
 
 
 _CHECKS: dict[str, Callable[[Path], object]] = {
-    **dict.fromkeys(("log", "limits"), _check_input),
+    **dict.fromkeys(("log", "limits", "log_aliases"), _check_input),
     **dict.fromkeys(("reference", "geometry"), _check_input_or_folder),
-    **dict.fromkeys(("aliases", "log_aliases"), _check_aliases),
+    "aliases": _check_aliases,
     **dict.fromkeys(("parameters", "variant", "diff"), read_parameter_set),
     "road": _check_road,
     **dict.fromkeys(("json", "picture", "png", "mp4", "gltf", "junit", "sarif", "save_parameters"), check_writable),

@@ -57,3 +57,9 @@ def test_a_right_one_is_not(command, words):
 def test_words_in_place_of_files(command):
     with pytest.raises(AssertionError, match="the car is built"):
         command("catalogue", "--aliases=none", "--variant=as-is")
+
+
+def test_the_alias_file_of_a_log_has_tables(command, tmp_path):
+    (tmp_path / "names.toml").write_text('[signals]\nspeed = "v"\n')
+    with pytest.raises(AssertionError, match="the car is built"):
+        command("compare", "--log-aliases=names.toml")
