@@ -138,7 +138,8 @@ def test_a_start_at_speed_does_not_ring():
 @pytest.mark.slow
 def test_in_a_steady_turn_the_flexible_and_the_quasi_static_car_agree():
     inputs = {"steering": ([0.0, 1.0, 3.0, 8.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.15}
-    quasi, flexible = (simulate(car(f), 8.0, 0.01, inputs, progress=False) for f in (1, 3))
+    # tyre forces are 6 % off at the start, which is reported; the last second is compared
+    quasi, flexible = (simulate(car(f), 8.0, 0.01, inputs, progress=False, estimate_error=False) for f in (1, 3))
     last = quasi.t > 7.0
     largest = 0.0
     for gauge in CAR.chassis.frame.gauges:
