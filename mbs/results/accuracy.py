@@ -5,10 +5,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ali3.message_text import unit_text
 from mbs.kernel.header.enumerations import DrivingFunctionType
-from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED, WRONG_ERROR
+from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED, STILL, WRONG_ERROR
 from mbs.kernel.header.steps import Balance
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
@@ -56,7 +57,8 @@ class Accuracy:
     message: str = ""
     """Evidence against the result, with a remedy; empty if there is none."""
     notice: str = ""
-    """A sentence about an open energy balance of a run that its refined run confirms; otherwise empty."""
+    """A sentence about an open energy balance of a run that its refined run confirms, or about a motion that counts as
+    rest and was not compared; otherwise empty."""
     branch: str = ""
     """A sentence about a change of the assembly mode that the refined run does not make; otherwise empty."""
 
@@ -248,6 +250,26 @@ def budget_text(accuracy: Accuracy, step: float, max_cost: float, needed: float)
         f"Whether the result is off was not checked: a refined run with steps of {step:g} s would cost more than the "
         f"budget of {max_cost:g} runs ({reason}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give it "
         "tolerance=1e-3 instead of a step."
+    )
+
+
+def rest_text(values: Mapping[str, NDArray[np.float64]], compared: Mapping[str, Compared]) -> str:
+    """Sentence about the sensor that moves farthest where all count as rest, with remedies; empty if it is at rest.
+
+    `values`: samples, shape (n,), by name; `compared`: as `compared_sensors` of the System.
+    """
+    ranges = {n: quantity.factor * float(np.ptp(values[n])) for n, quantity in compared.items() if quantity.place}
+    name = max(ranges, key=ranges.__getitem__, default=None)
+    if name is None:
+        return ""
+    suffix = unit_text(compared[name].own_unit or compared[name].unit)
+    moved, largest = float(np.ptp(values[name])), float(np.max(np.abs(values[name])))
+    if moved <= STILL * STILL * largest:  # so far a solution settles
+        return ""
+    return (
+        f"Whether the result is off was not checked: sensor '{name}' moves farthest, by {moved:.2g}{suffix} at values "
+        f"up to {largest:.3g}{suffix}, and less than {STILL:.0e} of the largest value counts as rest. To check it, "
+        "sense the displacement from where it rests, or state the length of the motion, Model(..., length=...)."
     )
 
 

@@ -17,6 +17,7 @@ from mbs.kernel.header.steps import Balance, BranchKind
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
+from mbs.results.comparison import compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -141,9 +142,10 @@ def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accurac
     needed_check = accuracy.required_check(report, method)
     if len(run[0].t) < 2 or not (always or refined.divisor or needed_check):
         return estimate
+    rest = accuracy.rest_text(run[0], compared_sensors(system)) if refined.rests else ""
     if not always and refined.before is None and needed_check == accuracy.COARSER:
         if refined.rests:
-            return estimate
+            return replace(estimate, notice=rest)
         confirmed = CoarserRuns(refined).verdict()
         if confirmed is not None:
             return confirmed
@@ -166,7 +168,7 @@ def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accurac
     error_text = refined.text(estimate) if (estimate.error or 0.0) > WRONG_ERROR else ""
     # an open balance is evidence against the run if the balance of the finest run is wrong too
     if not (error_text or (balance and refined.finest.balance == Balance.WRONG)):
-        notice = f"{balance} {accuracy.RIGHT}" if balance else ""
+        notice = f"{balance} {accuracy.RIGHT}" if balance else rest
         return replace(estimate, branch=branch, notice=notice)
     step_errors = refined.tried_steps(estimate) if error_text else []
     message = " ".join(filter(None, [error_text, balance, accuracy.remedy(system, method, step_errors)]))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly
+from scipy.optimize import brentq
 from scipy.special import ellipk
 
 from mbs import Model, ModelError, Simulation, compile, simulate
@@ -238,3 +239,39 @@ def test_given_rates_are_kept_at_any_size(size):
     loop.initial_rate(angle, 5.0)
     loop.sense_coordinate("rate", angle, order=1)
     assert Simulation(compile(loop)).sensors["rate"] == pytest.approx(5.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(("size", "mass"), [(1e-6, 1e-12), (1.0, 1.0), (100.0, 1e3), (1e5, 1e6)])
+def test_the_equilibrium_is_found_at_any_size_and_weight(size, mass):
+    """A rod on a torsion spring, drawn 49 degrees away, and a mass between three springs.
+
+    With steps of 0.1 m it was refused from 100 m on, and a watch was left out of balance by 4e-4 of its weight.
+    """
+    drawn, weight = 1.2, 9.81 * mass
+    rod_model = Model("rod", dimension=2)
+    rod_model.start_in_equilibrium = True
+    rod = rod_model.body(
+        "rod", mass=mass, com=0.5 * size * np.array([np.sin(drawn), -np.cos(drawn)]), inertia=mass * size**2 / 12.0
+    )
+    rod_model.revolute("pin", rod_model.ground, rod, point=(0.0, 0.0))
+    angle = rod_model.relative_angle("angle", rod_model.ground, rod)
+    rod_model.torsional_spring_damper("spring", angle, stiffness=0.2 * weight * size)
+    rod_model.sense_coordinate("angle", angle)
+    rest = brentq(lambda turned: 0.5 * np.sin(drawn + turned) + 0.2 * turned, -drawn, 0.0)
+    assert Simulation(compile(rod_model)).sensors["angle"] == pytest.approx(rest, abs=1e-6)
+
+    net = Model("net", dimension=2, length=size)
+    net.start_in_equilibrium = True
+    knot = net.point_mass("knot", mass=mass, position=size * np.array([0.4, -0.7]))
+    corners = size * np.array([[-1.0, 0.0], [1.0, 0.3], [0.2, -1.5]])
+    for k, corner in enumerate(corners):
+        net.spring_damper(
+            str(k), (net.ground, corner), (knot, None), stiffness=(3.0 + k) * weight / size, free_length=0.4 * size
+        )
+    for axis in "xy":
+        net.sense_position(axis, knot, None, axis)
+    at = Simulation(compile(net)).sensors
+    spans = corners - [at["x"], at["y"]]
+    lengths = np.linalg.norm(spans, axis=1)
+    pulls = np.array([3.0, 4.0, 5.0]) * weight * (lengths / size - 0.4) / lengths
+    assert pulls @ spans == pytest.approx([0.0, weight], abs=1e-6 * weight)

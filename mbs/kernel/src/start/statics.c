@@ -20,21 +20,22 @@
 #include "initialise.h"
 #include "settled_start.h"
 
-static const double MAX_STEP = 0.1; /* m or rad per iteration */
-static const double FIRST_C = 1e-3, MIN_C = 1e-10, MAX_C = 100.0; /* s^2 */
 static const double PENALTY = 1e9; /* c alpha, as of a step with eps_rel = 2.5e-10 */
+/* These in m and s^2 times the fineness of the System: a drawing and its equilibrium are similar at every size. */
+static const double MAX_STEP = 0.1; /* m or rad per iteration; lengths double while such steps reduce the residual */
+static const double FIRST_C = 1e-3, MIN_C = 1e-10, MAX_C = 100.0; /* s^2 */
 static const double CLOSED = 1e-10; /* m */
 static const double OPEN = 1e-2; /* m: violation above which c does not increase */
-/* Iterations after which c is reduced if rows close slowly because c K is large relative to PENALTY. */
+/* Whole iterations after which c is reduced if rows close slowly because c K is large relative to PENALTY. */
 enum { SLOW = 20 };
 static const double LONG = 1e6; /* s */
-static const double ROUND_OFF = 1e-12; /* of the largest force */
+static const double ROUND_OFF = 1e-12, BALANCE = 1e-6; /* of the largest force */
 /* rad: a heading change between these is drift of a scene without horizontal support, which is moved back */
 static const double TURNED = 1e-12, HELD = 1e-6;
 
 /* Residual of the forces at rest, g = Phi_q' lam - Q, in in->step.r. Stores the largest |g_i| in the report; returns
- * it, or 0 within round-off. `h`: size of the step from the drawing, or 0. */
-static double evaluate_residual(ali3_instance *in, double c, double h) {
+ * it, or 0 within round-off. `h`: size of the step from the drawing, or 0; *largest_force: so far, N. */
+static double evaluate_residual(ali3_instance *in, double c, double h, double *largest_force) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;
   double largest = 0.0, scale = 0.0;
@@ -63,6 +64,7 @@ static double evaluate_residual(ali3_instance *in, double c, double h) {
   }
   in->report.residual = largest;
   in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
+  *largest_force = fmax(*largest_force, scale);
   return largest <= ROUND_OFF * scale ? 0.0 : largest;
 }
 
@@ -83,8 +85,8 @@ static ali3_status factorise(ali3_instance *in, double c) {
   return status == ALI3_OK && in->report.negative_pivots > 0 ? ALI3_SINGULAR : status;
 }
 
-/* Newton step, shortened to the factor *step_fraction. */
-static ali3_status newton_step(ali3_instance *in, double c, double *step_fraction) {
+/* Newton step, shortened by the factor *step_fraction to `limit` m and MAX_STEP rad. */
+static ali3_status newton_step(ali3_instance *in, double c, double limit, double *step_fraction) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   double *lam = in->next.lam, longest = 0.0;
@@ -93,9 +95,12 @@ static ali3_status newton_step(ali3_instance *in, double c, double *step_fractio
   for (int32_t i = 0; i < nq; i++) in->step.x[i] = -(c * in->step.r[i] + in->step.x[i]);
   ali3_solve(in, in->tangent.F, in->step.x);
   if (!ali3_finite(in->step.x, nq)) return ALI3_NOT_FINITE;
+  const double per_radian = limit / MAX_STEP;
+  for (int64_t k = 0; k < S->n_angle_row; k++) in->step.x[S->angle_theta_col[k]] *= per_radian;
   for (int32_t i = 0; i < nq; i++)
     if (fabs(in->step.x[i]) > longest) longest = fabs(in->step.x[i]);
-  *step_fraction = longest > MAX_STEP ? MAX_STEP / longest : 1.0;
+  for (int64_t k = 0; k < S->n_angle_row; k++) in->step.x[S->angle_theta_col[k]] /= per_radian;
+  *step_fraction = longest > limit ? limit / longest : 1.0;
   ali3_rows_times(S, in->tangent.J, in->step.x, in->step.gamma);
   for (int32_t k = 0; k < nc; k++) lam[k] += *step_fraction * PENALTY / c * (in->step.Phi[k] + in->step.gamma[k]);
   for (int32_t i = 0; i < nq; i++) in->next.q[i] += *step_fraction * in->step.x[i];
@@ -118,31 +123,37 @@ static ali3_status iterate(ali3_instance *in, double tolerance, int32_t max_iter
   ali3_vectors_copy(in, &in->next, &in->now);
   memset(in->next.qd, 0, (size_t)in->system->size.nq * sizeof(double));
   mark_holdable(in);
-  double c = FIRST_C, residual = evaluate_residual(in, c, h);
-  int32_t iteration = 0;
+  const double size = in->system->fine, closed = size * CLOSED, open = size * OPEN;
+  double c = size * FIRST_C, limit = size * MAX_STEP, force = 0.0, residual = evaluate_residual(in, c, h, &force);
+  int32_t iteration = 0, whole = 0; /* iterations; of these with the whole step */
   for (; iteration < max_iterations; iteration++) {
     if (!(residual < 1e300) || !(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
-    if (iteration > 0 && residual <= tolerance && in->report.violation <= CLOSED) break;
-    while ((status = factorise(in, c)) == ALI3_SINGULAR && c > MIN_C) {
+    /* small forces, and moments of a small drawing, may be far below the tolerance before they balance */
+    const double balanced = fmin(tolerance, BALANCE * fmin(1.0, size) * force);
+    if (iteration > 0 && residual <= balanced && in->report.violation <= closed) break;
+    while ((status = factorise(in, c)) == ALI3_SINGULAR && c > size * MIN_C) {
       c *= 0.25;
-      evaluate_residual(in, c, h);
+      evaluate_residual(in, c, h, &force);
     }
     double step_fraction = 1.0;
-    if (status == ALI3_OK) status = newton_step(in, c, &step_fraction);
+    if (status == ALI3_OK) status = newton_step(in, c, limit, &step_fraction);
     if (status != ALI3_OK) return status;
     const double previous = residual, previous_c = c, previous_violation = in->report.violation;
-    residual = evaluate_residual(in, c, h);
-    const bool rows_close = in->report.violation <= CLOSED || in->report.violation < 0.5 * previous_violation;
+    residual = evaluate_residual(in, c, h, &force);
+    whole += step_fraction == 1.0;
+    if (step_fraction < 1.0) limit = residual < previous ? 2.0 * limit : fmax(0.5 * limit, size * MAX_STEP);
+    const bool rows_close = in->report.violation <= closed || in->report.violation < 0.5 * previous_violation;
     if (step_fraction < 1.0 || residual > 4.0 * previous)
-      c = fmax(0.5 * c, MIN_C);
-    else if (iteration >= SLOW && !rows_close)
-      c = fmax(0.25 * c, FIRST_C);
-    else if (in->report.violation <= OPEN)
-      c = fmin(4.0 * c, MAX_C);
-    if (c != previous_c) residual = evaluate_residual(in, c, h); /* the tangents of elements include c */
+      c = fmax(0.5 * c, size * MIN_C);
+    else if (whole > SLOW && !rows_close)
+      c = fmax(0.25 * c, size * FIRST_C);
+    else if (in->report.violation <= open)
+      c = fmin(4.0 * c, size * MAX_C);
+    if (c != previous_c) residual = evaluate_residual(in, c, h, &force); /* the tangents of elements include c */
   }
   in->report.last_iterations = iteration;
-  return residual <= tolerance && in->report.violation <= CLOSED ? ALI3_OK : ALI3_NOT_CONVERGED;
+  const bool balanced = residual <= fmax(tolerance, ROUND_OFF * force);
+  return balanced && in->report.violation <= closed ? ALI3_OK : ALI3_NOT_CONVERGED;
 }
 
 ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations) {
