@@ -81,7 +81,7 @@ def warn_of_one_sided_modes(evaluator: Evaluator, motions: Iterable[tuple[float,
         warnings.warn(
             f"A force has a kink at the state, such as an end stop that just touches: within {KINK_DISTANCE * SHIFT:g} "
             f"m the stiffness of both sides differs. The linear model takes the mean, modes of {'; '.join(modes)}. "
-            f"Linearise with the stop or the state moved by more than {KINK_DISTANCE * SHIFT:g} m to either side.",
+            f"Linearise where the stop is apart, or pressed in, by more than {KINK_DISTANCE * SHIFT:g} m.",
             LinearisationWarning,
             stacklevel=3,
         )

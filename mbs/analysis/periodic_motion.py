@@ -21,14 +21,13 @@ from mbs.results.accuracy import GOAL_ERROR, AccuracyWarning, mean_parts, step_d
 from mbs.results.comparison import instants
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.arguments import check_resolution
-from mbs.simulation.evaluator import Evaluator
+from mbs.simulation.evaluator import SHIFT, Evaluator
 from mbs.simulation.large_bending import BendingWatch
 from mbs.simulation.stepping import Simulation
 
 Array = NDArray[np.float64]
 
 MAX_STEPS = 1e8  # largest number of steps of a period
-DISTURBANCE = 1e-5  # largest change of a point or unit axis, m; of a velocity the same divided by the period
 CLOSED = 1e-4  # largest distance of the state after a period, relative to the size and the speed of the motion
 DIED_AWAY = 1e-4  # part of a disturbance, or of the largest multiplier, below which the rest is round-off
 HALVINGS = 20  # most halvings of the step that are advised
@@ -118,7 +117,7 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
         """Matrix by runs of `n` steps, how far the mean of opposite disturbances leaves the motion, and halvings."""
         starts, ends, means, halvings = [], [], [], 0
         for dq, dqd in shifts:
-            size = DISTURBANCE / max(np.abs(dq).max(), np.abs(dqd).max() * period)
+            size = SHIFT / max(np.abs(dq).max(), np.abs(dqd).max() * period)
             pair = [evaluator.admissible(state.q + s * size * dq, state.qd + s * size * dqd) for s in (1.0, -1.0)]
             runs = [_copy_at(simulation, *start) for start in pair]
             for run in runs:
@@ -166,7 +165,7 @@ def _warn_of_kinks(asymmetry: float) -> None:
     if asymmetry <= WRONG_ERROR:
         return
     warnings.warn(
-        f"A disturbance of {DISTURBANCE:g} m and the opposite one end with changes that differ by {asymmetry:.1%}: a "
+        f"A disturbance of {SHIFT:g} m and the opposite one end with changes that differ by {asymmetry:.1%}: a "
         "force has a kink near the motion, such as an end stop that just touches, or the disturbances grow too large. "
         "The multipliers are a mean of both sides; move the stop or the motion apart by more than disturbances move.",
         LinearisationWarning,
