@@ -41,6 +41,7 @@ from mbs.simulation.arguments import (
     record_times,
     requested_tolerance,
 )
+from mbs.simulation.equilibrium_warning import EquilibriumWarning
 from mbs.simulation.fixed_steps import run_fixed_steps
 from mbs.simulation.omitted_sensors import Readings
 from mbs.simulation.parameter_warning import warn_if_out_of_range
@@ -291,6 +292,11 @@ class Simulation(SteppedSystem):
             The tolerance is not positive, or the bound is not a whole number above zero.
         SimulationError
             No equilibrium was found; the state is not changed.
+
+        Warns
+        -----
+        EquilibriumWarning
+            The equilibrium is unstable.
         """
         force = positive(tolerance, "The tolerance of the static equilibrium", ValueError)
         iterations = whole(max_iterations, "max_iterations", 1, MAX_ITERATIONS, ValueError)
@@ -299,6 +305,13 @@ class Simulation(SteppedSystem):
             "No static equilibrium was found near the present position",
             lambda: self.instance.static_equilibrium(self.time, force, iterations),
         )
+        if self.report.negative_pivots:
+            warnings.warn(
+                "The static equilibrium is unstable: the smallest disturbance grows; linearise() gives the modes that "
+                "do. For a stable equilibrium draw the model a little beside this one, on the side to which it falls.",
+                EquilibriumWarning,
+                stacklevel=2,
+            )
 
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while roll, tyres, springs and steering settle, time unchanged.

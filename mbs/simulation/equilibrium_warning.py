@@ -1,0 +1,5 @@
+"""Warning about an equilibrium that is not stable."""
+
+
+class EquilibriumWarning(UserWarning):
+    """A static equilibrium is unstable: the smallest disturbance grows."""
