@@ -18,6 +18,7 @@ from mbs.kernel.header.limits import LONGEST_SETTLING, MOST_PARTS
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
+from mbs.results.equilibrium_warning import warn_if_unstable
 from mbs.results.trajectory import Trajectory
 from mbs.roads.package_roads import road_path
 from mbs.roads.steep_faces import RoadWarning
@@ -41,7 +42,6 @@ from mbs.simulation.arguments import (
     record_times,
     requested_tolerance,
 )
-from mbs.simulation.equilibrium_warning import EquilibriumWarning
 from mbs.simulation.fixed_steps import run_fixed_steps
 from mbs.simulation.omitted_sensors import Readings
 from mbs.simulation.parameter_warning import warn_if_out_of_range
@@ -305,13 +305,7 @@ class Simulation(SteppedSystem):
             "No static equilibrium was found near the present position",
             lambda: self.instance.static_equilibrium(self.time, force, iterations),
         )
-        if self.report.negative_pivots:
-            warnings.warn(
-                "The static equilibrium is unstable: the smallest disturbance grows; linearise() gives the modes that "
-                "do. For a stable equilibrium draw the model a little beside this one, on the side to which it falls.",
-                EquilibriumWarning,
-                stacklevel=2,
-            )
+        warn_if_unstable(self.report.negative_pivots, "The static equilibrium", stacklevel=2)
 
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while roll, tyres, springs and steering settle, time unchanged.

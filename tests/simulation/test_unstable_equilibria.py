@@ -36,3 +36,13 @@ def test_an_upright_rod_that_stands_is_not_reported(stiffness):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         rod(stiffness).static_equilibrium()
+
+
+def test_a_model_that_starts_in_one_says_so_when_it_is_compiled():
+    m = Model("upright rod", dimension=2)
+    body = m.body("rod", mass=1.0, com=(0.0, 1.0), inertia=0.1)
+    m.revolute("pivot", m.ground, body, point=(0.0, 0.0))
+    m.start_in_equilibrium = True
+    with pytest.warns(EquilibriumWarning, match="equilibrium of 'upright rod' is unstable") as caught:
+        compile(m)
+    assert [w.filename for w in caught] == [__file__]

@@ -29,7 +29,7 @@ static const double OPEN = 1e-2; /* m: violation above which c does not increase
 /* Iterations after which c is reduced if rows close slowly because c K is large relative to PENALTY. */
 enum { SLOW = 20 };
 static const double LONG = 1e6; /* s */
-static const double ROUND_OFF = 1e-12; /* of the largest force */
+static const double ROUND_OFF = 1e-12; /* of the largest force, or of the diagonal of T */
 /* rad: a heading change between these is drift of a scene without horizontal support, which is moved back */
 static const double TURNED = 1e-12, HELD = 1e-6;
 
@@ -67,8 +67,9 @@ static double evaluate_residual(ali3_instance *in, double c, double h) {
   return largest <= ROUND_OFF * scale ? 0.0 : largest;
 }
 
-/* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T gives no descent direction. */
-static ali3_status factorise(ali3_instance *in, double c) {
+/* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q, its diagonal larger by the part `more`; an indefinite T gives no
+ * descent direction. */
+static ali3_status factorise(ali3_instance *in, double c, double more) {
   const ali3_system *S = in->system;
   ali3_mass_to_fronts(in, in->tangent.F);
   for (int32_t i = 0; i < S->size.nq; i++) in->tangent.F[S->diagonal_pos[i]] += in->mass.missing[i];
@@ -79,6 +80,7 @@ static ali3_status factorise(ali3_instance *in, double c) {
     const int32_t pos = S->diagonal_pos[i];
     in->step.d0[i] = in->tangent.F[pos] == in->mass.front[pos] + in->mass.missing[i] ? in->step.w[i] : 1.0;
     in->step.r[i] *= in->step.d0[i];
+    in->tangent.F[pos] += more * in->tangent.F[pos];
   }
   const ali3_status status = ali3_factorise(in, in->tangent.F);
   return status == ALI3_OK && in->report.negative_pivots > 0 ? ALI3_SINGULAR : status;
@@ -124,7 +126,7 @@ static ali3_status iterate(ali3_instance *in, double tolerance, int32_t max_iter
   for (; iteration < max_iterations; iteration++) {
     if (!(residual < 1e300) || !(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
     if (iteration > 0 && residual <= tolerance && in->report.violation <= CLOSED) break;
-    while ((status = factorise(in, c)) == ALI3_SINGULAR && c > MIN_C) {
+    while ((status = factorise(in, c, 0.0)) == ALI3_SINGULAR && c > MIN_C) {
       c *= 0.25;
       evaluate_residual(in, c, h);
     }
@@ -158,7 +160,7 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   if (status != ALI3_OK && S->size.ny > 0) status = iterate(in, tolerance, max_iterations, h = LONG);
   if (status != ALI3_OK) return status;
   evaluate_residual(in, MAX_C, h);
-  status = factorise(in, MAX_C);
+  status = factorise(in, MAX_C, ROUND_OFF);
   if (status != ALI3_OK && status != ALI3_SINGULAR) return status;
   const int32_t negative_pivots = in->report.negative_pivots;
   if (h > 0.0) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
