@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from mbs.results.accuracy import AccuracyWarning as AccuracyWarning
     from mbs.results.animation import Animation as Animation
     from mbs.results.animation import animate as animate
+    from mbs.results.equilibrium_warning import EquilibriumWarning as EquilibriumWarning
     from mbs.results.poses import Poses as Poses
     from mbs.results.simulation_error import SimulationError as SimulationError
     from mbs.results.step_control import Control as Control
@@ -54,6 +55,7 @@ _LAZY = {
     "AffineVector": "mbs.common.affine",
     "ArgumentTypeError": "mbs.common.errors",
     "BranchWarning": "mbs.simulation.branch_warning",
+    "EquilibriumWarning": "mbs.results.equilibrium_warning",
     "Model": "mbs.model",
     "ModelError": "mbs.model",
     "System": "mbs.system.system",

@@ -1,11 +1,13 @@
 """Forces that are not smooth at a state: slopes that differ on both sides, or that change within a small velocity."""
 
 import warnings
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.simulation.evaluator import SHIFT, Evaluator
 from mbs.simulation.state import State
 
@@ -53,6 +55,36 @@ def state_beside_kinks(evaluator: Evaluator, side: int | None) -> State:
         state = replace(state, qd=velocities)
     _warn_of_bends(evaluator, state)
     return state
+
+
+def warn_of_one_sided_modes(evaluator: Evaluator, motions: Iterable[tuple[float, Array]]) -> None:
+    """Warn of modes whose stiffness differs on both sides of the state, as where an end stop just touches.
+
+    `motions`: angular frequency, rad/s, and real shape (nq,) of each mode.
+    """
+    state, M = evaluator.state, evaluator.mass()
+
+    def forces(q: Array) -> Array:
+        return evaluator.rates(q, state.qd, state.y)[: len(q)]
+
+    middle, modes = forces(state.q), []
+    for frequency, displacement in motions:
+        shape = displacement / np.sqrt(displacement @ M @ displacement)
+        distance = KINK_DISTANCE * SHIFT / np.abs(shape).max()
+        ahead, behind = (shape @ (forces(state.q + s * distance * shape) - middle) / distance for s in (1.0, -1.0))
+        half = 0.5 * float(ahead + behind)  # half the difference of the stiffness of both sides, 1/s2
+        mean = max(frequency**2, 0.5 * abs(float(ahead - behind)))
+        if abs(half) > 2.0 * WRONG_ERROR * mean + 1e-13 * float(np.abs(shape) @ np.abs(middle)) / distance:
+            sides = sorted(np.sqrt(np.abs(mean + np.array([half, -half]))) / (2.0 * np.pi))
+            modes.append(f"{frequency / (2.0 * np.pi):.4g} Hz between {sides[0]:.4g} and {sides[1]:.4g} Hz")
+    if modes:
+        warnings.warn(
+            f"A force has a kink at the state, such as an end stop that just touches: within {KINK_DISTANCE * SHIFT:g} "
+            f"m the stiffness of both sides differs. The linear model takes the mean, modes of {'; '.join(modes)}. "
+            f"Linearise where the stop is apart, or pressed in, by more than {KINK_DISTANCE * SHIFT:g} m.",
+            LinearisationWarning,
+            stacklevel=3,
+        )
 
 
 def _worst_kink(evaluator: Evaluator, state: State) -> tuple[int, float, float] | None:

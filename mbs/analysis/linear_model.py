@@ -26,7 +26,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from mbs.analysis.kinks import state_beside_kinks
+from mbs.analysis.kinks import state_beside_kinks, warn_of_one_sided_modes
 from mbs.analysis.steady_motion import SteadyFrame, steady_frame
 from mbs.common.checks import instance_of, is_number, shown
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
@@ -134,7 +134,7 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     Warns
     -----
     LinearisationWarning
-        A force has a kink at the state, or bends within the smallest differences.
+        A force has a kink at the state, as where an end stop just touches, or bends within the smallest differences.
     BendingWarning
         A flexible body carries axial forces in this state, or bends, so far that its frequencies are off.
     """
@@ -180,7 +180,9 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     indices = [*range(n_motion), *(n_motion + i for i in dynamic_slots)]
     A = A[np.ix_(indices, indices)]
     names = tuple(simulation.system.meta["coordinates"])
-    return LinearModel(A, P, tuple(slots[i] for i in dynamic_slots), names, _modes(A, P), tuple(frame.turning.tolist()))
+    modes = _modes(A, P)
+    warn_of_one_sided_modes(evaluator, ((abs(m.eigenvalue), m.shape.real) for m in modes if m.shape.any()))
+    return LinearModel(A, P, tuple(slots[i] for i in dynamic_slots), names, modes, tuple(frame.turning.tolist()))
 
 
 def _check_steady(evaluator: Evaluator, frame: SteadyFrame, M: Array) -> None:

@@ -1,9 +1,9 @@
 """Floquet multipliers of a periodic motion: growth of small disturbances over one period.
 
 The monodromy matrix maps admissible displacements and velocities (z, w) of `mbs.linearise` over one period; its
-columns are central differences of whole runs. One more pair of runs with half the step, disturbed along the sum of all
-columns, estimates the error. A motion is stable where no multiplier lies outside the unit circle
-(A. H. Nayfeh, B. Balachandran, Applied Nonlinear Dynamics, 1995, section 3.2).
+columns are central differences of whole runs. A second matrix by half the step gives the error of the multipliers, by
+Richardson's extrapolation. A motion is stable where no multiplier lies outside the unit circle (A. H. Nayfeh,
+B. Balachandran, Applied Nonlinear Dynamics, 1995, section 3.2).
 """
 
 import warnings
@@ -11,23 +11,26 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
 
+from mbs.analysis.kinks import LinearisationWarning
 from mbs.analysis.linear_model import admissible_motions
 from mbs.common.checks import instance_of, is_finite, shown
-from mbs.kernel.header.limits import WRONG_ERROR
-from mbs.results.accuracy import Accuracy, AccuracyWarning, needed_step
+from mbs.kernel.header.limits import RESOLVED, WRONG_ERROR
+from mbs.results.accuracy import GOAL_ERROR, AccuracyWarning, mean_parts, step_divisor
 from mbs.results.comparison import instants
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.arguments import check_resolution
-from mbs.simulation.evaluator import Evaluator
+from mbs.simulation.evaluator import SHIFT, Evaluator
 from mbs.simulation.large_bending import BendingWatch
 from mbs.simulation.stepping import Simulation
 
 Array = NDArray[np.float64]
 
 MAX_STEPS = 1e8  # largest number of steps of a period
-DISTURBANCE = 1e-4  # largest change of a point or unit axis, m; of a velocity the same divided by the period
 CLOSED = 1e-4  # largest distance of the state after a period, relative to the size and the speed of the motion
+DIED_AWAY = 1e-4  # part of a disturbance, or of the largest multiplier, below which the rest is round-off
+HALVINGS = 20  # most halvings of the step that are advised
 
 
 @dataclass(frozen=True)
@@ -40,6 +43,8 @@ class FloquetModel:
     """Shape (n, n): map of the admissible displacements and velocities over one period."""
     multipliers: NDArray[np.complex128]
     """Shape (n,): its eigenvalues, by falling modulus."""
+    error: float = 0.0
+    """Largest estimated error of a multiplier by the step, relative to its modulus."""
 
     @property
     def exponents(self) -> NDArray[np.complex128]:
@@ -57,7 +62,7 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
     period : float
         s; the motion must come back to the state after it.
     h : float
-        Step, s; the runs make whole steps next to it.
+        Step, s; the runs make whole steps next to it, and once more with half of it for the error.
 
     Returns
     -------
@@ -74,7 +79,9 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
     Warns
     -----
     AccuracyWarning
-        Runs with half the step show that disturbances after a period are wrong by more than 5 %.
+        Runs with half the step show that a multiplier is wrong by more than 5 %.
+    LinearisationWarning
+        A disturbance and the opposite one end differently: a force has a kink near the motion.
     BendingWarning
         A flexible body carries axial forces during the period, or bends, so far that its frequencies are off.
     """
@@ -96,33 +103,49 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
     M = evaluator.mass()
     V, _, P = admissible_motions(M, evaluator.jacobian(state.q), simulation.system)
     steps = max(1, round(period / h))
-    _check_closed(simulation, evaluator, _reference_period(simulation, evaluator, period, steps), period)
-
-    def run_period(q: Array, qd: Array, n: int) -> tuple[Array, Array]:
-        run = _copy_at(simulation, q, qd)
-        run.step(period / n, n=n)
-        return run.state.q, run.state.qd
-
-    def disturbed(dq: Array, dqd: Array, n: int) -> tuple[Array, Array]:
-        """Disturbance (z, w) at the start and after a period of `n` steps, for shifts of coordinates and velocities."""
-        size = DISTURBANCE / max(np.abs(dq).max(), np.abs(dqd).max() * period)
-        starts = [evaluator.admissible(state.q + s * size * dq, state.qd + s * size * dqd) for s in (1.0, -1.0)]
-        columns = []
-        for pair in (starts, [run_period(*start, n) for start in starts]):
-            change, rate = ((a - b) / (2.0 * size) for a, b in zip(*pair, strict=True))
-            columns.append(np.concatenate([P.T @ M @ change, period * (V.T @ M @ rate)]))
-        return columns[0], columns[1]
-
+    reference = _reference_period(simulation, evaluator, period, steps)
+    _check_closed(simulation, evaluator, reference, period)
     still = np.zeros(len(state.q))
     shifts = [(direction, still) for direction in P.T] + [(still, direction / period) for direction in V.T]
     if not shifts:
         return FloquetModel(period, np.zeros((0, 0)), np.zeros(0, complex))
-    pairs = [disturbed(dq, dqd, steps) for dq, dqd in shifts]
-    monodromy: Array = np.linalg.solve(np.array([a for a, _ in pairs]), np.array([b for _, b in pairs])).T
-    start, finer = disturbed(P.sum(axis=1), V.sum(axis=1) / period, 2 * steps)
-    _warn_of_steps(simulation.settings.method, period / steps, start, monodromy @ start, finer)
-    multipliers = np.asarray(np.linalg.eigvals(monodromy), complex)
-    return FloquetModel(period, monodromy, multipliers[np.argsort(-np.abs(multipliers), kind="stable")])
+
+    def column(change: Array, rate: Array) -> Array:
+        return np.concatenate([P.T @ M @ change, period * (V.T @ M @ rate)])
+
+    def monodromy_matrix(n: int) -> tuple[Array, float, int]:
+        """Matrix by runs of `n` steps, how far the mean of opposite disturbances leaves the motion, and halvings."""
+        starts, ends, means, halvings = [], [], [], 0
+        for dq, dqd in shifts:
+            size = SHIFT / max(np.abs(dq).max(), np.abs(dqd).max() * period)
+            pair = [evaluator.admissible(state.q + s * size * dq, state.qd + s * size * dqd) for s in (1.0, -1.0)]
+            runs = [_copy_at(simulation, *start) for start in pair]
+            for run in runs:
+                run.step(period / n, n=n)
+                halvings += run.report.halvings
+            (q, qd), (other_q, other_qd) = ((run.state.q, run.state.qd) for run in runs)
+            starts.append(column(pair[0][0] - pair[1][0], pair[0][1] - pair[1][1]))
+            ends.append(column(q - other_q, qd - other_qd))
+            means.append(column(q + other_q - 2.0 * reference[0], qd + other_qd - 2.0 * reference[1]))
+        left = [
+            float(np.linalg.norm(mean) / max(np.linalg.norm(end), DIED_AWAY * np.linalg.norm(start)))
+            for start, end, mean in zip(starts, ends, means, strict=True)
+        ]
+        return np.linalg.solve(np.array(starts), np.array(ends)).T, max(left), halvings
+
+    monodromy, asymmetry, halvings = monodromy_matrix(steps)
+    _warn_of_kinks(asymmetry)
+    order, made = METHOD_TABLE[simulation.settings.method].order, 2 * len(shifts) * steps
+    parts = step_divisor(made, halvings)
+    finer = monodromy_matrix(parts * steps)[0]
+    excess = (monodromy - finer) / (1.0 - (mean_parts(made, halvings) / parts) ** order)
+    error = _warn_of_steps(period / steps, order, monodromy - excess, excess)
+    return FloquetModel(period, monodromy, _multipliers(monodromy), error)
+
+
+def _multipliers(monodromy: Array) -> NDArray[np.complex128]:
+    values = np.asarray(np.linalg.eigvals(monodromy), complex)
+    return values[np.argsort(-np.abs(values), kind="stable")]
 
 
 def _reference_period(simulation: Simulation, evaluator: Evaluator, period: float, steps: int) -> tuple[Array, Array]:
@@ -138,24 +161,46 @@ def _reference_period(simulation: Simulation, evaluator: Evaluator, period: floa
     return run.state.q, run.state.qd
 
 
-def _warn_of_steps(method: str, h: float, start: Array, end: Array, finer: Array) -> None:
-    """Warn if a disturbance (n,) from `start` to `end` differs too much from that with half the step `h`, s.
-
-    What has died away to a part `CLOSED` of the start is round-off.
-    """
-    order = METHOD_TABLE[method].order
-    size = max(np.linalg.norm(end), np.linalg.norm(finer), CLOSED * np.linalg.norm(start))
-    error = float(np.linalg.norm(end - finer) / (1.0 - 0.5**order) / size)
-    if error <= WRONG_ERROR:
+def _warn_of_kinks(asymmetry: float) -> None:
+    if asymmetry <= WRONG_ERROR:
         return
-    needed = needed_step(h, Accuracy(None, None, 0.0, compared_step=h / 2.0, order=order, units={"1": error}))
-    remedy = f"of {needed:.2g} s" if needed is not None else f"much shorter than {h / 2.0:.2g} s"
     warnings.warn(
-        f"With steps of {h:.3g} s disturbances after a period are off by about {error:.1%}, by a run with half the "
-        f"step; the multipliers may be off by as much. Take steps {remedy}, or a method of higher order.",
+        f"A disturbance of {SHIFT:g} m and the opposite one end with changes that differ by {asymmetry:.1%}: a "
+        "force has a kink near the motion, such as an end stop that just touches, or the disturbances grow too large. "
+        "The multipliers are a mean of both sides; move the stop or the motion apart by more than disturbances move.",
+        LinearisationWarning,
+        stacklevel=3,
+    )
+
+
+def _warn_of_steps(h: float, order: int, limit: Array, excess: Array) -> float:
+    """Error of the multipliers of ``limit + excess``, both (n, n), by steps `h`, s; warns if it is too large.
+
+    The excess of other steps is proportional to the power `order` of the step.
+    """
+    expected = _multipliers(limit)
+    sizes = np.maximum(np.abs(expected), DIED_AWAY * max(1.0, np.abs(expected[0])))
+
+    def error_of(part: float) -> tuple[float, complex]:
+        differences = np.abs(_multipliers(limit + part * excess)[:, None] - expected) / sizes
+        pairs = linear_sum_assignment(differences)
+        worst = int(np.argmax(differences[pairs]))
+        return float(differences[pairs][worst]), complex(expected[pairs[1][worst]])
+
+    error, multiplier = error_of(1.0)
+    if error <= WRONG_ERROR:
+        return error
+    halvings = (k for k in range(1, HALVINGS) if error_of(0.5 ** (k * order))[0] <= GOAL_ERROR)
+    # of larger errors the angle of a multiplier may be wrong by whole turns
+    sufficient = next(halvings, None) if error <= 0.5 * RESOLVED else None
+    remedy = f"of {h * 0.5**sufficient:.2g} s" if sufficient else f"much shorter than {h / 2.0:.2g} s"
+    warnings.warn(
+        f"With steps of {h:.3g} s the multiplier near {multiplier:.3g} is off by about {error:.1%}, as runs with half "
+        f"the step show. Take steps {remedy}, or a method of higher order.",
         AccuracyWarning,
         stacklevel=3,
     )
+    return error
 
 
 def _copy_at(simulation: Simulation, q: Array, qd: Array) -> Simulation:

@@ -11,6 +11,7 @@ from mbs.common.checks import number
 from mbs.common.errors import ModelError
 from mbs.kernel.binding import KernelError, LoadedSystem, open_row
 from mbs.kernel.binding.standing_instance import StandingInstance
+from mbs.results.equilibrium_warning import warn_if_unstable
 from mbs.system.compiled_model import CompiledModel
 
 TOLERANCE = 1e-8  # N
@@ -53,6 +54,8 @@ def equilibrium(
     except KernelError as error:
         text = f"The model '{system.meta['name']}' has no static equilibrium near its drawing: "
         raise ModelError(text + _failure_text(instance.report(), system.meta, error)) from None
+    name = system.meta["name"]
+    warn_if_unstable(instance.report()["negative_pivots"], f"The static equilibrium of '{name}'", stacklevel=6)
     q, _, _, _, y = instance.get_state()
     return np.array(q, float), np.array(y, float)
 

@@ -24,7 +24,8 @@ class Report:
     last_iterations, max_iterations : int
         Newton iterations of the last attempt of a step, and the most any attempt took.
     negative_pivots : int
-        Of the last factorization: above 0 the tangent was not positive definite.
+        Of the last factorization: above 0 the tangent was not positive definite; after a static equilibrium: above 0 it
+        is unstable.
     residual : float
         ``max |r_i| / m_i`` of the last step, coordinate units (m).
     violation : float

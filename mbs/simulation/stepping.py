@@ -18,6 +18,7 @@ from mbs.kernel.header.limits import LONGEST_SETTLING, MOST_PARTS
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
+from mbs.results.equilibrium_warning import warn_if_unstable
 from mbs.results.trajectory import Trajectory
 from mbs.roads.package_roads import road_path
 from mbs.roads.steep_faces import RoadWarning
@@ -291,6 +292,11 @@ class Simulation(SteppedSystem):
             The tolerance is not positive, or the bound is not a whole number above zero.
         SimulationError
             No equilibrium was found; the state is not changed.
+
+        Warns
+        -----
+        EquilibriumWarning
+            The equilibrium is unstable.
         """
         force = positive(tolerance, "The tolerance of the static equilibrium", ValueError)
         iterations = whole(max_iterations, "max_iterations", 1, MAX_ITERATIONS, ValueError)
@@ -299,6 +305,7 @@ class Simulation(SteppedSystem):
             "No static equilibrium was found near the present position",
             lambda: self.instance.static_equilibrium(self.time, force, iterations),
         )
+        warn_if_unstable(self.report.negative_pivots, "The static equilibrium", stacklevel=2)
 
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while roll, tyres, springs and steering settle, time unchanged.

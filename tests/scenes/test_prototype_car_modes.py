@@ -31,7 +31,7 @@ def symmetric_modes(system):
 
 def test_ride_and_wheel_hop(monkeypatch):
     original = TMeasy.tyre
-    monkeypatch.setattr(TMeasy, "tyre", lambda self, side: replace(original(self, side), damping=0.0))
+    monkeypatch.setattr(TMeasy, "tyre", lambda self, *side: replace(original(self, *side), damping=0.0))
     modes = symmetric_modes(compile(prototype_car.build(PlaneRoad(friction=0.0))))
     assert len(modes) == 4
     for (f, zeta), (expected_f, expected_zeta) in zip(modes[:2], RIDE, strict=True):
@@ -46,7 +46,7 @@ def test_ride_and_wheel_hop(monkeypatch):
 def test_tyre_damping_damps_the_hop_only(monkeypatch):
     with_damping = symmetric_modes(car_on_ice())
     original = TMeasy.tyre
-    monkeypatch.setattr(TMeasy, "tyre", lambda self, side: replace(original(self, side), damping=0.0))
+    monkeypatch.setattr(TMeasy, "tyre", lambda self, *side: replace(original(self, *side), damping=0.0))
     without = symmetric_modes(compile(prototype_car.build(PlaneRoad(friction=0.0))))
     rise = np.array(with_damping)[:, 1] - np.array(without)[:, 1]
     assert np.all(np.abs(rise[:2]) < 0.01)

@@ -1,11 +1,14 @@
 """Frequencies, damping and shapes against closed forms."""
 
+import warnings
+
 import numpy as np
 import pytest
 
 from mbs import Affine, LinearisationWarning, Model, Simulation, compile, linearise
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.elements.road import PlaneRoad
+from mbs.elements.spring_damper import EndStops
 from mbs.elements.tyre import Tyre, TyreCurve
 from tests.simulation.scenes import GRAVITY, LENGTH, MASS, two_masses
 
@@ -177,3 +180,28 @@ class TestKink:
     def test_another_side_is_refused(self):
         with pytest.raises(ValueError, match="side = 2; it must be 1"):
             linearise(self.wheels(), side=2)
+
+
+class TestStop:
+    """1 kg on 900 N/m with a stop of 5000 N/m: 30 rad/s without it and 76.8 rad/s with it."""
+
+    def mass(self, distance):
+        m = Model("mass with a stop", dimension=2, gravity=(0.0, 0.0))
+        mass = m.point_mass("mass", mass=1.0, position=(1.0, 0.0))
+        m.point_on_line("line", (mass, None), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
+        ends, stops = ((m.ground, (2.0, 0.0)), (mass, None)), EndStops(bump_length=1.0 - distance, bump_stiffness=5e3)
+        m.spring_damper("spring", *ends, stiffness=900.0, damping=0.5, free_length=1.0, stops=stops)
+        simulation = Simulation(compile(m))
+        simulation.static_equilibrium()
+        return simulation
+
+    def test_one_that_just_touches_is_reported_with_both_frequencies(self):
+        with pytest.warns(LinearisationWarning, match=r"modes of 9\.28 Hz between 4\.775 and 12\.22 Hz"):
+            linearise(self.mass(0.0))
+
+    @pytest.mark.parametrize(("distance", "square"), [(2e-5, 900.0), (-1e-4, 5900.0)], ids=["apart", "pressed"])
+    def test_one_that_is_moved_as_advised_is_not_reported(self, distance, square):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            (mode,) = linearise(self.mass(distance)).modes
+        assert abs(mode.eigenvalue) == pytest.approx(square**0.5, rel=RELATIVE)

@@ -165,7 +165,8 @@ typedef struct {
 typedef struct {
   int64_t steps, iterations, factorizations, solves, halvings, failures; /* since the last initialise */
   int32_t last_iterations, max_iterations; /* of the last step; the most of a step since then */
-  int32_t last_status, negative_pivots; /* ali3_status of the last step; pivots of the last factorization */
+  int32_t last_status, negative_pivots; /* ali3_status of the last step; pivots of the last factorization,
+                                         after a static equilibrium directions in which it is unstable */
   double residual, violation; /* of the last step: max |r_i|/m_i, max |Phi| in m */
   double velocity_violation; /* max |Phi_q qd + Phi_t| * row_measure after projection */
   int32_t worst_row, worst_coordinate; /* indices of the row and the coordinate that have these residuals */

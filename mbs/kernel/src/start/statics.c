@@ -1,5 +1,6 @@
 /* Static equilibrium by a pseudo-transient Newton iteration with mass / c + stiffness, where c increases while the
- * residual decreases. The mass keeps free directions (position on a plane) constant. A coordinate without row,
+ * residual decreases. The mass keeps free directions (position on a plane) constant. Negative pivots of mass / MAX_C +
+ * stiffness at the end show an equilibrium that is left faster than at the rate 1 / sqrt(MAX_C). A coordinate without row,
  * stiffness and weight, such as the spin of a driven wheel, cannot balance at rest and is held. in->step.w is 0 for
  * coordinates that may be held, in->step.d0 for those that are; both are 1 elsewhere.
  *
@@ -29,7 +30,8 @@ static const double OPEN = 1e-2; /* m: violation above which c does not increase
 /* Whole iterations after which c is reduced if rows close slowly because c K is large relative to PENALTY. */
 enum { SLOW = 20 };
 static const double LONG = 1e6; /* s */
-static const double ROUND_OFF = 1e-12, BALANCE = 1e-6; /* of the largest force */
+static const double BALANCE = 1e-6;    /* of the largest force */
+static const double ROUND_OFF = 1e-12; /* of the largest force, or of the diagonal of T */
 /* rad: a heading change between these is drift of a scene without horizontal support, which is moved back */
 static const double TURNED = 1e-12, HELD = 1e-6;
 
@@ -68,8 +70,9 @@ static double evaluate_residual(ali3_instance *in, double c, double h, double *l
   return largest <= ROUND_OFF * scale ? 0.0 : largest;
 }
 
-/* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T gives no descent direction. */
-static ali3_status factorise(ali3_instance *in, double c) {
+/* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q, its diagonal larger by the part `more`; an indefinite T gives no
+ * descent direction. */
+static ali3_status factorise(ali3_instance *in, double c, double more) {
   const ali3_system *S = in->system;
   ali3_mass_to_fronts(in, in->tangent.F);
   for (int32_t i = 0; i < S->size.nq; i++) in->tangent.F[S->diagonal_pos[i]] += in->mass.missing[i];
@@ -80,6 +83,7 @@ static ali3_status factorise(ali3_instance *in, double c) {
     const int32_t pos = S->diagonal_pos[i];
     in->step.d0[i] = in->tangent.F[pos] == in->mass.front[pos] + in->mass.missing[i] ? in->step.w[i] : 1.0;
     in->step.r[i] *= in->step.d0[i];
+    in->tangent.F[pos] += more * in->tangent.F[pos];
   }
   const ali3_status status = ali3_factorise(in, in->tangent.F);
   return status == ALI3_OK && in->report.negative_pivots > 0 ? ALI3_SINGULAR : status;
@@ -131,7 +135,7 @@ static ali3_status iterate(ali3_instance *in, double tolerance, int32_t max_iter
     /* small forces, and moments of a small drawing, may be far below the tolerance before they balance */
     const double balanced = fmin(tolerance, BALANCE * fmin(1.0, size) * force);
     if (iteration > 0 && residual <= balanced && in->report.violation <= closed) break;
-    while ((status = factorise(in, c)) == ALI3_SINGULAR && c > size * MIN_C) {
+    while ((status = factorise(in, c, 0.0)) == ALI3_SINGULAR && c > size * MIN_C) {
       c *= 0.25;
       evaluate_residual(in, c, h, &force);
     }
@@ -163,15 +167,22 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   if (status != ALI3_OK) return status;
   ali3_held_motion start;
   const bool floats = S->size.has_pose && ali3_measure_held_motion(in, &start);
-  status = iterate(in, tolerance, max_iterations, 0.0);
-  if (status != ALI3_OK && S->size.ny > 0) {
-    status = iterate(in, tolerance, max_iterations, LONG);
-    if (status == ALI3_OK) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
-  }
+  double h = 0.0;
+  status = iterate(in, tolerance, max_iterations, h);
+  if (status != ALI3_OK && S->size.ny > 0) status = iterate(in, tolerance, max_iterations, h = LONG);
   if (status != ALI3_OK) return status;
+  double force = 0.0;
+  const double longest_c = S->fine * MAX_C;
+  evaluate_residual(in, longest_c, h, &force);
+  status = factorise(in, longest_c, ROUND_OFF);
+  if (status != ALI3_OK && status != ALI3_SINGULAR) return status;
+  const int32_t negative_pivots = in->report.negative_pivots;
+  if (h > 0.0) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
   const double heading_change = floats ? fabs(ali3_heading_change(in, &start)) : 0.0;
   if (heading_change > TURNED && heading_change < HELD) ali3_restore_motion(in, &start, 0.0);
-  return ali3_solve_rates(in, true);
+  status = ali3_solve_rates(in, true);
+  in->report.negative_pivots = negative_pivots;
+  return status;
 }
