@@ -120,6 +120,10 @@ def _check_options(options: argparse.Namespace) -> None:
         raise HostError(f"{misplaced[0]} is for a recording; --recording names its folder.")
     if options.interval is not None and options.record is None:
         raise HostError("--interval is for what --record writes; name a folder for the recording.")
+    if options.interval is not None:
+        from hosts.driving.run_checks import steps_of
+
+        steps_of(options.interval, options.step, "The interval")
     headless_options = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
     if not options.headless and (misplaced := [name for name, value in headless_options.items() if value is not None]):
         raise HostError(

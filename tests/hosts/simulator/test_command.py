@@ -282,6 +282,16 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_run(fmus, told, t
         assert "simulated" not in out
 
 
+def test_an_impossible_interval_is_refused_before_the_folder_is_made(fmus, told, tmp_path):
+    arguments = ("--headless", "--stop-time", 1, "--record", tmp_path / "drive", "--interval", 0.003)
+    code, _, error = told(fmus["sledge"], *arguments)
+    assert (code, error) == (
+        2,
+        "error: The interval is 0.003 s, which is not a multiple of the step of 0.002 s; take 0.004 s.",
+    )
+    assert not (tmp_path / "drive").exists()
+
+
 def test_a_recording_is_joined_with_a_bar_and_not_written_over_another(fmus, told, tmp_path, monkeypatch):
     """A bar is shown after two seconds; here at once."""
     monkeypatch.setattr(bars, "DELAY", 0.0)
