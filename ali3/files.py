@@ -72,14 +72,26 @@ def check_writable(file: str | os.PathLike[str]) -> None:
     """Raise the `FileError` that writing a file would raise, before its content is computed."""
     target = Path(os.path.realpath(file))
     _check_file(file, target)
-    nearest_parent = next(parent for parent in target.parents if parent.exists())
-    if not nearest_parent.is_dir():
-        raise FileError(f"The folder {target.parent} cannot be made: {nearest_parent} is a file.")
+    _check_place(target.parent, f"{file} cannot be written")
+
+
+def check_folder(folder: str | os.PathLike[str]) -> None:
+    """Raise the `FileError` that making a folder, and writing to it, would raise."""
+    _check_place(Path(os.path.realpath(folder)), f"The folder {folder} cannot be written to")
+
+
+def _check_place(folder: Path, refusal: str) -> None:
+    """Refuse a folder that cannot be made or written to."""
     try:
-        with tempfile.TemporaryFile(dir=nearest_parent):
+        nearest = next(place for place in (folder, *folder.parents) if place.exists())
+        if not nearest.is_dir():
+            raise FileError(f"The folder {folder} cannot be made: {nearest} is a file.")
+        with tempfile.TemporaryFile(dir=nearest):
             pass
+    except FileError:
+        raise
     except OSError as error:
-        raise FileError(f"{file} cannot be written: {reason(error)}.") from None
+        raise FileError(f"{refusal}: {reason(error)}.") from None
 
 
 def _check_file(file: str | os.PathLike[str], target: Path) -> None:

@@ -39,8 +39,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
     options.out = options.out or Path("dist")
     if options.fmu is not None:
-        return run_command(lambda: _add_platforms(options), (RuntimeError,))
-    return run_command(lambda: _build(options), (ValueError, RuntimeError))
+        return run_command(lambda: _add_platforms(options), (RuntimeError,), options)
+    return run_command(lambda: _build(options), (ValueError, RuntimeError), options)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:

@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 
 import mbs
-from ali3.files import FileError, atomic_file, check_writable, make_folder, write_json, write_text
+from ali3.files import FileError, atomic_file, check_folder, check_writable, make_folder, write_json, write_text
 from ali3.folders import atomic_folder
 from ali3.locks import locked
+from fmu_src.build import command as build
 from fmu_src.native.archive import write_zip
 from mbs.scenes import pendulum
 
@@ -22,6 +23,7 @@ from pathlib import Path
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
 from ali3.files import FileError
+from fmu_src.build import command as build
 from fmu_src.native.archive import write_zip
 import random
 try:
@@ -99,6 +101,21 @@ def test_a_file_that_cannot_be_written_is_named(write: object, tmp_path: Path) -
     if sys.platform == "linux":
         with pytest.raises(FileError, match=r"^/proc/x\.csv cannot be written: "):
             write(Path("/proc/x.csv"))
+
+
+def test_a_folder_that_cannot_be_made_is_named_before_the_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("")
+    check_folder(tmp_path / "new" / "folder")
+    assert not (tmp_path / "new").exists()
+    for folder, reason in ((tmp_path / "file", "is a file"), (tmp_path / ("x" * 5000), "file name too long")):
+        with pytest.raises(FileError, match=f"^The folder .* cannot be .*{reason}\\.$"):
+            check_folder(folder)
+        assert build.main(["prototype", "--out", str(folder)]) == 2
+        printed = capsys.readouterr()
+        assert reason in printed.err
+        assert not printed.out, "no work has begun"
 
 
 def test_a_system_and_a_trajectory_are_written_whole(tmp_path: Path) -> None:
