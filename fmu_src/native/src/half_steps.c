@@ -5,22 +5,9 @@
  * If both lose the same energy, as past a singular position, shorter steps do not show the error, which is reported.
  * There is no second motion in runs without abrupt forces, or after a warning. It is a snapshot of the same instance;
  * late steps are those that it has not computed yet: expensive ones are left to calls with fewer iterations. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "half_steps.h"
 
-#include "slave.h"
-
-static const double SPAN = 0.5; /* s after an abrupt step or a difference: five periods of a wheel, or a landing */
-/* s: limit of the second motion from a start on in ALI3_MOST_PARTS parts, and after it besides a part of the simulated
- * time in which it costs as much as the first motion does in all. */
-static const double BUDGET = 2.0;
-static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre */
 enum { MOST_LATE = 512 }; /* late steps */
-
-/* Factor by which durations of the second motion are longer with steps of h. Steps longer than ALI3_MOST_PARTS times
- * 2 SHORT belong to motions slower than a wheel; they count as steps of that length. */
-static double stretch(double h) { return fmax(1.0, h / (2.0 * (double)ALI3_MOST_PARTS * SHORT)); }
 
 /* Length of n steps of h as it counts in durations of the second motion, s. */
 static double counted_length(int64_t n, double h) { return (double)n * h / stretch(h); }
@@ -30,35 +17,8 @@ static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *st
   return t->saved->spent > BUDGET + step->simulated / (double)ALI3_MOST_PARTS;
 }
 
-/* Richardson extrapolation: error of a motion from its difference to one with 1/n of the step, for order two as of
- * ALi3-P. */
-static double extrapolated_error(double difference, double n) { return difference * n * n / (n * n - 1.0); }
-
-/* Report of the kernel; zeros where there is none. */
-static ali3_report get_report(const slave *s) {
-  ali3_report report;
-  if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
-  return report;
-}
-
 /* Number of steps so far that were halved or in which a force changed abruptly. */
 static int64_t abrupt_steps(const ali3_report *report) { return report->abrupt_steps + report->halvings; }
-
-/* Whether a relative difference of two motions is too large for them to agree. */
-static bool disagree(double difference) { return difference > ALI3_AGREED * ALI3_WRONG_ERROR; }
-
-/* Whether an output is compared: the loaded System computes it, and it has a comparison in the table. */
-static bool is_compared(const slave_fidelity *f, const slave_variable *v) {
-  return v->judged.unit >= 0 && !(v->uncomputed >> f->number & 1);
-}
-
-/* Number of compared outputs of a fidelity. */
-static size_t compared_count(const slave_fidelity *f) {
-  const slave_table *table = &slave_the_table;
-  size_t n = 0;
-  for (size_t i = table->n_known; i < table->n_variables; i++) n += is_compared(f, table->variable + i);
-  return n;
-}
 
 /* Number of inputs of the kernel. */
 static size_t input_count(const slave *s) { return (size_t)ali3_system_sizes(s->fidelity.system).nu; }
@@ -101,24 +61,6 @@ static bool allocate(slave *s) {
   return true;
 }
 
-/* Whether there is a road. Without one errors are of order two, and also grow without abrupt forces. */
-static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system) > 0; }
-
-/* Clears the largest differences seen so far. */
-static void reset_difference(slave_half_steps *t) {
-  t->saved->difference = 0.0;
-  for (int32_t i = 0; i < t->n; i++) t->compared[i].gap = 0.0;
-}
-
-/* Logged for hosts that ask for all messages, as it is no sign of an error. */
-static void log_unchecked(slave *s, double time, const char *why) {
-  if (s->error_warned || s->unchecked_logged) return;
-  s->unchecked_logged = true;
-  slave_log(s, SLAVE_OK,
-            "From %.4g s on no second motion is computed, so that the error is unknown: %s. This is reported once.",
-            time, why);
-}
-
 /* Takes the counts of the first motion from its report. */
 static void take_counts(slave_half_steps *t, const ali3_report *report) {
   t->abrupt = abrupt_steps(report);
@@ -134,7 +76,7 @@ void slave_half_steps_begin(slave *s) {
   take_counts(t, &report);
   if (!allocate(s)) {
     if (compared_count(&s->fidelity) > 0)
-      log_unchecked(s, ali3_time(s->fidelity.kernel), "there is not enough memory for it");
+      slave_log_unchecked(s, ali3_time(s->fidelity.kernel), "there is not enough memory for it");
     return;
   }
   *t->saved =
@@ -151,21 +93,13 @@ void slave_half_steps_observe(slave *s) {
   ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
 }
 
+size_t slave_half_steps_size(const slave_fidelity *f) {
+  return sizeof(slave_second_motion) + compared_count(f) * sizeof(ali3_compared) + ali3_snapshot_size(f->system);
+}
+
 void slave_half_steps_free(slave *s) {
   if (s->half_steps.saved != NULL) s->memory.release(s->half_steps.saved);
   memset(&s->half_steps, 0, sizeof s->half_steps);
-}
-
-/* Number of parts into which the second motion divides a step of h that was not halved. */
-static int64_t nominal_parts(const slave *s, double h) {
-  int64_t n = 2;
-  while (has_road(s) && n < ALI3_MOST_PARTS && h / (double)n > SHORT) n *= 2;
-  return n;
-}
-
-/* Duration of the second motion after a start, s, which costs as much as BUDGET in ALI3_MOST_PARTS parts. */
-static double start_span(const slave *s, double h) {
-  return BUDGET * (double)ALI3_MOST_PARTS / (double)nominal_parts(s, h);
 }
 
 /* One inner step of the second motion, which the kernel has, in the first late step. A step with slopes is never late,
@@ -190,34 +124,12 @@ static bool begin_late_step(slave *s, const slave_late_step *step) {
   const bool rests = !(t->saved->remaining > 0.0);
   t->start_needed = t->start_needed && !step->starts;
   if (step->span > 0.0 && budget_is_spent(t, step)) {
-    log_unchecked(s, step->end, "the time of the second motion is spent");
+    slave_log_unchecked(s, step->end, "the time of the second motion is spent");
   } else if (step->span > 0.0 && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
     t->saved->remaining = fmax(t->saved->remaining, step->span);
   }
   return t->saved->remaining > 0.0;
-}
-
-/* Logs the result when the second motion ends. Without a road and abrupt forces, also predicts when the error is large,
- * from its growth between two windows of a start as a power of time. */
-static void log_conclusion(slave *s, const slave_late_step *step, double difference) {
-  slave_half_steps *t = &s->half_steps;
-  const double error = extrapolated_error(t->saved->late_difference, step->ratio);
-  char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
-  if (has_road(s) && !disagree(difference)) return; /* until the next abrupt force */
-  const bool first = t->saved->checked == -HUGE_VAL; /* later windows follow an abrupt force and are short */
-  if (first) t->saved->checked = step->end;
-  if (first && !has_road(s) && t->abrupt == 0 && t->saved->early_difference > 0.0 &&
-      t->saved->late_difference > t->saved->early_difference) {
-    const double length = step->simulated, power = log(t->saved->late_difference / t->saved->early_difference) /
-                                                   log(2.0 * length / start_span(s, step->h));
-    t->saved->predicted = step->end + stretch(step->h) * length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
-    snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
-  }
-  snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
-           disagree(difference) ? "the time of the second motion is spent; " : "", (double)step->parts,
-           100.0 * difference, grows);
-  log_unchecked(s, step->end, why);
 }
 
 /* Energy balance times (1 + rotation of the motion, rad), as errors of positions accumulate. */
@@ -277,7 +189,7 @@ static void compare(slave *s, const slave_late_step *step) {
   if (disagree(difference) && !budget_is_spent(t, step))
     t->saved->remaining = fmax(t->saved->remaining, SPAN); /* it may still grow, as with a spinning wheel */
   t->saved->spent += length;
-  if (!(t->saved->remaining > 0.0)) log_conclusion(s, step, difference);
+  if (!(t->saved->remaining > 0.0)) slave_log_conclusion(s, step, difference);
 }
 
 /* One inner step of the second motion in the first late step; none where it rests. Returns the iterations. */
@@ -294,7 +206,7 @@ static int64_t advance_second(slave *s) {
       compare(s, step);
     } else {
       t->saved->remaining = 0.0;
-      log_unchecked(s, step->end, "a step of it failed");
+      slave_log_unchecked(s, step->end, "a step of it failed");
     }
   }
   t->n_made = 0;
@@ -357,123 +269,16 @@ static void store_late_step(slave *s, double now, double span, int64_t halvings)
                             .starts = starts};
 }
 
-/* Logs the largest difference as an error, now that forces and ranges after it are known. */
-static slave_status report_difference(slave *s) {
-  slave_half_steps *t = &s->half_steps;
-  int32_t worst;
-  ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, get_report(s).energy_floor, 0, t->size);
-  const double h = t->saved->h / (double)t->saved->parts,
-               difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
-               error = extrapolated_error(difference, t->saved->ratio);
-  /* the step of the second motion suffices at order one, as at a kink */
-  const bool met = error <= t->saved->ratio * ALI3_WRONG_ERROR;
-  if (!(error > ALI3_WRONG_ERROR)) {
-    reset_difference(t);
-    return SLAVE_OK;
-  }
-  const slave_variable *v = slave_the_table.variable + t->variable[worst];
-  const double off = fabs(v->scale) * error * t->size[worst] / v->judged.factor;
-  s->error_warned = true;
-  const bool large = off >= 999.5; /* shown without an exponent */
-  return slave_log(
-      s, SLAVE_WARNING,
-      "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
-      "%.*g%s, %.2g %% of the largest %s in its unit at communication points. Run again with a step_size of %.2g s%s. "
-      "This is reported once.",
-      t->compared[worst].time, (double)t->saved->parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
-      large ? round(off) : off, v->unit, 100.0 * error, v->judged.kind & ALI3_JUDGED_LOAD ? "load" : "range",
-      h / ceil(error / (t->saved->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
-}
-
-/* Logs the predicted error of a start. */
-static slave_status report_prediction(slave *s, double now) {
-  const slave_half_steps *t = &s->half_steps;
-  s->error_warned = true;
-  return slave_log(s, SLAVE_WARNING,
-                   "At %.4g s %s may be off by %.0f %% of the largest range in its unit: computed again with 1/%.0f of "
-                   "the step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a "
-                   "run of half the step_size, %g s. This is reported once.",
-                   now, slave_the_table.variable[t->variable[t->saved->worst]].name, 100.0 * ALI3_WRONG_ERROR,
-                   (double)t->saved->parts, t->saved->checked,
-                   100.0 * extrapolated_error(t->saved->late_difference, t->saved->ratio), 0.5 * t->saved->h);
-}
-
-/* Logs that both motions have a wrong energy. */
-static slave_status report_shared_error(slave *s) {
-  const ali3_report report = get_report(s);
-  const double h = s->completed.h;
-  s->error_warned = true;
-  return slave_log(
-      s, SLAVE_WARNING,
-      "Up to %.4g s the steps have added or lost %.3g J without a force, %.2g %% of the energy in the "
-      "motion, and shorter steps lost more than half as much, as past a position in which bodies of a loop "
-      "lie in line: by how much outputs are off is not known. Run again with a step_size of %.2g s or "
-      "less, which was not tried, until this is not reported.",
-      ali3_time(s->fidelity.kernel), report.energy_error, 100.0 * ali3_energy_balance(&report),
-      h / (double)ALI3_MOST_PARTS);
-}
-
-/* Logs a shared error or a difference after SPAN, or at the end of the run, and a prediction at its time. */
-static slave_status report_motion(slave *s, double now, bool ended) {
-  const slave_half_steps *t = &s->half_steps;
-  const slave_status judged =
-      t->saved->difference > 0.0 && (ended || now > t->saved->time + SPAN * stretch(t->saved->h)) ? report_difference(s)
-                                                                                                  : SLAVE_OK;
-  if (!s->error_warned && !s->calls.energy_warned &&
-      (ended ? isfinite(t->saved->shared) : now > t->saved->shared + SPAN * stretch(s->completed.h)))
-    return report_shared_error(s);
-  return s->error_warned || now < t->saved->predicted ? judged : report_prediction(s, now);
-}
-
 void slave_half_steps_settle(slave *s) {
   if (s->error_warned && s->half_steps.saved != NULL) s->half_steps.saved->remaining = 0.0; /* it was left behind */
   if (!s->error_warned && s->half_steps.n_late > 0) run_second(s, 0, 0, 0);
-}
-
-size_t slave_half_steps_size(const slave_fidelity *f) {
-  return sizeof(slave_second_motion) + compared_count(f) * sizeof(ali3_compared) + ali3_snapshot_size(f->system);
-}
-
-ali3_status slave_half_steps_check(const slave_fidelity *f, const unsigned char *bytes) {
-  const size_t n = compared_count(f);
-  slave_second_motion saved;
-  memcpy(&saved, bytes, sizeof saved);
-  if (saved.worst < 0 || (saved.worst > 0 && (size_t)saved.worst >= n)) return ALI3_BAD_STATE;
-  const double finite[] = {saved.remaining, saved.spent, saved.simulated,        saved.difference,     saved.time,
-                           saved.h,         saved.ratio, saved.early_difference, saved.late_difference};
-  for (size_t i = 0; i < sizeof finite / sizeof *finite; i++)
-    if (!isfinite(finite[i])) return ALI3_BAD_STATE;
-  if (isnan(saved.scheduled) || isnan(saved.checked) || isnan(saved.predicted) || isnan(saved.shared))
-    return ALI3_BAD_STATE;
-  if (saved.difference > 0.0 && !(saved.parts >= 2 && saved.h > 0.0 && saved.ratio > 0.0)) return ALI3_BAD_STATE;
-  return saved.remaining > 0.0 ? ali3_snapshot_check(f->kernel, bytes + sizeof saved + n * sizeof(ali3_compared))
-                               : ALI3_OK;
-}
-
-/* Bytes of a state that are in use: a second motion that rests has no snapshot. */
-static size_t used_size(const slave *s) {
-  const slave_half_steps *t = &s->half_steps;
-  return t->saved->remaining > 0.0 ? slave_half_steps_size(&s->fidelity)
-                                   : sizeof *t->saved + (size_t)t->n * sizeof *t->compared;
-}
-
-void slave_half_steps_write(const slave *s, unsigned char *bytes) {
-  if (s->half_steps.saved != NULL) memcpy(bytes, s->half_steps.saved, used_size(s));
-}
-
-void slave_half_steps_read(slave *s, const unsigned char *bytes) {
-  slave_half_steps *t = &s->half_steps;
-  slave_half_steps_begin(s);
-  if (t->saved == NULL) return;
-  memcpy(t->saved, bytes, sizeof *t->saved); /* says how much is in use */
-  memcpy(t->saved, bytes, used_size(s));
 }
 
 void slave_half_steps_end(slave *s) {
   if (s->half_steps.saved == NULL || s->error_warned || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED)))
     return;
   slave_half_steps_settle(s);
-  report_motion(s, ali3_time(s->fidelity.kernel), true);
+  slave_report_motion(s, ali3_time(s->fidelity.kernel), true);
   s->half_steps.saved->remaining = 0.0; /* no more is to be known of assembly modes */
 }
 
@@ -495,5 +300,5 @@ slave_status slave_half_steps_advance(slave *s) {
     store_late_step(s, now, span, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ALI3_MOST_PARTS * s->completed.n);
   }
-  return report_motion(s, now, false);
+  return slave_report_motion(s, now, false);
 }
