@@ -211,7 +211,10 @@ def test_a_step_is_chosen_if_none_is_given() -> None:
 
 
 def test_the_choice_of_the_method_is_reported() -> None:
-    run = run_of("spatial_chain", 1e-3)
+    coarse = run_of("spatial_chain", 1e-3).control
+    assert coarse is not None
+    assert coarse.method == "semi_recursive_4"  # of low order
+    run = run_of("spatial_chain", 5e-4)
     assert run.control is not None
     assert run.control.method == "semi_recursive"
     assert "a tree of joints" in run.control.reason
