@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.kernel.binding import ControlFields, KernelError
+from mbs.results.comparison import INSTANTS
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings
@@ -20,7 +21,6 @@ from mbs.simulation.prepared_system import distance, length_of, prepared, scales
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
-MAX_STEP, MAX_STEP_WITH_FUNCTIONS = 0.1, 0.02  # of the run: longest steps, without and with input functions
 SCAN_STEP = 1e-3  # of the run: interval at which input functions are scanned for jumps and peaks
 NEWTON = 1e-7  # of the tolerance of the run, times the length: tolerances of Newton's iteration
 MAX_TOO_WRONG, MAX_TOO_WRONG_SHARE = 3000, 0.3  # steps that may err too much: number, part of all
@@ -89,7 +89,7 @@ class ControlledRun:
             length=self.length,
             span=task.span,
             rate=max(math.sqrt(meta.get("gravity", 0.0) / self.length), 1.0 / task.span),
-            longest=min(longest, (MAX_STEP_WITH_FUNCTIONS if task.signals.has_functions else MAX_STEP) * task.span),
+            longest=min(longest, task.span / (INSTANTS if task.signals.has_functions else 1)),
         )
         n = len(task.times)
         self.values = np.empty((n, len(meta["sensors"])))

@@ -25,8 +25,7 @@ static const double PROPORTIONAL = 0.4, INTEGRAL = 0.7;
 static const double AFTER_OVER_SHARE = 1.5; /* factor of the step after one accepted above its part */
 static const double GROW = 4.0; /* largest ratio of two steps; its inverse the least, and that after a failure */
 /* Shortest steps, relative to the time scale of the motion: round-off of index three grows in shorter ones. */
-static const double MIN_STEP[] = {
-    [ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_COLLOCATION] = 1e-6, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
+static const double MIN_STEP[] = {[ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_INDEX_1] = 1e-6};
 static const double UNUSUAL = 0.3; /* of the mean step: shorter ones may err more than their part */
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
 static const double FIRST_STEP = 1e-3; /* first step / span for a tolerance of 1, if none is given */
