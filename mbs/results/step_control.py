@@ -24,10 +24,10 @@ class Control:
     reason: str
     """Reason for this method; empty if the caller named it."""
     error: float
-    """Estimate of the largest error of positions, relative to `length`: the distance from a coarser run times r/(1 - r),
-    at most 1, with the ratio r of their step errors. Errors that both runs have in common are not included. An estimate
-    below a tenth of the tolerance is unreliable and raised to it. It is 0 if all motion is prescribed, and NaN if the
-    step was given, as no runs were compared."""
+    """Estimate of the largest error of positions, relative to `length`: the distance from a coarser run times the ratio
+    of their step errors. Errors that both runs have in common are not included. An estimate below a tenth of the
+    tolerance is unreliable and raised to it. It is 0 if all motion is prescribed, and NaN if the step was given,
+    as no runs were compared."""
     h: float | None
     """The fixed step, s; None if the steps were under error control."""
     steps: int

@@ -31,9 +31,9 @@ class ControlledPair:
 
     @property
     def error_ratio(self) -> float:
-        """Ratio of the error of the run to its distance from the coarser one, by the sums of step errors, at most 1."""
-        coarse, fine = self.coarser.fields.error_sum, self.run.fields.error_sum
-        return min(1.0, fine / (coarse - fine)) if coarse > fine else 1.0
+        """Ratio of the error of the run to that of the coarser one, from the sums of their step errors, at most 1."""
+        coarse = self.coarser.fields.error_sum
+        return min(1.0, self.run.fields.error_sum / coarse) if coarse > 0.0 else 1.0
 
     @property
     def distance(self) -> float:
