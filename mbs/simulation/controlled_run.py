@@ -12,19 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.kernel.binding import ControlFields, KernelError
+from mbs.results.comparison import INSTANTS
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings
+from mbs.simulation.march import next_chunk
 from mbs.simulation.prepared_system import distance, length_of, prepared, scales_of
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
-CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
-MAX_STEP, MAX_STEP_WITH_FUNCTIONS = 0.1, 0.02  # of the run: longest steps, without and with input functions
 SCAN_STEP = 1e-3  # of the run: interval at which input functions are scanned for jumps and peaks
-ROWS, BALANCE = 1e-7, 1e-6  # of the tolerance of the run: tolerances of Newton's iteration, both times the length
-MAX_FORCED, MAX_FORCED_FRACTION = 300, 0.05  # steps of the least size that may err too much: number, part of all
-MAX_OVER_SHARE, MAX_OVER_SHARE_FRACTION = 3000, 0.3  # steps that may err too much: number, part of all
+NEWTON = 1e-7  # of the tolerance of the run, times the length: tolerances of Newton's iteration
+MAX_TOO_WRONG, MAX_TOO_WRONG_SHARE = 3000, 0.3  # steps that may err too much: number, part of all
 ROUND_OFF = 1e-13  # round-off of coordinates of 1 m, m
 
 
@@ -54,7 +53,7 @@ class Task:
 
 
 class StalledError(RuntimeError):
-    """Steps of the least size still exceed their part of the error: round-off is reached."""
+    """Too many steps exceed their part of the error at any length: round-off is reached."""
 
 
 class ControlledRun:
@@ -90,7 +89,7 @@ class ControlledRun:
             length=self.length,
             span=task.span,
             rate=max(math.sqrt(meta.get("gravity", 0.0) / self.length), 1.0 / task.span),
-            longest=min(longest, (MAX_STEP_WITH_FUNCTIONS if task.signals.has_functions else MAX_STEP) * task.span),
+            longest=min(longest, task.span / (INSTANTS if task.signals.has_functions else 1)),
         )
         n = len(task.times)
         self.values = np.empty((n, len(meta["sensors"])))
@@ -140,22 +139,20 @@ class ControlledRun:
                 if self.simulation.time >= stop:
                     self._stops.pop(0)
                 control = self.fields
-                if control.forced > max(MAX_FORCED, MAX_FORCED_FRACTION * control.accepted) or control.over_share > max(
-                    MAX_OVER_SHARE, MAX_OVER_SHARE_FRACTION * control.accepted
-                ):
+                if control.forced + control.over_share > max(MAX_TOO_WRONG, MAX_TOO_WRONG_SHARE * control.accepted):
                     raise StalledError
         finally:
             self.wall += time.perf_counter() - clock_start
             instance.set_input_function(None)
 
     def finish(self, update: Callable[[float], None]) -> None:
-        """Step to the end in calls of about `CHUNK_SECONDS`. `update`: callback of the completed fraction."""
-        steps = FIRST_CHUNK
+        """Step to the end. `update`: callback of the completed fraction."""
+        steps = 1
         while not self.finished:
             wall_before = self.wall
             self.advance(steps)
             update(min(1.0, self.fraction))
-            steps = max(1, int(steps * min(8.0, CHUNK_SECONDS / max(self.wall - wall_before, 1e-9))))
+            steps = next_chunk(steps, self.wall - wall_before, 1)
 
     @property
     def moved(self) -> float:
@@ -175,11 +172,11 @@ def tighten_tolerances(settings: Settings, error: float, q: Array, fineness: flo
     """
     round_off = ROUND_OFF * max(1.0, float(np.max(np.abs(q), initial=0.0))) / fineness
     error /= fineness
-    row_factor = 0.0 if METHOD_TABLE[settings.method].tree_only else ROWS
+    row_error = 0.0 if METHOD_TABLE[settings.method].tree_only else NEWTON * error
     return replace(
         settings,
-        tolerance_r=min(settings.tolerance_r, max(round_off, BALANCE * error)),
-        tolerance_phi=min(settings.tolerance_phi, max(round_off, row_factor * error)),
+        tolerance_r=min(settings.tolerance_r, max(round_off, NEWTON * error)),
+        tolerance_phi=min(settings.tolerance_phi, max(round_off, row_error)),
     )
 
 

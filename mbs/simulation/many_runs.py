@@ -38,7 +38,7 @@ from mbs.simulation.arguments import (
     warn_of_end,
 )
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.fixed_steps import Warned, run_fixed_steps
+from mbs.simulation.fixed_steps import Motion, Warned, run_fixed_steps
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import attach_inputs, next_chunk, trajectory_of
 from mbs.simulation.omitted_sensors import omitted_of_run
@@ -156,10 +156,8 @@ class _Run:
         messages = list(self.start_warnings)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
         if accuracy.required_check(report, self.simulation.settings.method):
-            single_run = run_fixed_steps(
-                self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
-                warned=messages,
-            )  # fmt: skip
+            motion = Motion(self.system, self._start, self.t0, end, self.variant.inputs, self.every, progress=False)
+            single_run = run_fixed_steps(motion, self.h, None, warned=messages)
             run.accuracy, run.notices = single_run.accuracy, single_run.notices
             if run.accuracy is not None and run.accuracy.message:
                 messages.append((AccuracyWarning, run.accuracy.message))

@@ -7,6 +7,7 @@ import numpy as np
 
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.header.enumerations import DrivingFunctionType
+from mbs.kernel.header.limits import MOST_PARTS
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings
@@ -15,12 +16,9 @@ from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
-FINE = 2e-3  # tolerance below which the method of order eight is the faster one in relative coordinates
-FIRST_BUDGET, BUDGET_GROWTH, STEPS = 100.0, 2.0, 0.002  # work; factor of each round; steps of a call per work
-COARSE = 1e-3  # tolerance from which ALi3-P, of order two, is a candidate: the fastest method for stiff Systems
+COARSE = 1e-3  # tolerance from which methods of low order are candidates: ALi3-P for stiff Systems, order four in trees
 FEWEST = 10  # least steps of a call, which itself costs as much as a few evaluations
 LAST = ("radau_5", "runge_kutta_8", "ali3p")  # tried last
-LOST = 1.1  # a run is given up beyond this multiple of the least weighted work
 
 
 @dataclass(frozen=True)
@@ -48,7 +46,7 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
         return ["ali3p"], "driving functions through a filter"
     coarse = ["ali3p"] if tolerance >= COARSE else []
     if not prepared(system).meta["report"]["no_tree"]:
-        return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5", *coarse], "a tree of joints"
+        return ["semi_recursive_4" if coarse else "semi_recursive", "radau_5", *coarse], "a tree of joints"
     if len(system.arrays["velocity_row"]) > 0:
         return ["runge_kutta_8", *coarse], "wheels that roll"
     return ["runge_kutta_8", "radau_5", *coarse], "no tree of joints"
@@ -59,7 +57,7 @@ def choose(
 ) -> MethodChoice:
     """Choose the method for a tolerance by runs of all candidates at the tolerance `coarse`.
 
-    Each runs as long as it can still be the fastest. Raises `SimulationError` if none reaches the end.
+    Each runs while its weighted work is the least. Raises `SimulationError` if none reaches the end.
     """
     system = start().system
     names, property_text = candidates(system, tolerance)
@@ -71,9 +69,7 @@ def choose(
     runs = {name: ControlledRun(start(), task, replace(settings, method=name), coarse) for name in names}
     methods = {name: METHOD_TABLE[name] for name in names}
     weights = {name: m.cost * growth ** (1.0 / m.order_of_changing_steps) for name, m in methods.items()}
-    failed = _advance_until_fastest(runs, weights)
-    ended = {name: run.work * weights[name] for name, run in runs.items() if run.finished}
-    best = min(ended, key=lambda name: ended[name], default="")
+    best, failed = _first_to_end(runs, weights)
     wall = sum(run.wall for run in runs.values())
     if not best:
         raise SimulationError(
@@ -90,25 +86,18 @@ def choose(
     )
 
 
-def _advance_until_fastest(runs: dict[str, ControlledRun], weights: dict[str, float]) -> set[str]:
-    """Advance all runs until one ends and the others exceed its weighted work; return the names of failed runs.
+def _first_to_end(runs: dict[str, ControlledRun], weights: dict[str, float]) -> tuple[str, set[str]]:
+    """Advance the run of least weighted work until that has ended; return its name, or "", and those that failed.
 
     `weights`: factors of the work of the coarse runs, which give the work of runs to the tolerance.
     """
-    failed: set[str] = set()
-    budget = FIRST_BUDGET
-    while len(failed) < len(runs):
-        for name, run in runs.items():
-            while name not in failed and not run.finished and run.work * weights[name] < budget:
-                try:
-                    run.advance(FEWEST + int(STEPS * budget / weights[name]))
-                except (KernelError, StalledError):
-                    failed.add(name)
-        ended = [run.work * weights[name] for name, run in runs.items() if run.finished]
-        if ended:
-            if budget >= LOST * min(ended):
-                break
-            budget = LOST * min(ended)
-            continue
-        budget *= BUDGET_GROWTH
-    return failed
+    failed = set[str]()
+    while running := [name for name in runs if name not in failed]:
+        name = min(running, key=lambda n: runs[n].work * weights[n])
+        if runs[name].finished:
+            return name, failed
+        try:
+            runs[name].advance(FEWEST + runs[name].fields.accepted // MOST_PARTS)
+        except (KernelError, StalledError):
+            failed.add(name)
+    return "", failed

@@ -29,7 +29,7 @@ from mbs.simulation.arguments import (
     warn_of_end,
 )
 from mbs.simulation.chosen_steps import run_chosen_steps
-from mbs.simulation.fixed_steps import run_fixed_steps
+from mbs.simulation.fixed_steps import Motion, run_fixed_steps
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.state import Pose
 from mbs.simulation.stepping import Simulation
@@ -194,14 +194,13 @@ class _Run:
 
     def run_equal_steps(self, step: float, settings: Settings, estimate: bool | float | None) -> Trajectory:
         """Run in steps of `step`, s; `estimate`: `estimate_error` of `simulate`."""
-        return run_fixed_steps(
+        motion = Motion(
             self.system,
             lambda h: self.start(h, settings),
             self.t0,
             self.t_end,
-            step,
             self.inputs,
             self.every,
             self.progress,
-            estimate,
         )
+        return run_fixed_steps(motion, step, estimate)

@@ -42,7 +42,7 @@ from mbs.simulation.arguments import (
     record_times,
     requested_tolerance,
 )
-from mbs.simulation.fixed_steps import run_fixed_steps
+from mbs.simulation.fixed_steps import Motion, run_fixed_steps
 from mbs.simulation.omitted_sensors import Readings
 from mbs.simulation.parameter_warning import warn_if_out_of_range
 from mbs.simulation.refusal import refusal
@@ -465,20 +465,10 @@ class Simulation(SteppedSystem):
 
         divisor = self._divisor if existing is not None else 0
 
+        motion = Motion(self.system, start, self.time, t_end, inputs, every, progress)
+
         def equal_steps() -> Trajectory:  # a call as deep as in `simulate`, for the stack level of warnings
-            return run_fixed_steps(
-                self.system,
-                start,
-                self.time,
-                t_end,
-                h,
-                inputs,
-                every,
-                progress,
-                estimate_error if checked else False,
-                self._extremes,
-                divisor,
-            )
+            return run_fixed_steps(motion, h, estimate_error if checked else False, self._extremes, divisor)
 
         trajectory = equal_steps()
         self._drop_refused(0.5 * h)

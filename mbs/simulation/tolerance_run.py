@@ -175,8 +175,9 @@ def _run_method(
         runs, wall = runs + 1, wall + run.wall
         pair, position_distance = ControlledPair(run, coarser, tolerance), run.distance(coarser)
         distance, estimate = pair.distance, pair.distance * pair.error_ratio
-        # runs that are far apart show nothing about the finer one
-        error = distance if position_distance > WRONG_ERROR else estimate
+        # runs that are far apart show nothing about the finer one; one that errs by r > 1/2 of the other is off by more
+        # than r/(1 - r) > 1 of their distance
+        error = distance if position_distance > WRONG_ERROR or pair.error_ratio > 0.5 else estimate
         if error == 0.0 and longest == math.inf:
             # the longest steps, or pieces of driving functions and tables, made both runs equal: halve the steps made
             coarser, longest = run, 0.5 * run.fields.largest

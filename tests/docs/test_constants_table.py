@@ -10,7 +10,7 @@ from tests.docs.test_documents import ROOT
 
 MODULES = {
     "results": ("accuracy", "comparison", "convergence", "smooth_laws", "step_control"),
-    "simulation": ("coarser_run", "fixed_steps", "refined_run", "controlled_pair", "tolerance_run"),
+    "simulation": ("coarser_run", "fixed_steps", "refined_run", "controlled_pair", "tolerance_run", "verdict"),
 }
 SOURCES = ("mbs/kernel/src/sensors/comparison.c", "fmu_src/native/src/half_steps.h")
 ELSE = {

@@ -14,8 +14,8 @@ from mbs.kernel.header.enumerations import Status
 from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.results.accuracy import RIGHT, Accuracy
 from mbs.results.convergence import may_change_verdict, observed_order
-from mbs.simulation.fixed_steps import estimate_accuracy
 from mbs.simulation.refined_run import RefinedRuns, Run
+from mbs.simulation.verdict import verdict_on
 
 
 def by(**units: float) -> Accuracy:
@@ -145,7 +145,7 @@ def test_an_open_balance_is_reported_where_that_of_the_refined_run_is_open_too(f
         return trajectory, []
 
     run = march(h, 1)
-    known = estimate_accuracy(RefinedRuns(system, run, march, h, 1, lambda _: None), always=False)
+    known = verdict_on(RefinedRuns(system, run, march, h, 1, lambda _: None), always=False)
     assert known is not None
     assert known.energy_balance == pytest.approx(0.13, abs=0.01)
     assert ("J of work" in known.message) == reported

@@ -11,6 +11,7 @@ from scipy.interpolate import BPoly, PPoly
 import mbs
 from benchmarks.car.manoeuvres import inputs_of, load, start_of
 from benchmarks.car.manoeuvres import system_of as car_of
+from benchmarks.methods import chaotic_pendulums
 from benchmarks.methods.honesty_scenes import CRANK_ANGLE, printed_model
 from benchmarks.references import motions as references
 from benchmarks.references.cases import CASES, exact_of, system_of
@@ -72,6 +73,14 @@ def test_the_error_is_within_ten_tolerances(scene: str, method: str | None, tole
     assert run.control.kept
 
 
+def test_errors_of_two_runs_that_err_alike_are_their_distance() -> None:
+    """A chaotic pendulum: its second and third run err by 12 and 14 tolerances, and are 1.5 tolerances apart."""
+    system, truth, span = chaotic_pendulums.random_pendulum(np.random.default_rng([6, 22]))
+    run = mbs.simulate(system, span, tolerance=1e-3, times=np.linspace(0.0, span, len(truth["mass0.x"])))
+    assert run.control is not None
+    assert max(np.abs(run[name] - exact).max() for name, exact in truth.items()) < 2e-3 * run.control.length
+
+
 def test_runs_that_are_far_apart_say_nothing_of_the_finer_one() -> None:
     """A double pendulum that turns over: the last two runs are a length apart; by what their steps err it is 0.2."""
     m, x, last = mbs.Model("double pendulum", dimension=2), np.zeros(2), None
@@ -87,7 +96,7 @@ def test_runs_that_are_far_apart_say_nothing_of_the_finer_one() -> None:
         with caught:
             runs.append(
                 mbs.simulate(
-                    system, 10.0, tolerance=tolerance, method="runge_kutta_8", times=np.linspace(0.0, 10.0, 51)
+                    system, 10.5, tolerance=tolerance, method="runge_kutta_8", times=np.linspace(0.0, 10.5, 51)
                 )
             )
     run, exact = runs
@@ -211,7 +220,10 @@ def test_a_step_is_chosen_if_none_is_given() -> None:
 
 
 def test_the_choice_of_the_method_is_reported() -> None:
-    run = run_of("spatial_chain", 1e-3)
+    coarse = run_of("spatial_chain", 1e-3).control
+    assert coarse is not None
+    assert coarse.method == "semi_recursive_4"  # of low order
+    run = run_of("spatial_chain", 5e-4)
     assert run.control is not None
     assert run.control.method == "semi_recursive"
     assert "a tree of joints" in run.control.reason

@@ -80,16 +80,14 @@ def test_a_method_that_cannot_hold_a_tolerance_hands_on(monkeypatch: pytest.Monk
         mbs.simulate(system, 0.1, tolerance=1e-5, progress=False)
 
 
-def test_a_cam_that_the_default_cannot_hold_is_held_by_another_method() -> None:
-    """A follower behind a table: ALi3-P alone was a candidate, and refused 1e-3 and 1e-4."""
+def test_a_cam_is_held_though_a_third_of_its_steps_errs_too_much() -> None:
+    """A follower behind a table: with at most a twentieth ALi3-P refused 1e-3, and Radau did five times its work."""
     kind, machine = random_machines.random_machine(np.random.default_rng([2, 7]))
     assert kind == "cam"
     system = mbs.compile(random_machines.model_of(machine))
-    with pytest.raises(mbs.SimulationError, match="cannot be held by 'ali3p'"):
-        mbs.simulate(system, machine.span, tolerance=1e-3, method="ali3p", progress=False)
     run = mbs.simulate(system, machine.span, tolerance=1e-3, progress=False)
     fine = mbs.simulate(system, machine.span, tolerance=1e-6, method="runge_kutta_8", progress=False)
     assert run.control is not None
-    assert run.control.method == "radau_5"
-    assert "ali3p cannot hold it" in run.control.reason
+    assert run.control.method == "ali3p"
+    assert run.control.forced > 300
     assert np.abs(run["x1"] - fine["x1"]).max() < 1e-3 * run.control.length

@@ -5,9 +5,8 @@
 #include "instance.h"
 #include "request.h"
 
-/* Round-off that limits the steps of a controlled run from below: of equations of index three, solved by methods of
- * order two or by collocation, or of index one. */
-typedef enum { ALI3_ROUND_OFF_INDEX_3 = 0, ALI3_ROUND_OFF_COLLOCATION, ALI3_ROUND_OFF_INDEX_1 } ali3_round_off;
+/* Round-off that limits the steps of a controlled run from below: of methods of order two for index three, or others. */
+typedef enum { ALI3_ROUND_OFF_INDEX_3 = 0, ALI3_ROUND_OFF_INDEX_1 } ali3_round_off;
 
 typedef struct {
   /* Makes a step from in->now, after ali3_inputs_begin. in->next is a copy of in->now, so that it has values that a

@@ -1,8 +1,8 @@
 /* Step sizes from the error: the error of each step may be its part of the tolerance (error per unit step), so that the
- * errors of a run add up to the tolerance. Where a shorter step does not reduce the error in proportion (a kink of a
- * force, a velocity jump at a singular position) its error may be a fixed fraction, and where the error does not
- * decrease at all the step is accepted and counted. Proportional-integral controller of Gustafsson 1991 (Hairer,
- * Wanner, "Solving Ordinary Differential Equations II", second edition, IV.2). */
+ * errors of a run add up to the tolerance. Where steps become much shorter than usual (a kink of a force, a velocity
+ * jump at a singular position) an error may be a fixed fraction, and a step of the least size is accepted and counted.
+ * Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential Equations II",
+ * second edition, IV.2). */
 #include <math.h>
 #include <string.h>
 
@@ -23,17 +23,10 @@ static const double MIN_FRACTION = 1e-3; /* of the tolerance */
 static const double TARGET = 0.4; /* of the allowed error of a step */
 static const double PROPORTIONAL = 0.4, INTEGRAL = 0.7;
 static const double AFTER_OVER_SHARE = 1.5; /* factor of the step after one accepted above its part */
-static const double SHRINK = 0.15, GROW = 4.0, MAX_AFTER_REJECTION = 0.9, AFTER_FAILURE = 0.25;
-/* Shortest steps, relative to the time scale of the motion: for the error, as round-off of index three grows in shorter
- * ones, and for convergence. */
-static const double MIN_STEP[] = {
-    [ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_COLLOCATION] = 1e-6, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
-static const double MIN_TRIAL_STEP[] = {
-    [ALI3_ROUND_OFF_INDEX_3] = 1e-6, [ALI3_ROUND_OFF_COLLOCATION] = 1e-7, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
-/* Ratios of the errors of two trials: at a kink, divided by the ratio of their steps; at a jump of velocity. */
-static const double KINK_RATIO = 0.5, KICK_RATIO = 0.7;
-enum { MAX_KICKS = 2 }; /* in one step */
-static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
+static const double GROW = 4.0; /* largest ratio of two steps; its inverse the least, and that after a failure */
+/* Shortest steps, relative to the time scale of the motion: round-off of index three grows in shorter ones. */
+static const double MIN_STEP[] = {[ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_INDEX_1] = 1e-6};
+static const double UNUSUAL = 0.3; /* of the mean step: shorter ones may err more than their part */
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
 static const double FIRST_STEP = 1e-3; /* first step / span for a tolerance of 1, if none is given */
 static const double ROAD_LENGTHS = 0.05; /* largest path in a step, in lengths: bumps within a step are missed */
@@ -94,44 +87,26 @@ static double factor(double relative_error, double last_error, int32_t order) {
   const double k = 1.0 / (order + 1), e = fmax(relative_error, MIN_ERROR) / TARGET;
   const double f =
       last_error > 0.0 ? power(e, -INTEGRAL * k) * power(last_error / TARGET, PROPORTIONAL * k) : power(e, -k);
-  return fmin(GROW, fmax(SHRINK, f));
+  return fmin(GROW, fmax(1.0 / GROW, f));
 }
 
 /* Shortest step, s: in a shorter one round-off would dominate. */
-static double min_step(const ali3_instance *in, const ali3_measure *measure, double t, const double *fraction) {
-  return fmax(fraction[ali3_method_of(in)->round_off] *
+static double min_step(const ali3_instance *in, const ali3_measure *measure, double t) {
+  return fmax(MIN_STEP[ali3_method_of(in)->round_off] *
                   fmin(measure->control->span, 1.0 / ali3_rate(in, measure, false)),
               ROUND_OFF * fabs(t));
 }
-
-/* Trials of one step. */
-typedef struct {
-  double first, h, error; /* the first one with too large an error; the last one and its error, 0: none */
-  int32_t kicks;
-  bool rejected, force;
-} step_trials;
 
 enum { REJECT = 0, ACCEPT, OVER_SHARE, FORCE };
 
 /* Verdict on a step of h by its error: REJECT, ACCEPT, OVER_SHARE (accepted, though above its part), FORCE (accepted
  * above the tolerance). Much shorter steps than usual occur at singular positions, where with index three shorter ones
  * gain little and end in round-off. */
-static int judge_error(const ali3_control *c, step_trials *trials, double h, double error, bool is_shortest) {
+static int judge_error(const ali3_control *c, double h, double error, bool is_shortest) {
   const bool small = error <= c->tolerance * MIN_FRACTION;
   if (error <= c->tolerance * h / c->span) return ACCEPT;
-  if (small && h < UNUSUAL * c->usual) return OVER_SHARE;
-  if (trials->force || is_shortest) return small ? OVER_SHARE : FORCE;
-  if (trials->h > 0.0) {
-    const double fall = error / trials->error;
-    if (small && fall > KINK_RATIO * h / trials->h) return OVER_SHARE;
-    trials->kicks = fall > KICK_RATIO && h < KICK_RATIO * trials->h ? trials->kicks + 1 : 0;
-  } else {
-    trials->first = h;
-  }
-  trials->h = h;
-  trials->error = error;
-  trials->force = trials->kicks == MAX_KICKS;
-  return REJECT;
+  if (small && (is_shortest || h < UNUSUAL * c->usual)) return OVER_SHARE;
+  return is_shortest ? FORCE : REJECT;
 }
 
 /* Updates the statistics of the control by an accepted step. */
@@ -141,7 +116,7 @@ static void record_accepted(ali3_control *c, double h, double error, double rela
   c->accepted++;
   c->error_sum += error;
   c->last = fmax(relative_error, MIN_ERROR);
-  c->usual += (c->accepted > USUAL_STEPS ? 1.0 / USUAL_STEPS : 1.0 / (double)c->accepted) * (h - c->usual);
+  c->usual += (h - c->usual) / (double)c->accepted;
   if (verdict == OVER_SHARE) c->over_share++;
   if (verdict != FORCE) return;
   c->forced++;
@@ -169,7 +144,7 @@ static void undo_step(ali3_instance *in, const ali3_report *end_before) {
 static double first_step(const ali3_instance *in, const ali3_measure *measure) {
   const ali3_control *c = measure->control;
   const double h = FIRST_STEP * c->span * power(fmin(c->tolerance, 1.0), 1.0 / (ali3_method_order(in) + 1));
-  return fmin(c->longest, fmax(h, min_step(in, measure, ali3_time(in), MIN_STEP)));
+  return fmin(c->longest, fmax(h, min_step(in, measure, ali3_time(in))));
 }
 
 /* The longest step, s: as given, and shorter where errors of the motion may not show in the estimate. */
@@ -184,9 +159,8 @@ static double longest_step(const ali3_instance *in, const ali3_measure *measure)
 static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measure, double t, double end, double *h) {
   ali3_control *c = measure->control;
   const int32_t order = ali3_method_order(in);
-  const double min_h = min_step(in, measure, t, MIN_STEP), min_trial_h = min_step(in, measure, t, MIN_TRIAL_STEP);
-  const double longest_h = longest_step(in, measure);
-  step_trials trials = {0};
+  const double min_h = min_step(in, measure, t), longest_h = longest_step(in, measure);
+  bool rejected = false;
   for (;;) {
     double error = 0.0;
     const ali3_report end_before = in->report;
@@ -197,33 +171,32 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     if (status != ALI3_OK) {
       in->report.failures++;
       c->failed++;
-      if (tried <= 1.5 * min_trial_h) return status;
-      c->h = fmax(AFTER_FAILURE * tried, min_trial_h);
+      if (tried <= 1.5 * min_h) return status;
+      c->h = fmax(tried / GROW, min_h);
       c->last = 0.0;
-      trials.rejected = true;
+      rejected = true;
       continue;
     }
     const double relative_error = error * c->span / (c->tolerance * tried);
-    const int verdict = judge_error(c, &trials, tried, error, tried <= 1.5 * min_h);
+    const int verdict = judge_error(c, tried, error, tried <= 1.5 * min_h);
     const double fraction =
         verdict == ACCEPT && tried > 1.5 * min_h ? ali3_branch_fraction(in, measure, t, tried) : 1.0;
     if (fraction < 1.0) {
-      trials.rejected = true;
+      rejected = true;
       c->rejected++;
       c->h = fmax(min_h, fraction * tried);
       undo_step(in, &end_before);
       continue;
     }
     if (verdict != REJECT) {
-      c->h = verdict == ACCEPT ? fmax(min_h, next_step(c, wanted, tried, relative_error, trials.rejected, order))
+      c->h = verdict == ACCEPT ? fmax(min_h, next_step(c, wanted, tried, relative_error, rejected, order))
                                : AFTER_OVER_SHARE * tried;
       record_accepted(c, tried, error, verdict == ACCEPT ? relative_error : 1.0, verdict);
       return ALI3_OK;
     }
     c->rejected++;
-    c->h = trials.force ? trials.first
-                        : fmax(min_h, tried * fmin(MAX_AFTER_REJECTION, factor(relative_error, 0.0, order)));
-    trials.rejected = true;
+    c->h = fmax(min_h, tried * factor(relative_error, 0.0, order));
+    rejected = true;
     undo_step(in, &end_before);
   }
 }

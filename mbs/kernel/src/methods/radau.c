@@ -154,4 +154,4 @@ const ali3_method ali3_method_radau_5 = {.step = step,
                                          .excludes = ALI3_STATES_IN_WORDS
                                          ", no lookup-table bodies, and no rolling without slip",
                                          .owner = ALI3_METHOD_RADAU_5,
-                                         .round_off = ALI3_ROUND_OFF_COLLOCATION};
+                                         .round_off = ALI3_ROUND_OFF_INDEX_1};
