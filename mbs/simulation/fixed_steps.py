@@ -17,7 +17,7 @@ from mbs.kernel.header.steps import Balance, BranchKind
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
-from mbs.results.comparison import compared_sensors
+from mbs.results.comparison import compared_sensors, has_recovered
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -139,7 +139,7 @@ def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accurac
     if report is None or estimate is None or run[0].settings is None:
         return estimate
     method, balance = run[0].settings.method, accuracy.balance_text(report)
-    needed_check = accuracy.required_check(report, method)
+    needed_check = accuracy.required_check(report, method, has_recovered(refined.compared))
     if len(run[0].t) < 2 or not (always or refined.divisor or needed_check):
         return estimate
     rest = accuracy.rest_text(run[0], compared_sensors(system)) if refined.rests else ""
