@@ -48,8 +48,9 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
     try:
         if free.size <= DENSE or count >= free.size - 1:
             shifted = (K - shift * M).toarray()
-            values, V = eigh(M.toarray(), shifted, subset_by_index=[free.size - count, free.size - 1])
-            squares, V = shift + 1 / values[::-1], V[:, ::-1]
+            # all of them: LAPACK finds fewer than a subset has if it divides modes of one frequency
+            values, V = (part[..., -count:][..., ::-1] for part in eigh(M.toarray(), shifted))
+            squares = shift + 1 / values
         else:
             squares, V = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=np.ones(free.size))
             order = np.argsort(squares)

@@ -49,9 +49,7 @@ def _run(unit: str, h: float) -> tuple[Trajectory, list[str]]:
     return run, [str(w.message) for w in caught if w.category is AccuracyWarning]
 
 
-@pytest.mark.parametrize(
-    ("unit", "size"), [("N.m", 1.0), ("Pa", 0.02 / SECTION.Iy), ("MPa", 0.02e-6 / SECTION.Iy)]
-)
+@pytest.mark.parametrize(("unit", "size"), [("N.m", 1.0), ("Pa", 0.02 / SECTION.Iy), ("MPa", 0.02e-6 / SECTION.Iy)])
 def test_a_vibration_beside_a_large_motion_is_checked_by_its_stress(unit: str, size: float) -> None:
     """Moment of a weight that is put on at once: twice the static one, ``W L (1 - cos w t)``."""
     for h, is_right in ((0.01, False), (0.0005, True)):
