@@ -250,15 +250,13 @@ def test_a_clamped_tube_reduces_to_its_tip() -> None:
     np.testing.assert_allclose(body.K, one, rtol=1e-6, atol=1e-4)
 
 
-def test_some_of_several_modes_of_one_frequency_are_taken() -> None:
-    """A round beam held at its ends and in its middle: each half vibrates alike in two planes, four equal modes."""
-    rng = np.random.default_rng(0)
-    for _ in range(200):
-        material = Material(10.0 ** rng.uniform(9.0, 11.5), 0.3, 2000.0)
-        section, length = round_bar(rng.uniform(0.005, 0.04)), rng.uniform(0.2, 1.0)
-        model = straight(4, length, section, material=material).finite_element_model()
-        ends = [Interface(node, rotations=True) for node in (0, 4)]
-        clamped = 22.373 / (length / 2.0) ** 2 * np.sqrt(material.E * section.Iy / (material.rho * section.area))
-        for count in (1, 2, 3):
-            hertz = craig_bampton(model, 2, ends, count).frequencies
-            np.testing.assert_allclose(2.0 * np.pi * hertz, clamped, rtol=0.03)  # of two elements
+@pytest.mark.parametrize(("E", "length", "diameter"), [(9e9, 0.3, 0.011), (2e9, 0.33, 0.012)])
+def test_some_of_several_modes_of_one_frequency_are_taken(E: float, length: float, diameter: float) -> None:
+    """A round beam held at its ends and in its middle: each half vibrates alike in two planes, four equal modes. In
+    these beams LAPACK's subset of two of them was empty."""
+    material, section = Material(E, 0.3, 2000.0), round_bar(diameter)
+    model = straight(4, length, section, "timoshenko", material=material).finite_element_model()
+    ends = [Interface(node, rotations=True) for node in (0, 4)]
+    clamped = 22.373 / (length / 2.0) ** 2 * np.sqrt(material.E * section.Iy / (material.rho * section.area))
+    hertz = craig_bampton(model, 2, ends, 2).frequencies
+    np.testing.assert_allclose(2.0 * np.pi * hertz, clamped, rtol=0.03)  # of two elements
