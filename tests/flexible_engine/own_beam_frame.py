@@ -1,4 +1,4 @@
-"""Second finite elements of straight beams in space, for comparison: shape functions integrated by Gauss, dense matrices.
+"""Second finite elements of straight beams in space, for comparison: shape functions integrated by Gauss, dense.
 
 Nothing of `mbs.flexible` is used. Euler-Bernoulli beams of round sections, with rotary inertia; SI units.
 """

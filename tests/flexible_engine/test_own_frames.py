@@ -1,4 +1,4 @@
-"""Frames in space against a second finite-element program: sag, reactions, section forces, stresses and damped modes."""
+"""Frames in space against second finite elements: sag, reactions, section forces, stresses and damped modes."""
 
 import numpy as np
 import pytest
