@@ -48,9 +48,10 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
     try:
         if free.size <= DENSE or count >= free.size - 1:
             shifted = (K - shift * M).toarray()
-            # all of them: LAPACK finds fewer than a subset has if it divides modes of one frequency
-            values, V = (part[..., -count:][..., ::-1] for part in eigh(M.toarray(), shifted))
-            squares = shift + 1 / values
+            values, V = eigh(M.toarray(), shifted, subset_by_index=[free.size - count, free.size - 1])
+            if values.size < count:  # LAPACK may find none where the subset divides modes of one frequency
+                values, V = eigh(M.toarray(), shifted)
+            squares, V = shift + 1 / values[: -count - 1 : -1], V[:, : -count - 1 : -1]
         else:
             squares, V = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=np.ones(free.size))
             order = np.argsort(squares)
