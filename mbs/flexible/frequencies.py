@@ -49,7 +49,9 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
         if free.size <= DENSE or count >= free.size - 1:
             shifted = (K - shift * M).toarray()
             values, V = eigh(M.toarray(), shifted, subset_by_index=[free.size - count, free.size - 1])
-            squares, V = shift + 1 / values[::-1], V[:, ::-1]
+            if values.size < count:  # LAPACK may find none where the subset divides modes of one frequency
+                values, V = eigh(M.toarray(), shifted)
+            squares, V = shift + 1 / values[: -count - 1 : -1], V[:, : -count - 1 : -1]
         else:
             squares, V = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=np.ones(free.size))
             order = np.argsort(squares)

@@ -84,8 +84,10 @@ class Accuracy:
         return "; ".join(sentences)
 
 
-def required_check(report: Report, method: str) -> str:
+def required_check(report: Report, method: str, recovered: bool) -> str:
     """Check that a run needs: empty for none, `COARSER` for coarser runs, `FINER` for refined runs.
+
+    `recovered`: whether section forces or stresses are compared. They may vibrate while the motion is smooth.
 
     An open energy balance and a change of the assembly mode show that steps are too long. So does the energy error of a
     method of high order that makes positions wrong: past a singular position longer steps may have the same by chance.
@@ -95,7 +97,7 @@ def required_check(report: Report, method: str) -> str:
         return FINER
     # divided steps may hide the effect of an abrupt force
     is_undivided = report.halvings == report.divisions == report.abrupt_steps == 0
-    return "" if largest_error(report) <= WRONG_ERROR and is_undivided else COARSER
+    return "" if largest_error(report) <= WRONG_ERROR and is_undivided and not recovered else COARSER
 
 
 def largest_error(report: Report) -> float:

@@ -27,6 +27,7 @@ UNITS = {
     "m/s": JudgedUnit.M_S,
     "rad/s": JudgedUnit.RAD_S,
     "N m": JudgedUnit.N_M,
+    "Pa": JudgedUnit.PA,
 }
 """Units of the compared quantities; sensors in other units of the same quantities are converted."""
 BY_EXPONENTS = {
@@ -54,6 +55,8 @@ class Compared:
     """False for rates and motor forces, which may jump: compared only if no position moves by itself."""
     wrapped: bool = False
     """Whether it is an angle from -pi to pi."""
+    recovered: bool = False
+    """Whether it is a section force or a stress: a load that is an expression of the coordinates."""
     own_unit: str = ""
     """Unit of its values, if it is not `unit`."""
     factor: float = 1.0
@@ -180,6 +183,8 @@ def _find_compared_sensors(system: System) -> dict[str, Compared]:
         output = kind == SensorType.ELEMENT_OUTPUT
         if ((signal or kind in ANGLES) and unit in ("m", "rad")) or (output and unit == "m"):
             compared[sensor["name"]] = Compared(unit, place=True, wrapped=kind in ANGLES, **own)
+        elif kind == SensorType.SIGNAL and unit in ("N", "N m", "Pa"):
+            compared[sensor["name"]] = Compared(unit, load=True, recovered=True, **own)
         elif output and unit == "N":
             compared[sensor["name"]] = Compared(unit, load=True, **own)
         elif output and unit == "N m":
@@ -236,6 +241,11 @@ def needs_two_motions(compared: Mapping[str, Compared]) -> bool:
 def has_loads(compared: Mapping[str, Compared]) -> bool:
     """Whether any force is always compared."""
     return any(quantity.load and quantity.always for quantity in compared.values())
+
+
+def has_recovered(compared: Mapping[str, Compared]) -> bool:
+    """Whether any section force or stress is compared: the vibration that it shows is small beside the motion."""
+    return any(quantity.recovered for quantity in compared.values())
 
 
 def shows_motion(compared: Mapping[str, Compared]) -> bool:

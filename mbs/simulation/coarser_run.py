@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mbs.kernel.header.limits import AGREED, MOST_PARTS, WRONG_ERROR
 from mbs.results import accuracy
 from mbs.results.accuracy import CLEAR, Accuracy, mean_parts, missed_fraction
-from mbs.results.comparison import Compared, Comparison, has_loads, needs_two_motions
+from mbs.results.comparison import Compared, Comparison, has_loads, has_recovered, needs_two_motions
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
@@ -135,7 +135,7 @@ class CoarserRuns:
         assert report is not None
         for samples, counters in self.refined.path:
             remaining = replace(report, **{name: getattr(report, name) - counters[name] for name in COUNTERS})
-            if not accuracy.required_check(remaining, self.refined.method):
+            if not accuracy.required_check(remaining, self.refined.method, has_recovered(self.refined.compared)):
                 return samples
         return math.inf
 

@@ -18,6 +18,7 @@ from mbs.kernel.binding import KernelError
 from mbs.kernel.binding.many import Many, widest_lanes
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
+from mbs.results.comparison import compared_sensors, has_recovered
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -155,7 +156,8 @@ class _Run:
         """Warnings after the further runs of `simulate`, which repeat this run alone; a smooth run has none."""
         messages = list(self.start_warnings)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
-        if accuracy.required_check(report, self.simulation.settings.method):
+        recovered = has_recovered(compared_sensors(self.system))
+        if accuracy.required_check(report, self.simulation.settings.method, recovered):
             motion = Motion(self.system, self._start, self.t0, end, self.variant.inputs, self.every, progress=False)
             single_run = run_fixed_steps(motion, self.h, None, warned=messages)
             run.accuracy, run.notices = single_run.accuracy, single_run.notices

@@ -7,7 +7,7 @@ from mbs.kernel.header.limits import MOST_PARTS, WRONG_ERROR
 from mbs.kernel.header.steps import Balance
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
-from mbs.results.comparison import compared_sensors
+from mbs.results.comparison import compared_sensors, has_recovered
 from mbs.results.simulation_error import SimulationError
 from mbs.simulation.coarser_run import CoarserRuns
 from mbs.simulation.refined_run import BudgetExceededError, RefinedRuns
@@ -22,7 +22,7 @@ def verdict_on(refined: RefinedRuns, always: bool) -> Accuracy | None:
     run = refined.run[0]
     if run.report is None or run.accuracy is None or run.settings is None or len(run.t) < 2:
         return run.accuracy
-    needed_check = accuracy.required_check(run.report, run.settings.method)
+    needed_check = accuracy.required_check(run.report, run.settings.method, has_recovered(refined.compared))
     if not (always or refined.divisor or needed_check):
         return run.accuracy
     rest = accuracy.rest_text(run, compared_sensors(refined.system)) if refined.rests else ""

@@ -100,6 +100,7 @@ class JudgedUnit(IntEnum):
     M_S = 4
     RAD_S = 5
     N_M = 6
+    PA = 7
 
 
 class JudgedKind(IntEnum):

@@ -443,13 +443,14 @@ enum { /* units */
        ALI3_JUDGED_M_S,
        ALI3_JUDGED_RAD_S,
        ALI3_JUDGED_N_M,
+       ALI3_JUDGED_PA,
        ALI3_JUDGED_COUNT
 };
 /* Bits: a position, a length or an angle; a force, held against its largest value, all else against its range; judged
  * in any case, rates and motors are not; an angle from -pi to pi. */
 enum { ALI3_JUDGED_PLACE = 1, ALI3_JUDGED_LOAD = 2, ALI3_JUDGED_ALWAYS = 4, ALI3_JUDGED_WRAPPED = 8 };
 typedef struct {
-  int32_t unit, kind; /* ALI3_JUDGED_M to ALI3_JUDGED_N_M; bits */
+  int32_t unit, kind; /* ALI3_JUDGED_M to ALI3_JUDGED_PA; bits */
   double factor; /* of the values, to the unit */
 } ali3_judged;
 typedef struct { /* of one of them; zero before the first sample */

@@ -81,6 +81,7 @@ void ali3_compared_sizes(const ali3_judged *judged, int32_t n, const ali3_compar
     const double resolution = limit < HUGE_VAL ? DBL_EPSILON * limit /* of coordinates: below it there is no motion */
                               : unit == ALI3_JUDGED_N     ? energy / length
                               : unit == ALI3_JUDGED_N_M   ? energy
+                              : unit == ALI3_JUDGED_PA    ? energy / (length * length * length)
                               : unit == ALI3_JUDGED_RAD_S ? ALI3_REST_SPEED / length
                                                           : ALI3_REST_SPEED;
     const double in_unit = fmax(largest[group], largest[group ^ 1]); /* small forces beside large ones are round-off */

@@ -21,7 +21,7 @@
 #include "initialise.h"
 #include "settled_start.h"
 
-static const double PENALTY = 1e9; /* c alpha, as of a step with eps_rel = 2.5e-10 */
+static const double PENALTY = 1e9, MAX_PENALTY = 1e12; /* c alpha, as of a step with eps_rel = 2.5e-10 */
 /* These in m and s^2 times the fineness of the System: a drawing and its equilibrium are similar at every size. */
 static const double MAX_STEP = 0.1; /* m or rad per iteration; lengths double while such steps reduce the residual */
 static const double FIRST_C = 1e-3, MIN_C = 1e-10, MAX_C = 100.0; /* s^2 */
@@ -70,13 +70,13 @@ static double evaluate_residual(ali3_instance *in, double c, double h, double *l
   return largest <= ROUND_OFF * scale ? 0.0 : largest;
 }
 
-/* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q, its diagonal larger by the part `more`; an indefinite T gives no
+/* T = M + c (K + sum lam_k H_k) + penalty Phi_q' Phi_q, its diagonal larger by the part `more`; an indefinite T gives no
  * descent direction. */
-static ali3_status factorise(ali3_instance *in, double c, double more) {
+static ali3_status factorise(ali3_instance *in, double c, double penalty, double more) {
   const ali3_system *S = in->system;
   ali3_mass_to_fronts(in, in->tangent.F);
   for (int32_t i = 0; i < S->size.nq; i++) in->tangent.F[S->diagonal_pos[i]] += in->mass.missing[i];
-  ali3_rows_square(in, in->tangent.J, PENALTY, in->tangent.F);
+  ali3_rows_square(in, in->tangent.J, penalty, in->tangent.F);
   ali3_geometric(in, in->next.q, in->next.s, in->next.lam, c, in->tangent.F);
   ali3_forces_tangent(in, in->tangent.F);
   for (int32_t i = 0; i < S->size.nq; i++) {
@@ -135,7 +135,7 @@ static ali3_status iterate(ali3_instance *in, double tolerance, int32_t max_iter
     /* small forces, and moments of a small drawing, may be far below the tolerance before they balance */
     const double balanced = fmin(tolerance, BALANCE * fmin(1.0, size) * force);
     if (iteration > 0 && residual <= balanced && in->report.violation <= closed) break;
-    while ((status = factorise(in, c, 0.0)) == ALI3_SINGULAR && c > size * MIN_C) {
+    while ((status = factorise(in, c, PENALTY, 0.0)) == ALI3_SINGULAR && c > size * MIN_C) {
       c *= 0.25;
       evaluate_residual(in, c, h, &force);
     }
@@ -173,8 +173,12 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   if (status != ALI3_OK) return status;
   double force = 0.0;
   const double longest_c = S->fine * MAX_C;
-  evaluate_residual(in, longest_c, h, &force);
-  status = factorise(in, longest_c, ROUND_OFF);
+  /* of a stable equilibrium T is positive from some penalty on, which grows with the stiffness of flexible bodies */
+  for (double penalty = PENALTY; penalty <= MAX_PENALTY; penalty *= 10.0) {
+    evaluate_residual(in, longest_c, h, &force);
+    status = factorise(in, longest_c, penalty, ROUND_OFF * PENALTY / penalty);
+    if (status != ALI3_SINGULAR) break;
+  }
   if (status != ALI3_OK && status != ALI3_SINGULAR) return status;
   const int32_t negative_pivots = in->report.negative_pivots;
   if (h > 0.0) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
