@@ -178,14 +178,21 @@ def _reported_end(car: Car, options: argparse.Namespace, report: RunReport) -> I
 
 def _drive_headless(options: argparse.Namespace, begin: float) -> int:
     """Drive without a page, up to the stop time."""
+    from hosts.driving.pilots.pilot import ACTS
+    from hosts.recordings.load_manoeuvre import load_manoeuvre
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.headless_driving import headless_driver, manoeuvre_of, run_headless, with_start_of
+    from hosts.simulator.headless_driving import headless_driver, run_headless, with_start_of
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
 
     report = RunReport(begin)
-    manoeuvre = manoeuvre_of(options.manoeuvre, report.tell)
-    prepared = prepare(with_start_of(_drive_request(options), manoeuvre), report.tell)
+    request, manoeuvre = _drive_request(options), None
+    if options.manoeuvre is not None:
+        manoeuvre = load_manoeuvre(options.manoeuvre)
+        request = with_start_of(request, manoeuvre)
+        if late := manoeuvre.late_begin(ACTS if manoeuvre.driver else ()):
+            report.tell(": ".join(late))
+    prepared = prepare(request, report.tell)
     report.prepared(prepared, options.step)
     seconds = options.stop_time if options.stop_time is not None else manoeuvre.stop_time if manoeuvre else 0.0
     with _start_car(options, prepared) as started:
