@@ -245,7 +245,7 @@ class SystemBuilder:
         a["sig_const"] = [c for _, c in self.signals]
         e = self.elements
         a["el_type"] = [x.type for x in e]
-        for name, part in (("sig", "signals"), ("real", "real"), ("int", "integer")):
+        for name, part in (("sig", "signals"), ("parameter", "real"), ("int", "integer")):
             a[f"el_{name}_ptr"] = pointers([len(getattr(x, part)) for x in e])
             a[f"el_{name}"] = [v for x in e for v in getattr(x, part)]
         a["el_state_ptr"], a["y0"] = pointers([len(x.states) for x in e]), [v for x in e for v in x.states]
