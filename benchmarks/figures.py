@@ -11,6 +11,7 @@ import json
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import TypeAlias
 
 import mbs
 from ali3.command_run import run_command
@@ -50,15 +51,34 @@ STABILITY = "docs/stability.md"
 PAGES_OF_KEYS = {"": "all pages", "driven": "simulator, live page", "recorded": "recordings", "simulator": "simulator"}
 """Where a key acts, by the word of `viewer/keys.json`."""
 
+Tables: TypeAlias = list[RemadeTable]
+Maker: TypeAlias = Callable[..., Tables]
+WRITTEN: dict[str, Maker] = {}
+"""Charts, and tables that no other command writes, by name: functions of whether to make them whole."""
+COMPARED: dict[str, Maker] = {}
+"""Tables and sentences that other commands write, by name."""
 
-def four_bar_table() -> list[RemadeTable]:
+
+def _named(name: str, makers: dict[str, Maker] = COMPARED) -> Callable[[Maker], Maker]:
+    """Decorator: register a function by the name of its tables."""
+
+    def register(make: Maker) -> Maker:
+        makers[name] = make
+        return make
+
+    return register
+
+
+@_named("Table 1")
+def four_bar_table() -> Tables:
     """Energy, iterations and position errors of the double four-bar with four steps: the paper's Table 1."""
     system = mbs.compile(four_bar_scene.build(2))
     rows = [double_four_bar.measure(system, 2, "ALi3-P", h) for h in (0.05, 0.03, 0.01, 0.005)]
     return [RemadeTable(PAPER, double_four_bar.four_bar_blocks(rows)["table 1"], "table 1", ("h s",), ("ours ms",))]
 
 
-def puma_table() -> list[RemadeTable]:
+@_named("Table 2")
+def puma_table() -> Tables:
     """Errors of the PUMA with the default and the two most accurate methods: the paper's Table 2."""
     system = mbs.compile(puma_scene.build())
     runs = [(method, h) for method in ("ali3p", "energy_momentum_4", "radau_5") for h in (0.1, 0.05, 0.01)]
@@ -66,7 +86,8 @@ def puma_table() -> list[RemadeTable]:
     return [RemadeTable(PAPER, text, "table 2", ("method", "h s"), ("jump open J", "jump close J"))]
 
 
-def stability_margin_table() -> list[RemadeTable]:
+@_named("stability")
+def stability_margin_table() -> Tables:
     """Margins of two methods in the stability maps of the double four-bar."""
     eps: list[float | None] = [None, *map(float, stability.EPS)]
     steps = stability.steps_of("double_four_bar", 10.0 / 0.0009)
@@ -77,7 +98,8 @@ def stability_margin_table() -> list[RemadeTable]:
     return [RemadeTable(STABILITY, text, "margins", ("scene", "method"), excluded_columns)]
 
 
-def crank_honesty_tables() -> list[RemadeTable]:
+@_named("honesty")
+def crank_honesty_tables() -> Tables:
     """The crank-slider of the modelling page: verdicts at its two largest steps, whose errors depend on round-off, and
     all figures at its smallest step.
     """
@@ -90,27 +112,31 @@ def crank_honesty_tables() -> list[RemadeTable]:
     ]
 
 
-def trust_tables() -> list[RemadeTable]:
+@_named("trust")
+def trust_tables() -> Tables:
     """Tables of the page on trust."""
     keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",)}
     blocks = error_limits.trust_blocks(error_limits.measure())
     return [RemadeTable("docs/trust.md", blocks[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
 
 
-def car_error_tables() -> list[RemadeTable]:
+@_named("car")
+def car_error_tables() -> Tables:
     """Errors of the kernel in three manoeuvres of the prototype."""
     names = "step_steer_given_throttle", "double_lane_change_replay", "drop"
     rows = [accuracy.measure(name, 0.01, None, 1) for name in names]
     return [RemadeTable(SPEED, accuracy.car_blocks(rows)["car"], "car", ("manoeuvre", "h, ms"))]
 
 
-def handling_table() -> list[RemadeTable]:
+@_named("handling")
+def handling_table() -> Tables:
     """Measures of ride, handling and performance of two cars."""
     measured = {name: measure(load(name)) for name in ("hatchback", "prototype")}
     return [RemadeTable("docs/cars.md", measure_table(measure_rows(measured)), "handling", ("measure",))]
 
 
-def kinematics_and_frames() -> list[RemadeTable]:
+@_named("kinematics")
+def kinematics_and_frames() -> Tables:
     """Suspension kinematics of the hatchback at the design position, and frames of two cars."""
     titles = ("bump steer", "roll centre height", "motion ratio of the spring", "wheel rate")
     results = {title: (front, rear) for title, front, rear, *_ in rows(kinematics(load("hatchback"), (-0.01, 0.01), 3))}
@@ -126,7 +152,8 @@ def kinematics_and_frames() -> list[RemadeTable]:
     ]
 
 
-def table_suspension_errors() -> list[RemadeTable]:
+@_named("tables")
+def table_suspension_errors() -> Tables:
     """Errors of cars whose suspensions are tables, in some manoeuvres."""
     names = "step_steer_given_throttle", "double_lane_change_replay", "kerb_lock_brake"
     todo = ((car, name) for car in table_cars.CARS for name in names)
@@ -134,7 +161,8 @@ def table_suspension_errors() -> list[RemadeTable]:
     return [RemadeTable("docs/cars.md", text, "tables", ("car", "manoeuvre"), ("us a step, tables, links",))]
 
 
-def flexible_car_tables() -> list[RemadeTable]:
+@_named("flexible")
+def flexible_car_tables() -> Tables:
     """Sizes of the prototype by fidelity, and iterations and peaks of its kerb test."""
     page = "docs/flexible_car.md"
     return [
@@ -143,7 +171,8 @@ def flexible_car_tables() -> list[RemadeTable]:
     ]
 
 
-def road_step_tables() -> list[RemadeTable]:
+@_named("roads")
+def road_step_tables() -> Tables:
     """Wheel loads at steps of a road: of grids, and of contact planes from another program."""
     loads = road_faces.face_table([road_faces.measure("hatchback", height) for height in road_faces.HEIGHTS])
     answers = edge_answers.edge_table([edge_answers.measure(car, edge) for car, edge in edge_answers.EDGES])
@@ -153,21 +182,24 @@ def road_step_tables() -> list[RemadeTable]:
     ]
 
 
-def instruction_sentence() -> list[RemadeTable]:
+@_named("instructions")
+def instruction_sentence() -> Tables:
     """The sentence on the double four-bar, from the table of instructions."""
     rows = rows_of(between(read(SPEED), "instructions"))
     step = next(row["instructions"] for row in rows if row["scene"] == "double four-bar")
     return [RemadeTable(PAPER, f"A step at 0.03 s takes {step} instructions")]
 
 
-def output_count() -> list[RemadeTable]:
+@_named("outputs")
+def output_count() -> Tables:
     """Number of outputs of the rigid car's FMU, whose cost is on the page on FMUs."""
     table = variable_table(mbs.compile(prototype_car.build()).meta, pose=True, step_size=0.002)
     count = sum(v.causality == "output" for v in table)
     return [RemadeTable("docs/fmu_hosts.md", f"The rigid car has {count} outputs")]
 
 
-def readme_sentences() -> list[RemadeTable]:
+@_named("README")
+def readme_sentences() -> Tables:
     """Sentences of README.md, from the tables of the pages."""
     ratios = [1.0 / float(row["ratio"]) for row in rows_of(between(read(PAPER), "ratios")) if row["ratio"] != "–"]
     largest_ratio = float(f"{max(ratios):.2g}")
@@ -183,7 +215,8 @@ def readme_sentences() -> list[RemadeTable]:
     return [RemadeTable("README.md", sentence) for sentence in sentences]
 
 
-def finite_element_tables(whole: bool) -> list[RemadeTable]:
+@_named("elements", WRITTEN)
+def finite_element_tables(whole: bool) -> Tables:
     """Mass models and modes of the prototype's frame; if `whole`, also CalculiX beside two beam theories."""
     page, frame = "docs/finite_elements.md", frame_tables
     remade_tables = [RemadeTable(page, frame.modes_table(), "modes", ("modes",))]
@@ -194,14 +227,16 @@ def finite_element_tables(whole: bool) -> list[RemadeTable]:
     )
 
 
-def assembly_defect_table() -> list[RemadeTable]:
+@_named("assembly defect")
+def assembly_defect_table() -> Tables:
     """Errors of the four-bar with assembly defect by bodies per bar; `benchmarks.paper` writes the whole table."""
     rows = [{"table": "bars", **assembly_defect.measure(case)} for case in assembly_defect.CASES[:3]]
     text = assembly_defect.defect_blocks(rows)["defect"]
     return [RemadeTable("docs/flexible.md", text, "defect", ("bodies per bar", "elements, modes of each"))]
 
 
-def hatchback_kerb_table(whole: bool) -> list[RemadeTable]:
+@_named("flexible hatchback", WRITTEN)
+def hatchback_kerb_table(whole: bool) -> Tables:
     """Peaks of the hatchback in the kerb test by fidelity, and if `whole` by step."""
     cases = flexible_tables.HATCHBACK[: None if whole else len(flexible_tables.KERB)]
     return [
@@ -211,94 +246,76 @@ def hatchback_kerb_table(whole: bool) -> list[RemadeTable]:
     ]
 
 
-def unreduced_size_table() -> list[RemadeTable]:
+@_named("unreduced models")
+def unreduced_size_table() -> Tables:
     """Sizes of models without reduced coordinates and constraints."""
     text = unreduced_models.size_table([unreduced_models.sizes_of(scene)[0] for scene in unreduced_models.SCENES])
     return [RemadeTable("docs/flexible_car.md", text, "naive", ("scene",))]
 
 
-def chosen_fidelity_table() -> list[RemadeTable]:
+@_named("cheapest fidelity")
+def chosen_fidelity_table() -> Tables:
     """Errors of the fidelities that the page on the flexible car chooses; `benchmarks.car` writes the table."""
     page = "docs/flexible_car.md"
     return [RemadeTable(page, fidelity.choice_again(read(page)), "cheapest", ("required",))]
 
 
-def published_test_table() -> list[RemadeTable]:
+@_named("published tests")
+def published_test_table() -> Tables:
     """Published tests: CommonRoad's Escort and the tyre on the rig; `benchmarks.validation` writes the whole table."""
     results = [*published_tests.by_commonroad(list(published_tests.CARS)[:1]), *tyre_rig.compared()]
     text = table([figure.row(value) for figure, value in results], published_tests.COLUMNS)
     return [RemadeTable("docs/validation.md", text, "others", ("test",))]
 
 
-def key_table(_: bool) -> list[RemadeTable]:
+@_named("keys", WRITTEN)
+def key_table(_: bool) -> Tables:
     """Keys of the pages, from the file that the pages read."""
     keys = json.loads(read("viewer/keys.json"))
     rows = [{"key": k["shown"], "what": k["words"], "where": PAGES_OF_KEYS[k.get("where", "")]} for k in keys]
     return [RemadeTable("docs/driving.md", table(rows, dict.fromkeys(rows[0], "")), "keys", ("key", "where"))]
 
 
-WRITTEN_TABLES: dict[str, Callable[[bool], list[RemadeTable]]] = {
-    "charts": charts,
-    "elements": finite_element_tables,
-    "flexible hatchback": hatchback_kerb_table,
-    "keys": key_table,
-}
-"""Charts, and tables that no other command writes: whole with ``--write``, otherwise quick parts of them."""
-COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
-    "assembly defect": assembly_defect_table,
-    "unreduced models": unreduced_size_table,
-    "Table 1": four_bar_table,
-    "Table 2": puma_table,
-    "stability": stability_margin_table,
-    "honesty": crank_honesty_tables,
-    "trust": trust_tables,
-    "car": car_error_tables,
-    "handling": handling_table,
-    "kinematics": kinematics_and_frames,
-    "tables": table_suspension_errors,
-    "flexible": flexible_car_tables,
-    "cheapest fidelity": chosen_fidelity_table,
-    "published tests": published_test_table,
-    "roads": road_step_tables,
-    "instructions": instruction_sentence,
-    "outputs": output_count,
-    "trust page": trust_sentences,
-    "README": readme_sentences,
-}
+_named("charts", WRITTEN)(charts)
+_named("trust page")(trust_sentences)
 
 
 @expected_errors()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``python -m benchmarks.figures``: compute figures of the pages again, and compare or write them."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.figures", description=__doc__)
-    names = ", ".join((*WRITTEN_TABLES, *COMPARED_TABLES))
+    names = ", ".join((*WRITTEN, *COMPARED))
     parser.add_argument("--only", default="", metavar="TEXT", help=f"part of a name: {names}")
-    parser.add_argument("--write", action="store_true", help=f"make all of {', '.join(WRITTEN_TABLES)}, and write them")
+    parser.add_argument("--write", action="store_true", help=f"make all of {', '.join(WRITTEN)}, and write them")
     parser.add_argument("--variables", action="store_true", help="print the tables of the cars' variables alone")
     options = parser.parse_args(arguments)
     if options.variables:
         for name, text in variable_tables.blocks(variable_tables.tables()).items():
             print(f"{name}\n\n{text}\n")
         return 0
-    makers = {name: partial(make, options.write) for name, make in WRITTEN_TABLES.items()}
-    makers |= {} if options.write else COMPARED_TABLES
+    makers: dict[str, Maker] = {name: partial(make, options.write) for name, make in WRITTEN.items()}
+    makers |= {} if options.write else COMPARED
     selected_makers = [make for name, make in makers.items() if options.only.lower() in name.lower()]
     if not selected_makers:
         parser.error(f"no table is called {options.only!r}: {names}")
     remade_tables = [remade_table for make in watched(selected_makers) for remade_table in make()]
-    if options.write:
-        for remade_table in remade_tables:
-            if remade_table.picture:
-                (DOCS.parent / remade_table.page).write_bytes(remade_table.picture)
-            else:
-                write_text(DOCS.parent / remade_table.page, written(remade_table, read(remade_table.page)))
-        print(f"{len(remade_tables)} tables and charts written")
-        return 0
+    return _write(remade_tables) if options.write else _compare(remade_tables)
+
+
+def _write(remade_tables: Tables) -> int:
+    for remade_table in remade_tables:
+        if remade_table.picture:
+            (DOCS.parent / remade_table.page).write_bytes(remade_table.picture)
+        else:
+            write_text(DOCS.parent / remade_table.page, written(remade_table, read(remade_table.page)))
+    print(f"{len(remade_tables)} tables and charts written")
+    return 0
+
+
+def _compare(remade_tables: Tables) -> int:
     sentences = all_differences(remade_tables)
-    print(
-        "\n".join(sentences)
-        or f"{len(remade_tables)} tables, sentences and charts of the pages are as they are made now."
-    )
+    as_made = f"{len(remade_tables)} tables, sentences and charts of the pages are as they are made now."
+    print("\n".join(sentences) or as_made)
     return 1 if sentences else 0
 
 

@@ -59,7 +59,7 @@ class Mechanism:
         for e in np.flatnonzero(a["el_type"] == ElementType.SPRING_DAMPER):
             first, last = a["el_sig_ptr"][e : e + 2]
             gap = [self._signal(int(a["el_sig"][k]), q) for k in range(first, last)]
-            real = a["el_real"][a["el_real_ptr"][e] :]
+            real = a["el_parameter"][a["el_parameter_ptr"][e] :]
             total += 0.5 * real[0] * (np.linalg.norm(gap) - real[2]) ** 2
         return float(total)
 
@@ -72,7 +72,7 @@ class Mechanism:
             if a["sen_type"][k] != SensorType.SIGNAL:
                 raise ValueError(f"The sensor {sensor!r} is not a position.")
             signal = int(a["sen_int"][a["sen_int_ptr"][k]])
-            columns.append(a["sen_real"][a["sen_real_ptr"][k]] * self._signal(signal, q))
+            columns.append(a["sen_parameter"][a["sen_parameter_ptr"][k]] * self._signal(signal, q))
         return np.stack(columns, axis=-1)
 
     def _signal(self, k: int, q: Array) -> Array:

@@ -13,6 +13,7 @@ from mbs.vehicle import Car
 COUPLE = 1e3  # N m; the frame is linear
 RIGID = 6  # rigid-body modes
 MODES = 4  # elastic modes
+PAIR = np.array([1.0, -1.0])  # left, right: forces of a couple, and signs of the displacements in a twist
 
 
 @dataclass(frozen=True)
@@ -32,35 +33,29 @@ def stiffness(car: Car) -> Stiffness:
 
     `car`: car with a flexible frame.
     """
-    flexible = car.flexible_frame
-    model = flexible.model
-    middle = 0.5 * (car.front.wheel.centre[0] + car.rear.wheel.centre[0])
-    left_side = [name for name in flexible.interfaces if flexible.place(name)[1] > 0.0]
-    front, rear = (
-        max(
-            (n for n in left_side if (flexible.place(n)[0] > middle) == ahead),
-            key=lambda n: float(flexible.place(n)[2]),
-        )
-        for ahead in (True, False)
-    )
+    model = car.flexible_frame.model
+    joints = _left_joints(car)
+    dofs = [_vertical_dofs(model, place) for place in joints.values()]
+    widths = [2.0 * float(place[1]) for place in joints.values()]
     load = np.zeros((model.n_dof, 1))
-    for name, sign in ((front, 1.0), (rear, -1.0)):
-        load[_vertical_dofs(model, flexible.place(name)), 0] = (
-            sign * COUPLE / _width(flexible.place(name)) * np.array([1.0, -1.0])
-        )
+    for dof, width, sign in zip(dofs, widths, (1.0, -1.0), strict=True):
+        load[dof, 0] = sign * COUPLE / width * PAIR
     # the couples balance each other: the support has no reaction
-    displacements = FixedInterface(model, flexible.reference, ()).solve(load)[:, 0]
-    angles = [
-        float(np.array([1.0, -1.0]) @ displacements[_vertical_dofs(model, flexible.place(n))])
-        / _width(flexible.place(n))
-        for n in (front, rear)
-    ]
+    displacements = FixedInterface(model, car.flexible_frame.reference, ()).solve(load)[:, 0]
+    front, rear = (float(PAIR @ displacements[dof]) / width for dof, width in zip(dofs, widths, strict=True))
     hertz, _ = natural_modes(model, RIGID + MODES)
-    return Stiffness((front, rear), COUPLE / float(np.degrees(angles[0] - angles[1])), hertz[RIGID:])
+    front_joint, rear_joint = joints
+    return Stiffness((front_joint, rear_joint), COUPLE / float(np.degrees(front - rear)), hertz[RIGID:])
 
 
-def _width(point: NDArray[np.float64]) -> float:
-    return 2.0 * float(point[1])
+def _left_joints(car: Car) -> dict[str, NDArray[np.float64]]:
+    """The highest left joint of the front and of the rear axle, with their places, m."""
+    frame = car.flexible_frame
+    middle = 0.5 * (car.front.wheel.centre[0] + car.rear.wheel.centre[0])
+    left = {name: frame.place(name) for name in frame.interfaces if frame.place(name)[1] > 0.0}
+    axles = ([n for n, place in left.items() if (place[0] > middle) == is_front] for is_front in (True, False))
+    highest = (max(names, key=lambda n: float(left[n][2])) for names in axles)
+    return {name: left[name] for name in highest}
 
 
 def _vertical_dofs(model: FiniteElementModel, point: NDArray[np.float64]) -> NDArray[np.int64]:

@@ -20,7 +20,7 @@ def random_pendulum(rng: np.random.Generator) -> tuple[mbs.System, dict[str, Arr
     masses, lengths = 10.0 ** rng.uniform(-0.3, 0.3, n), rng.uniform(0.5, 1.0, n)
     angles = rng.uniform(1.2, 3.0, n) * rng.choice([-1.0, 1.0], n)  # rad, from the lower vertical
     span = float(round(rng.uniform(4.0, 9.0), 1))
-    truth = _positions(_angles(masses, lengths, angles, span), lengths)
+    positions = _positions(_angles(masses, lengths, angles, span), lengths)
     m = mbs.Model("pendulum", dimension=2, gravity=(0.0, -GRAVITY))
     previous, joint = m.ground, (0.0, 0.0)
     for k, place in enumerate(_positions(angles[:, None], lengths)[:, :, 0]):
@@ -30,7 +30,7 @@ def random_pendulum(rng: np.random.Generator) -> tuple[mbs.System, dict[str, Arr
             m.sense_position(f"mass{k}.{c}", mass, None, c)
         previous, joint = mass, tuple(place)
     names = [f"mass{k}.{c}" for k in range(n) for c in "xy"]
-    return mbs.compile(m), dict(zip(names, truth.reshape(2 * n, -1), strict=True)), span
+    return mbs.compile(m), dict(zip(names, positions.reshape(2 * n, -1), strict=True)), span
 
 
 def _positions(angles: Array, lengths: Array) -> Array:

@@ -56,7 +56,7 @@ class Case:
 
     kind: str
     system: mbs.System
-    truth: Mapping[str, Array]
+    reference: Mapping[str, Array]
     """Exact values by compared sensor at equal instants of the run, (n,) each."""
     span: float
     """Duration, s."""
@@ -86,10 +86,9 @@ def simulation_fields(
 def _mechanism_case(kind: str, mechanism: Mechanism) -> Case:
     names = [f"tip{i}.{c}" for i in range(len(mechanism.links)) for c in "xyz"[: mechanism.dimension]]
     motion = newton_euler.motion(mechanism)
-    truth = dict(zip(names, motion.reshape(len(motion), -1).T, strict=True))
-    return Case(
-        kind, truth=truth, **simulation_fields(mbs.compile(random_mechanisms.model_of(mechanism)), mechanism.span)
-    )
+    reference = dict(zip(names, motion.reshape(len(motion), -1).T, strict=True))
+    system = mbs.compile(random_mechanisms.model_of(mechanism))
+    return Case(kind, reference=reference, **simulation_fields(system, mechanism.span))
 
 
 def planar(rng: np.random.Generator) -> Case:
@@ -106,8 +105,9 @@ def machines(rng: np.random.Generator) -> Case:
     """Masses on a line with belts, brakes, backlash, cams, impacts and stops."""
     kind, machine = random_machines.random_machine(rng)
     positions = masses_on_a_line.motion(machine)
-    truth = {f"x{i}": positions[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
-    return Case(kind, truth=truth, **simulation_fields(mbs.compile(random_machines.model_of(machine)), machine.span))
+    reference = {f"x{i}": positions[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
+    system = mbs.compile(random_machines.model_of(machine))
+    return Case(kind, reference=reference, **simulation_fields(system, machine.span))
 
 
 def cars(rng: np.random.Generator) -> Case:
@@ -119,7 +119,7 @@ def cars(rng: np.random.Generator) -> Case:
         return drive.run("auto" if h is None else "ali3p", h, **more)
 
     simulation = simulation_fields(drive.system, drive.span, run)
-    return Case(kind, truth=drive.truth(), **simulation, steps=random_cars.STEPS, tolerances=TOLERANCES[:2])
+    return Case(kind, reference=drive.reference(), **simulation, steps=random_cars.STEPS, tolerances=TOLERANCES[:2])
 
 
 def boxes_case(rng: np.random.Generator) -> Case:
@@ -134,7 +134,7 @@ def boxes_case(rng: np.random.Generator) -> Case:
         mass, half, float(np.linalg.norm(half) + rng.uniform(0.01, 0.5)), np.append(rng.normal(0.0, 0.5, 2), -0.5),
         rng.normal(0.0, 3.0, 3), contact.stiffness, onset, contact.loss, 1.0,
     )  # fmt: skip
-    truth = boxes.motion(falling_box)
+    reference = boxes.motion(falling_box)
     m = mbs.Model("box", gravity=(0.0, 0.0, -9.81))
     centre = np.array([0.0, 0.0, falling_box.height])
     body = m.body("box", mass=mass, com=centre, inertia=falling_box.inertia)
@@ -143,7 +143,7 @@ def boxes_case(rng: np.random.Generator) -> Case:
     for c in "xyz":
         m.sense_position(f"centre.{c}", body, None, c)
         m.sense_position(f"corner.{c}", body, centre + falling_box.corners[0], c)
-    return Case("box", truth=truth, **simulation_fields(mbs.compile(m), falling_box.span))
+    return Case("box", reference=reference, **simulation_fields(mbs.compile(m), falling_box.span))
 
 
 def _swinging(rng: np.random.Generator) -> tuple[str, Mechanism]:
@@ -189,7 +189,7 @@ def switches(rng: np.random.Generator) -> Case:
             simulation.set_switch(name, closed)
             parts.append(simulation.run(end, h, every=every, progress=False))
             errors.append(parts[-1].accuracy.error if parts[-1].accuracy else None)
-        values = {n: np.concatenate([part[n][int(k > 0) :] for k, part in enumerate(parts)]) for n in case.truth}
+        values = {n: np.concatenate([part[n][int(k > 0) :] for k, part in enumerate(parts)]) for n in case.reference}
         return CaseRun(values, max((e for e in errors if e is not None), default=None))
 
     return replace(case, run=run, tolerances=())
@@ -229,8 +229,10 @@ def flexible(rng: np.random.Generator) -> Case:
             system, span, span / INSTANTS / n, every=n, method=method, estimate_error=False, progress=False
         )
 
-    truth = random_cars.reference_by_two_methods(system, simulate)
-    return Case("beam", truth=truth, **simulation_fields(system, span), tolerances=())  # finer than the reference
+    reference = random_cars.reference_by_two_methods(system, simulate)
+    return Case(
+        "beam", reference=reference, **simulation_fields(system, span), tolerances=()
+    )  # finer than the reference
 
 
 def gears(rng: np.random.Generator) -> Case:
@@ -253,7 +255,7 @@ def gears(rng: np.random.Generator) -> Case:
     t = np.linspace(0.0, span, INSTANTS + 1)
     angle = solve_ivp(rates, (0.0, span), [0.0, rate], t_eval=t, method="DOP853", rtol=1e-11, atol=1e-12).y[0]
     m = mbs.Model("gears", dimension=2, gravity=(0.0, -9.81))
-    angles, truth = [], dict[str, Array]()
+    angles, reference = [], dict[str, Array]()
     for i, (mass, inertia, arm) in enumerate(zip(masses, inertias, arms, strict=True)):
         wheel = m.body(f"wheel{i}", mass=mass, com=(i + arm, 0.0), inertia=inertia)
         m.revolute(f"bearing{i}", m.ground, wheel, point=(float(i), 0.0))
@@ -261,9 +263,9 @@ def gears(rng: np.random.Generator) -> Case:
         m.initial_velocity(wheel, linear=(0.0, rate * gain[i] * arm), angular=rate * gain[i])
         for k, c in enumerate("xy"):
             m.sense_position(f"rim{i}.{c}", wheel, (i + 0.2, 0.0), c)
-            truth[f"rim{i}.{c}"] = i * (1 - k) + 0.2 * (np.cos, np.sin)[k](gain[i] * angle)
+            reference[f"rim{i}.{c}"] = i * (1 - k) + 0.2 * (np.cos, np.sin)[k](gain[i] * angle)
     m.gear("gear", *angles, ratio=ratio)
-    return Case("gears", truth=truth, **simulation_fields(mbs.compile(m), span))
+    return Case("gears", reference=reference, **simulation_fields(mbs.compile(m), span))
 
 
 def tumbling(rng: np.random.Generator) -> Case:
@@ -279,10 +281,10 @@ def tumbling(rng: np.random.Generator) -> Case:
     mechanism = replace(mechanism, drive=drive, torque=0.0)
     rates = newton_euler.motion(mechanism, rates=True)
     names = [f"rate{i}.{c}" for i in range(len(mechanism.links)) for c in ("z" if mechanism.dimension == 2 else "xyz")]
-    truth = dict(zip([*names, "motor.torque"] if driven else names, rates.T, strict=False))
+    reference = dict(zip([*names, "motor.torque"] if driven else names, rates.T, strict=False))
     kind = f"chain in {'the plane' if mechanism.dimension == 2 else 'space'}, {'driven' if driven else 'free'}"
     system = mbs.compile(random_mechanisms.model_of(mechanism, rates=True))
-    return Case(kind, truth=truth, **simulation_fields(system, mechanism.span), tolerances=())
+    return Case(kind, reference=reference, **simulation_fields(system, mechanism.span), tolerances=())
 
 
 def _tumbling_body(rng: np.random.Generator) -> Case:
@@ -303,14 +305,16 @@ def _tumbling_body(rng: np.random.Generator) -> Case:
     for c in "xyz":
         m.sense_rotation(f"rate.{c}", body, c, order=1)
         m.sense_position(f"centre.{c}", body, None, c)
-    truth = {f"rate.{c}": solution[k] for k, c in enumerate("xyz")}
-    return Case("body", truth=truth, **simulation_fields(mbs.compile(m), span), tolerances=())
+    reference = {f"rate.{c}": solution[k] for k, c in enumerate("xyz")}
+    return Case("body", reference=reference, **simulation_fields(mbs.compile(m), span), tolerances=())
 
 
 def chaotic(rng: np.random.Generator) -> Case:
     """Double and triple pendulums."""
-    system, truth, span = chaotic_pendulums.random_pendulum(rng)
-    return Case(f"{len(truth) // 2} rods", truth=truth, **simulation_fields(system, span), steps=CHAOTIC_STEPS)
+    system, reference, span = chaotic_pendulums.random_pendulum(rng)
+    return Case(
+        f"{len(reference) // 2} rods", reference=reference, **simulation_fields(system, span), steps=CHAOTIC_STEPS
+    )
 
 
 def fmus(rng: np.random.Generator) -> Case:
@@ -333,10 +337,10 @@ def fmus(rng: np.random.Generator) -> Case:
             pose=mbs.Pose(**pose), estimate_error=False, progress=False,
         )  # fmt: skip
 
-    truth = random_cars.reference_by_two_methods(system, simulate)
+    reference = random_cars.reference_by_two_methods(system, simulate)
     start = {f"initial.{name}": value for name, value in pose.items()} | road | inputs
-    run = partial(_through_fmpy, lambda: fmu_of_car(car, lambda _: None), list(truth), span, start)
-    return Case(f"{car}, {'falls' if falls else 'kerb'}", system, truth, span, run, (step,), ())
+    run = partial(_through_fmpy, lambda: fmu_of_car(car, lambda _: None), list(reference), span, start)
+    return Case(f"{car}, {'falls' if falls else 'kerb'}", system, reference, span, run, (step,), ())
 
 
 def fmu_mechanisms(rng: np.random.Generator) -> Case:
@@ -352,7 +356,7 @@ def fmu_mechanisms(rng: np.random.Generator) -> Case:
         atexit.register(shutil.rmtree, folder)
         return build_fmu(case.system, "mechanism", folder, [platform])
 
-    return replace(case, run=partial(_through_fmpy, built, list(case.truth), span, {}), tolerances=())
+    return replace(case, run=partial(_through_fmpy, built, list(case.reference), span, {}), tolerances=())
 
 
 def _through_fmpy(

@@ -49,7 +49,7 @@ class Scene:
     """Returns the trajectory of a method with a step, s, recorded at the instants; further arguments of
     `mbs.simulate`.
     """
-    truth: Callable[[], Mapping[str, Array]]
+    reference: Callable[[], Mapping[str, Array]]
     """Returns exact values by sensor."""
     system: Callable[[], mbs.System]
     """Returns the System, whose length is the scale of sensors at rest."""
@@ -61,7 +61,7 @@ class Scene:
     def error(self, trajectory: mbs.Trajectory) -> float:
         """Largest error of a compared sensor relative to its size."""
         assert trajectory.report is not None
-        return true_error(self.system(), self.truth(), trajectory, trajectory.report.energy_floor)
+        return true_error(self.system(), self.reference(), trajectory, trajectory.report.energy_floor)
 
 
 def _record(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:
@@ -75,7 +75,7 @@ def _case_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:
 
 
 @cache
-def _case_truth(name: str) -> dict[str, Array]:
+def _case_reference(name: str) -> dict[str, Array]:
     case, exact = CASES[name], exact_of(name)
     known = dict(zip(case.sensors, exact.T, strict=True))
     if name not in BEST:
@@ -91,7 +91,7 @@ def _case(name: str) -> Scene:
     case = CASES[name]
     return Scene(
         partial(_case_run, name),
-        partial(_case_truth, name),
+        partial(_case_reference, name),
         partial(system_of, name),
         lambda: [m for m in KERNEL if suits(m, case.conservative, system_of(name))],
         tuple(case.end / (SAMPLES * d) for d in case.divisions),
@@ -113,7 +113,7 @@ def _crank_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
 
 
 @cache
-def _crank_truth() -> dict[str, Array]:
+def _crank_reference() -> dict[str, Array]:
     best = _crank_run("runge_kutta_8", 6.25e-5, estimate_error=False)
     assert abs(best["crank.angle"][-1] - CRANK_ANGLE) < 1e-4
     return {n: best[n] for n in ("crank.angle", "piston.x")}
@@ -136,7 +136,7 @@ def _tumbling_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
 
 
 @cache
-def _tumbling_truth() -> dict[str, Array]:
+def _tumbling_reference() -> dict[str, Array]:
     """Positions of the tip, m, by Euler's equations, the rotation matrix and DOP853."""
     inertia, rate = TUMBLING
 
@@ -158,7 +158,7 @@ def _car_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:
 
 
 @cache
-def _car_truth(name: str) -> dict[str, Array]:
+def _car_reference(name: str) -> dict[str, Array]:
     """Sensors of a run of the default method whose difference from the stored references is below 1e-4."""
     every = round(manoeuvres.sampling(name) / CAR_STEP)
     fine = manoeuvres.run(name, CAR_STEP, every=every)
@@ -170,7 +170,7 @@ def _car(name: str) -> Scene:
     steps = tuple(h for h in (0.02, 0.01, 0.005, 0.002, 0.001) if abs(round(sampling / h) * h - sampling) < 1e-9 * h)
     return Scene(
         partial(_car_run, name),
-        partial(_car_truth, name),
+        partial(_car_reference, name),
         partial(manoeuvres.system_of, name),
         lambda: ["ali3p", "ali3p_no_projection", "ali3p_generalised_alpha", "energy_momentum"],
         steps,
@@ -181,14 +181,14 @@ SCENES: dict[str, Scene] = {
     **{name: _case(name) for name in CASES},
     "printed_crank_slider": Scene(
         _crank_run,
-        _crank_truth,
+        _crank_reference,
         printed_model,
         lambda: [m for m in KERNEL if suits(m, True, printed_model())],
         (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5, 2e-5),
     ),
     "tumbling_body": Scene(
         _tumbling_run,
-        _tumbling_truth,
+        _tumbling_reference,
         tumbling_body,
         lambda: [m for m in KERNEL if suits(m, True, tumbling_body())],
         (0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005, 0.0002),

@@ -61,7 +61,7 @@ class Drive:
         """The car on its road."""
         return system_of(self.car, self.step)
 
-    def truth(self) -> dict[str, Array]:
+    def reference(self) -> dict[str, Array]:
         """Compared sensors at the recorded instants, by `reference_by_two_methods`."""
         return reference_by_two_methods(self.system, lambda method, h: self.run(method, h, estimate_error=False))
 

@@ -71,17 +71,17 @@ def rows_of(family: str, seed: int, numbers: Iterable[int]) -> Iterator[dict[str
 def judge(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     """Results of a case with fixed steps and, if possible, with a tolerance, each chosen at random."""
     case.system.to_bytes()  # assembly modes are searched here, so that their time is not part of the first run
-    intervals = len(next(iter(case.truth.values()))) - 1
+    intervals = len(next(iter(case.reference.values()))) - 1
     h = float(rng.choice(case.steps))
     every = max(1, round(case.span / intervals / h))
     fixed_step = case.span / intervals / every  # the nearest step that reaches the instants
     sensors = compared_sensors(case.system)
 
     def of_range(values: Mapping[str, Array]) -> float:
-        return true_error(case.system, case.truth, values)
+        return true_error(case.system, case.reference, values)
 
     def of_length(values: Mapping[str, Array]) -> float:
-        places = [np.abs(values[n] - true).max() for n, true in case.truth.items() if sensors[n].unit == "m"]
+        places = [np.abs(values[n] - true).max() for n, true in case.reference.items() if sensors[n].unit == "m"]
         return float(max(places)) / length_of(case.system)
 
     yield judged_run(f"{h:g} s", lambda: case.run(h=fixed_step, every=every), of_range, WRONG_ERROR)

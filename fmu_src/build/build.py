@@ -23,7 +23,7 @@ from fmu_src.native.early_compilation import compiled_ahead
 from fmu_src.native.fmi_versions import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, StageReport, pack_native
 from fmu_src.native.platforms import able_platforms
-from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_names
+from fmu_src.native.reference_runs import ReferenceRun, reference_runs, with_other_names
 from fmu_src.variables.renamed_variables import Renamed, renamed
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import by_name_in_system, check_fidelities, variable_table, with_uncomputed

@@ -27,7 +27,7 @@ def with_parameters(
     they set: the keys of `MOVED` and `file`; paths are those in the FMU.
     """
     files = {entry["road"]: entry["name"] for entry in system.meta.get("road_files", ())}
-    values, changed = system.arrays["road_real"], []
+    values, changed = system.arrays["road_parameter"], []
     for index, drawn in enumerate(roads):
         road, number = dict(drawn), drawn.get("number", index)
         is_file = road["kind"] == "file"
@@ -47,16 +47,16 @@ def with_parameters(
 
 
 def _moved_reals(system: mbs.System, road: int) -> dict[str, int]:
-    """Indices in `road_real` of the numbers of a road that a host may change, by the keys of `MOVED`."""
+    """Indices in `road_parameter` of the numbers of a road that a host may change, by the keys of `MOVED`."""
     if road >= len(system.arrays["road_type"]):
         return {}
     names = NUMBERS.get(RoadType(int(system.arrays["road_type"][road])), ())
-    first = int(system.arrays["road_real_ptr"][road])
+    first = int(system.arrays["road_parameter_ptr"][road])
     return {key: first + names.index(name) for key, name in MOVED.items() if name in names}
 
 
 def _parameter_that_writes(system: mbs.System, real: int) -> str | None:
-    """Name of the parameter that is written, without a factor, to an entry of `road_real`; None if there is none."""
+    """Name of the parameter that is written without a factor to an entry of `road_parameter`; None if there is none."""
     a = system.arrays
     is_written = (a["par_target"] == ParameterTarget.ROAD) & (a["par_index"] == real) & (a["par_scale"] == 1.0)
     if not is_written.any():

@@ -141,7 +141,10 @@ class SensorRows:
 
     def _reals(self, sensor: int) -> list[float]:
         a = self._arrays
-        return [float(v) for v in a["sen_real"][int(a["sen_real_ptr"][sensor]) : int(a["sen_real_ptr"][sensor + 1])]]
+        return [
+            float(v)
+            for v in a["sen_parameter"][int(a["sen_parameter_ptr"][sensor]) : int(a["sen_parameter_ptr"][sensor + 1])]
+        ]
 
 
 def _is_equal(a: Array, b: Array, scale: Array) -> bool:

@@ -16,7 +16,8 @@ from fmu_src.native.archive import identity_of, licence, write_zip
 from fmu_src.native.compilation import compile_library
 from fmu_src.native.picture import curves_png
 from fmu_src.native.platforms import SUFFIXES
-from fmu_src.native.reference import ReferenceRun, reference_files
+from fmu_src.native.reference_files import reference_files
+from fmu_src.native.reference_runs import ReferenceRun
 from fmu_src.native.sources import packed_sources
 from fmu_src.native.table import c_table
 from fmu_src.variables.parameter_file import parameter_set

@@ -11,9 +11,9 @@ from hosts.catalogue.car import TestedCar, cars_of
 from hosts.catalogue.execution import Reason, reason_against, settings_of_test
 from hosts.catalogue.limits import GivenLimits
 from hosts.catalogue.output import print_measures, write_measures
-from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.report import write_report
+from hosts.catalogue.standard_test import StandardTest, TestRecord
 from hosts.catalogue.task import Outcome, Task, find_record, perform_task, store_record, write_runs
 from hosts.common.errors import HostError
 from hosts.experiment.experiment import Experiment

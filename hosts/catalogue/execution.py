@@ -7,7 +7,7 @@ from typing import TypeAlias
 from ali3.columns import some_of
 from ali3.units import typeset
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import StandardTest, TestRecord
+from hosts.catalogue.standard_test import StandardTest, TestRecord
 from hosts.common.errors import HostError
 
 _MAX_MESSAGES = 10

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import TESTS
+from hosts.catalogue.standard_test import TestRecord
 from hosts.catalogue.task import Outcome
 from hosts.common.errors import HostError
 from hosts.common.units import conversion

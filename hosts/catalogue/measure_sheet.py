@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import early_end_notes, with_step_up_to
-from hosts.catalogue.record import Line, Plot, Setting, TestRecord
+from hosts.catalogue.standard_test import Line, Plot, Setting, TestRecord
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.display_units import shown_in
 from hosts.common.errors import HostError

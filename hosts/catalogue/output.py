@@ -11,8 +11,8 @@ from ali3.columns import in_columns
 from ali3.files import write_json, write_text
 from ali3.units import typeset
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import Setting, Standard, StandardTest, TestRecord
 from hosts.catalogue.registry import TESTS, standard_test
+from hosts.catalogue.standard_test import Setting, Standard, StandardTest, TestRecord
 from hosts.catalogue.task import Outcome, run_file
 from hosts.common.numbers import or_null
 from hosts.measures.measure import Measure

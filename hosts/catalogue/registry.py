@@ -12,7 +12,7 @@ from ali3.near_names import did_you_mean
 from ali3.reading import read_toml
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.measure_sheet import Sheet, TestTables
-from hosts.catalogue.record import Standard, StandardTest, TestRecord
+from hosts.catalogue.standard_test import Standard, StandardTest, TestRecord
 from hosts.common.errors import HostError
 
 TESTS = (

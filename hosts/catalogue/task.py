@@ -15,8 +15,8 @@ from ali3.errors import UserError
 from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import Reason, perform
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.standard_test import TestRecord
 from hosts.driving.result import Result
 from hosts.experiment.store import ResultStore, run_key
 from hosts.fmu.own_process import files_of

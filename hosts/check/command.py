@@ -203,7 +203,8 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _compare_with_reference(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
-    from hosts.check.reference import OUT, ReferenceOptions, check_references
+    from hosts.check.reference import OUT, check_references
+    from hosts.check.reference_table import ReferenceOptions
 
     if len(options.fidelity) > 1:
         raise HostError("--fidelity is given twice; give one with --reference.")

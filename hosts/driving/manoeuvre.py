@@ -1,10 +1,9 @@
 """A manoeuvre: inputs over time, start values and, for closed loops, a driver."""
 
 import hashlib
-import math
 from collections.abc import Collection
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,35 +61,35 @@ class Manoeuvre:
         `held`: further inputs that are constant from row to row, such as integers; `before`: whether values at a jump
         are those before it.
         """
-        held = {*held, *self.held}
-        # Times are sums with rounding errors, which must not hide a jump.
-        side: Literal["left", "right"] = "left" if before else "right"
-        k = int(np.searchsorted(self.time, t - ON_TIME if before else t + ON_TIME, side=side))
-        if k == 0 or k == len(self.time):
-            row = 0 if k == 0 else -1
-            return {name: float(values[row]) for name, values in self.inputs.items()}
-        t0, t1 = self.time[k - 1], self.time[k]
-        s = min(max(t - t0, 0.0) / (t1 - t0), 1.0)
-        return {
-            name: float(v[k - 1]) if name in held else _interpolate(float(v[k - 1]), float(v[k]), float(s))
-            for name, v in self.inputs.items()
-        }
+        if not self.inputs:
+            return {}
+        held, place = {*held, *self.held}, self._place(np.float64(t), before)
+        return {name: float(_between(values, place, name in held)) for name, values in self.inputs.items()}
 
     def column(self, name: str, times: NDArray[np.float64], held: bool, before: bool = False) -> NDArray[np.float64]:
         """Values of one input at many times, see `at`. `times`: s, shape (n,). Result: shape (n,)."""
-        k = np.searchsorted(self.time, times + (-ON_TIME if before else ON_TIME), side="left" if before else "right")
+        return np.asarray(_between(self.inputs[name], self._place(times, before), held))
+
+    def _place(self, times: Any, before: bool) -> tuple[Any, Any, Any]:
+        """Rows on either side of times, and where these lie between them, 0 to 1."""
+        # Times are sums with rounding errors, which must not hide a jump.
+        shift = -ON_TIME if before else ON_TIME
+        k = np.searchsorted(self.time, times + shift, side="left" if before else "right")
         lower, upper = np.maximum(k - 1, 0), np.minimum(k, len(self.time) - 1)
-        values, interval = self.inputs[name], self.time[upper] - self.time[lower]
-        if held:
-            return values[lower]
-        fraction = np.clip((times - self.time[lower]) / np.where(interval > 0.0, interval, 1.0), 0.0, 1.0)
-        fraction = np.where(interval > 0.0, fraction, 0.0)
-        return np.asarray((1.0 - fraction) * values[lower] + fraction * values[upper])
+        interval = self.time[upper] - self.time[lower]
+        passed = np.maximum(times - self.time[lower], 0.0) / np.where(interval > 0.0, interval, np.inf)
+        return lower, upper, np.minimum(passed, 1.0)
 
 
-def _interpolate(start: float, end: float, fraction: float) -> float:
-    value = start + fraction * (end - start)
-    return value if math.isfinite(value) else (1.0 - fraction) * start + fraction * end  # the difference may overflow
+def _between(values: NDArray[np.float64], place: tuple[Any, Any, Any], held: bool) -> Any:
+    """Values at a place between two rows; those of the first if they are held."""
+    lower, upper, fraction = place
+    start, end = values[lower], values[upper]
+    if held:
+        return start
+    with np.errstate(over="ignore", invalid="ignore"):  # the difference may overflow
+        value = start + fraction * (end - start)
+    return np.where(np.isfinite(value), value, (1.0 - fraction) * start + fraction * end)
 
 
 def digest(manoeuvre: Manoeuvre) -> str:

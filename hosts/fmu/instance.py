@@ -68,50 +68,52 @@ class Instance:
         self.is_fmi3 = str(description.fmiVersion).startswith("3")
         self._update_error: Exception | None = None
         self._arrays = ArrayValues(description.modelVariables, self._read)
-        arguments: dict[str, Any] = {
-            "guid": token or description.guid,
-            "unzipDirectory": str(folder),
-            "modelIdentifier": description.coSimulation.modelIdentifier,
-            "instanceName": clean(name),
-        }
-
+        self._on_message = on_message
         self.raw_messages: deque[str] = deque(maxlen=_MAX_RAW_MESSAGES)
         self._last_message, self._as_described = "", token is None and resources is None
         self.incomplete_messages = 0
-
-        def log(environment: object, *rest: Any) -> None:
-            *_, status, category, message = rest
-            self.incomplete_messages += category is None or message is None
-            text = (message or b"").decode("utf-8", "replace")
-            self.raw_messages.append(text)
-            if not self.is_fmi3:  # a printf format, in which # marks references
-                text = text.replace("%%", "%").replace("##", "#")
-            self._last_message = text
-            on_message(int(status), (category or b"").decode("utf-8", "replace"), text)
-
         self.set_inputs_at: Callable[[float], None] | None = None
-        if self.is_fmi3:
-            self.slave: Any = _with_call_marks(marked("dlopen", FMU3Slave)(**arguments))
-            if resources is not None:
-                instantiate = self.slave.fmi3InstantiateCoSimulation
-                self.slave.fmi3InstantiateCoSimulation = lambda *a: instantiate(*a[:2], resources.encode(), *a[3:])
-            inputs = inputs_within_steps(description)
-            update_arguments = (
-                {"intermediateUpdate": self._intermediate_update, "requiredIntermediateVariables": inputs}
-                if inputs
-                else {}
+        slave_class = FMU3Slave if self.is_fmi3 else FMU2Slave
+        self.slave: Any = _with_call_marks(
+            marked("dlopen", slave_class)(
+                guid=token or description.guid,
+                unzipDirectory=str(folder),
+                modelIdentifier=description.coSimulation.modelIdentifier,
+                instanceName=clean(name),
             )
-            self._instantiate(logMessage=log, **update_arguments)
-            return
-        self.slave = _with_call_marks(marked("dlopen", FMU2Slave)(**arguments))
-        self._callbacks = fmi2CallbackFunctions()
-        self._callbacks.logger = fmi2CallbackLoggerTYPE(log)
+        )
+        if resources is not None:
+            self._replace_resources(resources.encode())
+        self._instantiate(**(self._fmi3_callbacks(description) if self.is_fmi3 else self._fmi2_callbacks()))
+
+    def _replace_resources(self, resources: bytes) -> None:
+        """Instantiate with another location of the resources."""
+        function, place = ("fmi3InstantiateCoSimulation", 2) if self.is_fmi3 else ("fmi2Instantiate", 3)
+        instantiate = getattr(self.slave, function)
+        setattr(self.slave, function, lambda *a: instantiate(*a[:place], resources, *a[place + 1 :]))
+
+    def _fmi3_callbacks(self, description: ModelDescription) -> dict[str, Any]:
+        inputs = inputs_within_steps(description)
+        update = {"intermediateUpdate": self._intermediate_update, "requiredIntermediateVariables": inputs}
+        return {"logMessage": self._log, **(update if inputs else {})}
+
+    def _fmi2_callbacks(self) -> dict[str, Any]:
+        self._callbacks = fmi2CallbackFunctions()  # must live as long as the instance
+        self._callbacks.logger = fmi2CallbackLoggerTYPE(self._log)
         self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
         self._callbacks.freeMemory = defaultCallbacks.freeMemory
-        if resources is not None:
-            instantiate = self.slave.fmi2Instantiate
-            self.slave.fmi2Instantiate = lambda *a: instantiate(*a[:3], resources.encode(), *a[4:])
-        self._instantiate(callbacks=self._callbacks)
+        return {"callbacks": self._callbacks}
+
+    def _log(self, environment: object, *rest: Any) -> None:
+        """Store and pass on a message of the FMU; its last arguments are status, category and text."""
+        *_, status, category, message = rest
+        self.incomplete_messages += category is None or message is None
+        text = (message or b"").decode("utf-8", "replace")
+        self.raw_messages.append(text)
+        if not self.is_fmi3:  # a printf format, in which # marks references
+            text = text.replace("%%", "%").replace("##", "#")
+        self._last_message = text
+        self._on_message(int(status), (category or b"").decode("utf-8", "replace"), text)
 
     def _intermediate_update(self, environment: object, time: float, requested: bool, *rest: object) -> None:
         if requested and self.set_inputs_at is not None:

@@ -169,40 +169,47 @@ def _reported_end(car: Car, options: argparse.Namespace, report: RunReport) -> I
         yield
     finally:
         if options.record is not None:
-            report.tell(f"The recording {options.record} is put together ...")
+            report.show(f"The recording {options.record} is put together ...")
         try:
             with bar(total=1.0, desc="recording", bar_format=_BAR) as progress_bar:
                 car.close(lambda fraction: progress_bar.update(fraction - progress_bar.n))
         finally:
             with suppress(HostError):  # the end of the car has been reported
                 for event in car.events():
-                    report.event(event.kind, event.text)
+                    report.add_event(event.kind, event.text)
             report.finish(car.step_times(), options.json)
 
 
 def _drive_headless(options: argparse.Namespace, begin: float) -> int:
     """Drive without a page, up to the stop time."""
+    from hosts.driving.pilots.pilot import ACTS
+    from hosts.recordings.load_manoeuvre import load_manoeuvre
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.headless_driving import headless_driver, manoeuvre_of, run_headless, with_start_of
+    from hosts.simulator.headless_driving import headless_driver, run_headless, with_start_of
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
 
     report = RunReport(begin)
-    manoeuvre = manoeuvre_of(options.manoeuvre, report.tell)
-    prepared = prepare(with_start_of(_drive_request(options), manoeuvre), report.tell)
-    report.prepared(prepared, options.step)
+    request, manoeuvre = _drive_request(options), None
+    if options.manoeuvre is not None:
+        manoeuvre = load_manoeuvre(options.manoeuvre)
+        request = with_start_of(request, manoeuvre)
+        if late := manoeuvre.late_begin(ACTS if manoeuvre.driver else ()):
+            report.show(": ".join(late))
+    prepared = prepare(request, report.show)
+    report.show_prepared(prepared, options.step)
     seconds = options.stop_time if options.stop_time is not None else manoeuvre.stop_time if manoeuvre else 0.0
     with _start_car(options, prepared) as started:
         car = AliasedCar(started, prepared.source)
         driver = headless_driver(car, manoeuvre, options.seed)
-        report.ready()
+        report.show_ready()
         with _reported_end(started, options, report):
             try:
-                good = run_headless(car, driver, seconds, report.event)
+                good = run_headless(car, driver, seconds, report.add_event)
             except KeyboardInterrupt:
-                report.tell("Ended by Ctrl-C or a signal.")
+                report.show("Ended by Ctrl-C or a signal.")
                 good = True
-    return GOOD if good and report.whole else NOT_GOOD
+    return GOOD if good and report.is_complete else NOT_GOOD
 
 
 def _drive_with_pages(options: argparse.Namespace, begin: float) -> int:
@@ -221,8 +228,8 @@ def _drive_with_pages(options: argparse.Namespace, begin: float) -> int:
     report = RunReport(begin)
     with listening_socket(options.listen, options.port) as listening, ThreadPoolExecutor(1) as pool:
         page = pool.submit(html_document, _TITLE, {}, "Simulator", "'self'")  # the script may have to be built
-        prepared = prepare(_drive_request(options), report.tell)
-        report.prepared(prepared, options.step)
+        prepared = prepare(_drive_request(options), report.show)
+        report.show_prepared(prepared, options.step)
         with _start_car(options, prepared) as started:
             car = AliasedCar(started, prepared.source)
             record = "" if options.record is None else str(options.record)
@@ -233,4 +240,4 @@ def _drive_with_pages(options: argparse.Namespace, begin: float) -> int:
             )
             with _reported_end(started, options, report):
                 drive_with_pages(car, content, page_server, report)
-    return GOOD if report.whole else NOT_GOOD
+    return GOOD if report.is_complete else NOT_GOOD

@@ -11,9 +11,8 @@ from hosts.common.errors import HostError
 from hosts.driving.driver import check_drivable, make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.course_follower import CourseFollower
-from hosts.driving.pilots.pilot import ACTS, OBSERVED
+from hosts.driving.pilots.pilot import OBSERVED
 from hosts.driving.random_driver import RandomDriver
-from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.preparation import DriveRequest
 
@@ -64,18 +63,8 @@ class ManoeuvreDriver:
         return result if self._driver is None else {**result, **self._driver.act(time, observation)}
 
 
-def manoeuvre_of(name: str | None, tell: Callable[[str], None]) -> Manoeuvre | None:
-    """The manoeuvre of ``--manoeuvre``, if given; `tell`: called with a note. See `load_manoeuvre`."""
-    manoeuvre = None if name is None else load_manoeuvre(name)
-    if manoeuvre is not None and (late := manoeuvre.late_begin(ACTS if manoeuvre.driver else ())):
-        tell(": ".join(late))
-    return manoeuvre
-
-
-def with_start_of(request: DriveRequest, manoeuvre: Manoeuvre | None) -> DriveRequest:
-    """A request with the start values of a manoeuvre, if there is one."""
-    if manoeuvre is None:
-        return request
+def with_start_of(request: DriveRequest, manoeuvre: Manoeuvre) -> DriveRequest:
+    """A request with the start values of a manoeuvre."""
     return replace(request, manoeuvre=manoeuvre.name, start=lambda names: with_names_of(manoeuvre, names).start)
 
 

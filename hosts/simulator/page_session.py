@@ -58,19 +58,19 @@ def drive_with_pages(car: AliasedCar, content: Content, page_server: PageServer,
     Raises `HostError` if the car has ended.
     """
     arbiter = InputArbiter(car.want, car.inputs)
-    server = Server(car, arbiter, content, page_server.access, report.event)
+    server = Server(car, arbiter, content, page_server.access, report.add_event)
 
     def report_ready() -> None:
-        report.ready()
-        report.tell(f"Drive at {page_server.address}")
+        report.show_ready()
+        report.show(f"Drive at {page_server.address}")
         if not page_server.access.is_local:
-            report.tell("Whoever has this address can drive; its traffic is not encrypted.")
+            report.show("Whoever has this address can drive; its traffic is not encrypted.")
         if page_server.browser and not open_secretly(page_server.address, folder):
-            report.tell("No browser could be opened from here; open the address in one, on this machine.")
-        report.tell("Ctrl-C ends with the report.")
+            report.show("No browser could be opened from here; open the address in one, on this machine.")
+        report.show("Ctrl-C ends with the report.")
 
     def start() -> None:
-        report.first_frame()
+        report.show_first_frame()
         car.command("run")
 
     async def work() -> None:

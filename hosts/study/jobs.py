@@ -11,8 +11,8 @@ from ali3.near_names import did_you_mean
 from ali3.reading import is_folder
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import perform, settings_of_test, unmet_needs
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.standard_test import TestRecord
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.driver import driver_of

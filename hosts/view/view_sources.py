@@ -6,14 +6,12 @@ from pathlib import Path
 from typing import Any
 
 from ali3.archives import is_archive
-from ali3.json_reading import read_json
 from ali3.processes import command_name
 from ali3.reading import is_file, is_file_or_folder, is_folder, missing_file_text
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import FmuOptions
-from hosts.driving.course import TRACKS, course_of
 from hosts.driving.course_scenery import with_course, with_marks
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import with_names_of
@@ -27,11 +25,17 @@ from hosts.fmu.variables import Variables
 from hosts.recordings.format import is_recording
 from hosts.recordings.load_manoeuvre import manoeuvre_of
 from hosts.recordings.recorded_view import other_build, recorded_view
-from hosts.view.result_tables import Table, read_table
+from hosts.view.result_record import (
+    MARKS_OF_MANOEUVRE,
+    add_names_of_fmu,
+    fmu_of_record,
+    read_record,
+    with_recorded_course,
+    with_recorded_marks,
+)
+from hosts.view.result_tables import read_table
 
 _CAR_MANOEUVRE = "double_lane_change"  # of a car if none is given
-_LARGEST_WIDTH = 10.0  # m, of a vehicle
-_MARKS_OF_MANOEUVRE = "marks of the manoeuvre on the ground"
 
 
 @dataclass(frozen=True)
@@ -125,7 +129,7 @@ def _read_result(path: Path, name: str, geometry: Path | None) -> tuple[Recordin
     if not is_file(table_file):
         raise HostError(f"{path} has no table {table_file.name} beside it; name the .csv file of a result.")
     table = read_table(table_file)
-    record = _record(record_file) if is_file(record_file) else None
+    record = read_record(record_file) if is_file(record_file) else None
     units: dict[str, str] = dict(table.units)
     notes: list[str] = []
     source: Path | None = None
@@ -133,16 +137,16 @@ def _read_result(path: Path, name: str, geometry: Path | None) -> tuple[Recordin
     constants: dict[str, float] = {}
     settings = {entry["name"]: entry["new"] for entry in record["set"]} if record is not None else {}
     if record is not None:
-        source = geometry or _fmu_of(record, record_file)
+        source = geometry or fmu_of_record(record, record_file)
         scene = scene_from(source, settings, record.get("world"))
         if is_archive(source):
             declared, constants, same = _declared(source, str(record.get("token", "")), settings)
             units = declared | units
             if not same:
                 notes.append(other_build(source, name))
-        _add_names_of_fmu(table, units, record, record_file)
+        add_names_of_fmu(table, units, record, record_file)
         if scene is not None:
-            scene = _with_marks(_with_course(scene, record, record_file), record, record_file)
+            scene = with_recorded_marks(with_recorded_course(scene, record, record_file), record, record_file)
     elif geometry is not None or is_file(record_file):
         source = geometry or record_file  # a scene
         scene = scene_from(source)
@@ -165,76 +169,6 @@ def _read_result(path: Path, name: str, geometry: Path | None) -> tuple[Recordin
         notes.append(f"{table_file} contains no poses that could be drawn ({why}); its signals can be plotted.")
     recording.notes += [table.note] if table.note else []
     return recording, notes
-
-
-def _record(file: Path) -> dict[str, Any] | None:
-    """The record beside a result; None where it is another JSON file."""
-    record = read_json(file, HostError, f"{file}, the record of the result,", finite=False)
-    if not isinstance(record, dict) or not isinstance(record.get("fmu"), str):
-        return None
-    entries = record.get("set", [])
-    if not isinstance(entries, list) or not all(isinstance(e, dict) and {"name", "new"} <= set(e) for e in entries):
-        raise HostError(f"{file}, the record of the result, does not say by 'set' what was set in the FMU.")
-    return record | {"set": entries}
-
-
-def _add_names_of_fmu(table: Table, units: dict[str, str], record: dict[str, Any], file: Path) -> None:
-    """Add columns under the names of the FMU, which its drawing reads, to a table under our names."""
-    names = record.get("names", {})
-    try:
-        converted = {str(theirs): (str(ours), float(f), float(o)) for theirs, (ours, f, o) in names.items()}
-    except (AttributeError, TypeError, ValueError):
-        raise HostError(
-            f"{file}, the record of the result, does not say by 'names' a name, a factor and an offset for each of the "
-            "FMU's names."
-        ) from None
-    for theirs, (ours, factor, offset) in converted.items():
-        if ours in table.columns and theirs not in table.columns:
-            table.columns[theirs] = factor * table.columns[ours] + offset
-            if (factor, offset) == (1.0, 0.0):
-                units.setdefault(ours, units.get(theirs, ""))
-
-
-def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> dict[str, Any]:
-    """The scene with the cones of the course, if the record names one."""
-    course = record.get("course")
-    if course is None:
-        return scene
-    track, width = (course.get(key) if isinstance(course, dict) else None for key in ("track", "vehicle_width"))
-    name = next((name for name, gates in TRACKS.items() if gates == track), None)
-    if name is None or not isinstance(width, (int, float)) or not 0.0 < width < _LARGEST_WIDTH:
-        raise HostError(
-            f"{file}, the record of the result, does not say by 'course' a track of ISO 3888 and a vehicle_width, m."
-        )
-    return with_course(scene, course_of(name, float(width)))
-
-
-def _with_marks(scene: dict[str, Any], record: dict[str, Any], file: Path) -> dict[str, Any]:
-    """The scene with the ground marks of the manoeuvre, if the record has some."""
-    try:
-        return with_marks(scene, record.get("marks") or [], _MARKS_OF_MANOEUVRE)
-    except (KeyError, TypeError, ValueError, OverflowError):
-        raise HostError(
-            f"{file}, the record of the result, does not say by 'marks' lanes, lines and circles with their places, m."
-        ) from None
-
-
-def _fmu_of(record: dict[str, Any], file: Path) -> Path:
-    """The FMU of a record: its path is relative to this folder, to that of the record or to one above."""
-    fmu_path = Path(record["fmu"])
-    record_folder = file.absolute().parent
-    candidates = (
-        [fmu_path, *(folder / fmu_path for folder in (record_folder, *record_folder.parents))]
-        if not fmu_path.is_absolute()
-        else [fmu_path]
-    )
-    candidates.append(record_folder / fmu_path.name)
-    result = next((path for path in candidates if is_file(path)), None)
-    if result is None:
-        raise HostError(
-            f"{file} names the FMU {fmu_path}, which is not there any more; say where it is now by --geometry FMU."
-        )
-    return result
 
 
 def _declared(fmu: Path, token: str, settings: Mapping[str, Value]) -> tuple[dict[str, str], dict[str, float], bool]:
@@ -271,7 +205,7 @@ def _run_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Record
         notes.append(_without_scene(path))
     else:
         scene = scene if driver is None else with_course(scene, driver.course)
-        scene = with_marks(scene, result.marks, _MARKS_OF_MANOEUVRE)
+        scene = with_marks(scene, result.marks, MARKS_OF_MANOEUVRE)
     notes += [": ".join(missed) for missed in result.missed]
     notes += result.remarks()
     if result.failed_steps and not result.ended:

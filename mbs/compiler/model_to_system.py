@@ -254,18 +254,9 @@ def _make_tables(
     dependents, rows, natural = reduced.dependents, reduced.rows, reduced.natural
     remaining, full, of_z = dependents.remaining, dependents.full, dependents.of_z
     with_dependents = dependents.with_dependents
-    T, mass, fronts, new, arrays = ordered.T, ordered.mass, ordered.fronts, ordered.new, ordered.arrays
+    fronts, new, arrays = ordered.fronts, ordered.new, ordered.arrays
     order, q, guides, nz = fronts.order, start.q, start.guides, len(remaining)
-    _, Phiq, _ = arrays.evaluate(q, guides)
-    carried_masses = (T.multiply(T).T @ carried_mass(model))[order]
-    diagonal = np.maximum(mass.diagonal(), carried_masses)
-    if not diagonal.any():
-        raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate that has mass.")
-    tolerance_factor = length_tolerance_factor(reduced.size)
-    scale, measure = row_scale(rows, Phiq, diagonal, tolerance_factor)
-    arrays.scale(scale)
-
-    gravity = full_gravity(model)
+    scales = _scale_rows(model, reduced, ordered, start)
     columns_of_dependents = [[int(new[j]) for j in columns] for columns in dependent_columns(model, with_dependents)]
     columns = np.concatenate([new, np.arange(nz, nz + len(columns_of_dependents))])
     signals = Signals(with_dependents, columns, axis_coordinates(model, with_dependents))
@@ -276,16 +267,9 @@ def _make_tables(
     tables: Tables = {
         "q0": q,
         "qd0": start.qd,
-        "mass_ptr": mass.indptr,
-        "mass_col": mass.indices,
-        "mass_val": mass.data,
-        "mass_pos": mass_positions(mass, fronts),
-        "gravity_force": (T.T @ gravity)[order],
-        "gravity_const": [-gravity @ ordered.z0],
+        **_mass_arrays(model, ordered),
         **arrays.arrays,
-        "row_scale": scale,
-        "row_measure": measure,
-        **({"fineness": [tolerance_factor]} if tolerance_factor != 1.0 else {}),
+        **scales,
         "row_switch": [row.switch for row in rows],
         "switch_start": [int(s.on) for s in model.switches],
         **row_fronts(arrays, locate),
@@ -308,6 +292,33 @@ def _make_tables(
         **signals.arrays(),
     }
     return tables, no_tree, modes
+
+
+def _scale_rows(model: Model, reduced: _Reduced, ordered: _Ordered, start: _Start) -> Tables:
+    """Scale the rows of the arrays; the scales, and the factor on tolerances of lengths unless it is 1."""
+    _, Phiq, _ = ordered.arrays.evaluate(start.q, start.guides)
+    carried_masses = (ordered.T.multiply(ordered.T).T @ carried_mass(model))[ordered.fronts.order]
+    diagonal = np.maximum(ordered.mass.diagonal(), carried_masses)
+    if not diagonal.any():
+        raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate that has mass.")
+    tolerance_factor = length_tolerance_factor(reduced.size)
+    scale, measure = row_scale(reduced.rows, Phiq, diagonal, tolerance_factor)
+    ordered.arrays.scale(scale)
+    fineness = {"fineness": [tolerance_factor]} if tolerance_factor != 1.0 else {}
+    return {"row_scale": scale, "row_measure": measure, **fineness}
+
+
+def _mass_arrays(model: Model, ordered: _Ordered) -> Tables:
+    """The constant mass matrix and gravity."""
+    mass, gravity = ordered.mass, full_gravity(model)
+    return {
+        "mass_ptr": mass.indptr,
+        "mass_col": mass.indices,
+        "mass_val": mass.data,
+        "mass_pos": mass_positions(mass, ordered.fronts),
+        "gravity_force": (ordered.T.T @ gravity)[ordered.fronts.order],
+        "gravity_const": [-gravity @ ordered.z0],
+    }
 
 
 def _make_pose(model: Model, reduced: _Reduced, ordered: _Ordered, q: Array) -> Mapping[str, Any]:

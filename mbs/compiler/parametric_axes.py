@@ -47,7 +47,7 @@ def axis_arrays(
         return [signals.number(c) for v in vectors for c in v.components]
 
     return {
-        "axis_real": _reals(model),
+        "axis_parameter": _reals(model),
         "axis_vector": np.array([_drawn_vectors(a) for a in axes]).ravel(),
         "axis_inertia": [a.spin.diametral_inertia for a in axes],
         "axis_frame": [n for a in axes for n in numbers(a.frame)],

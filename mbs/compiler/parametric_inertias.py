@@ -22,7 +22,7 @@ def inertia_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
 def inertia_arrays(model: Model, signals: Signals) -> dict[str, Any]:
     """Arrays `inertia_` of a System: bodies whose mass properties parameters write."""
     return {
-        "inertia_real": [r for body in model.written_inertias for r in body.reals],
+        "inertia_parameter": [r for body in model.written_inertias for r in body.reals],
         "inertia_signal": [
             signals.number(c) for body in model.written_inertias for v in body.vectors for c in v.components
         ],

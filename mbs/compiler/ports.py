@@ -159,7 +159,7 @@ def map_followers(systems: list[System]) -> tuple[list[System], list[int]]:
 
 def _have_same_forces(ported: System, plain: System) -> bool:
     """Whether both have elements of the same types and the same inputs; numbers of elements are in different frames."""
-    types = all(np.array_equal(ported.arrays[n], plain.arrays[n]) for n in ("el_type", "el_int", "el_real_ptr"))
+    types = all(np.array_equal(ported.arrays[n], plain.arrays[n]) for n in ("el_type", "el_int", "el_parameter_ptr"))
     inputs = [[entry["name"] for entry in system.meta["inputs"]] for system in (ported, plain)]
     return types and inputs[0] == inputs[1]
 

@@ -109,7 +109,7 @@ def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
     return {
         "el_type": np.array([int(x.type) for x in e], dtype=np.int64),
         **ragged_arrays("el_sig", numbers, np.int64),
-        **ragged_arrays("el_real", [x.real for x in e], float),
+        **ragged_arrays("el_parameter", [x.real for x in e], float),
         **ragged_arrays("el_int", [x.integer for x in e], np.int64),
         "el_state_ptr": pointer([len(x.states) for x in e]),
         "el_out_ptr": pointer([len(x.outputs) for x in e]),
@@ -161,7 +161,7 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
     return {
         "sen_type": np.array([s.type for s in model.sensors], dtype=np.int64),
         **ragged_arrays("sen_int", ints, np.int64),
-        **ragged_arrays("sen_real", reals, float),
+        **ragged_arrays("sen_parameter", reals, float),
     }
 
 
@@ -191,9 +191,9 @@ def channel_arrays(model: Model) -> Arrays:
         "guide_type": np.array([g.type for g in model.guides], dtype=np.int64),
         "guide_input": np.array([g.input for g in model.guides], dtype=np.int64),
         "guide_second": np.array([g.second for g in model.guides], dtype=np.int64),
-        **ragged_arrays("guide_real", [g.reals for g in model.guides], float),
+        **ragged_arrays("guide_parameter", [g.reals for g in model.guides], float),
         "road_type": np.array([int(r.type) for r in model.roads], dtype=np.int64),
-        **ragged_arrays("road_real", [r.real for r in model.roads], float),
+        **ragged_arrays("road_parameter", [r.real for r in model.roads], float),
         "par_value": np.array([p.value for p in model.parameters], dtype=float),
         "par_min": np.array([p.min for p in model.parameters], dtype=float),
         "par_max": np.array([p.max for p in model.parameters], dtype=float),

@@ -91,17 +91,20 @@ class OrientationSensorVocabulary(SensorVocabulary):
             raise ModelError(f"{subject} asks for {shown(kind)} of {shown(of)}; only bodies have yaw, pitch and roll.")
         if isinstance(of, Spin):
             self.owned_coordinate(of, subject)
-            element = f"{of.name}.angle"
-            element_names = [record.name for record in self.elements]
-            if element not in element_names:
-                self.add(SpinAngle().record(element, of.f, of.g, of.affine))
-                element_names.append(element)
-            integers = [element_names.index(element), 0]
+            integers = [self._spin_angle_element(of), 0]
             return self._sense(name, unit, description, SensorType.ELEMENT_OUTPUT, integers=integers, reals=[1.0])
         if not isinstance(of, (list, tuple)) or len(of) != 3:
             raise ModelError(f"{subject} needs a body, a spin or three vectors, got {shown(of)}.")
         signals = [s for v in of for s in spatial(self.expressions(v, subject))]
         return self._sense(name, unit, description, SensorType.ANGLE_ABOUT, signals)
+
+    def _spin_angle_element(self, spin: Spin) -> int:
+        """Number of the element that sums the angle of a spin; it is added by the first call."""
+        name, names = f"{spin.name}.angle", [record.name for record in self.elements]
+        if name in names:
+            return names.index(name)
+        self.add(SpinAngle().record(name, spin.f, spin.g, spin.affine))
+        return len(names)
 
     def _cardan(self, name: str, body: Body, kind: str, unit: str, description: str) -> Sensor:
         """Yaw, pitch or roll of a body."""

@@ -54,17 +54,19 @@ def is_open_tree(system: System) -> bool:
 def _has_smooth_laws(system: System, span: tuple[float, float]) -> bool:
     """Whether no element has a stop, contact, friction or table, and driving functions are polynomials in `span`."""
     arrays = system.arrays
-    reals = np.array(arrays["el_real"])
+    reals = np.array(arrays["el_parameter"])
     # the stiffness of a stop may be a parameter
     reals[arrays["par_index"][np.asarray(arrays["par_target"]) == ParameterTarget.ELEMENT]] = np.inf
-    element_reals = [reals[i:j] for i, j in zip(arrays["el_real_ptr"], arrays["el_real_ptr"][1:], strict=False)]
+    element_reals = [
+        reals[i:j] for i, j in zip(arrays["el_parameter_ptr"], arrays["el_parameter_ptr"][1:], strict=False)
+    ]
     smooth_elements = all(
         int(kind) in SMOOTH and not (kind == ElementType.SPRING_DAMPER and any(real[i] > 0.0 for i in STOPS))
         for kind, real in zip(arrays["el_type"], element_reals, strict=True)
     )
-    guides = zip(arrays["guide_real_ptr"], arrays["guide_type"], strict=False)
+    guides = zip(arrays["guide_parameter_ptr"], arrays["guide_type"], strict=False)
     return smooth_elements and all(
-        kind == DrivingFunctionType.OF_TIME and _is_one_piece(arrays["guide_real"][start : start + 3], span)
+        kind == DrivingFunctionType.OF_TIME and _is_one_piece(arrays["guide_parameter"][start : start + 3], span)
         for start, kind in guides
     )
 

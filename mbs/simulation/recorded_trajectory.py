@@ -89,7 +89,7 @@ def changed_roads(system: System, instance: Instance, files: Mapping[int, str]) 
     roads: dict[int, Road | str] = {k: path for k, path in files.items() if path}
     if not len(arrays["road_type"]):
         return roads
-    real = np.array(arrays["road_real"])
+    real = np.array(arrays["road_parameter"])
     values = [instance.get_parameter(k) for k in range(len(arrays["par_value"]))]
     for k in np.flatnonzero(np.array(values) != arrays["par_value"]):
         for n in range(arrays["par_ptr"][k], arrays["par_ptr"][k + 1]):
@@ -97,8 +97,8 @@ def changed_roads(system: System, instance: Instance, files: Mapping[int, str]) 
                 offset = arrays["par_offset"][n] if len(arrays["par_offset"]) else 0.0
                 real[arrays["par_index"][n]] = values[k] * arrays["par_scale"][n] + offset
     for road, kind in enumerate(arrays["road_type"]):
-        reals = slice(arrays["road_real_ptr"][road], arrays["road_real_ptr"][road + 1])
-        if road in roads or np.array_equal(real[reals], arrays["road_real"][reals]):
+        reals = slice(arrays["road_parameter_ptr"][road], arrays["road_parameter_ptr"][road + 1])
+        if road in roads or np.array_equal(real[reals], arrays["road_parameter"][reals]):
             continue
         numbers = real[reals].tolist()
         if kind == RoadType.PLANE:

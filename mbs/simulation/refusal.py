@@ -15,7 +15,7 @@ from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
 
 MAX_NAMES = 3  # largest number of names in one sentence
-NEAR_AN_END = (Status.NOT_CONVERGED, Status.TOO_DEAR, Status.TOO_STIFF, Status.UNRESOLVED)
+NEAR_AN_END = (Status.NOT_CONVERGED, Status.TOO_MUCH_WORK, Status.TOO_STIFF, Status.UNRESOLVED)
 """Failures of steps where drives reach the end of the motion of a loop: there speeds grow without bound."""
 CLOSED = 1e-6  # of the residual of the driven step: largest residual of closed rows; solved rows reach round-off
 ITERATIONS, HALVINGS = 30, 12  # largest numbers: of Newton's iterations for positions, of bisections of the time

@@ -21,8 +21,8 @@ def warn_of_start_beside_road(system: System, files: Mapping[int, str], pose: Po
         if path := files.get(number, ""):
             grid = place_of_file(RoadFile(path))
         elif road_type == RoadType.GRID:
-            first = arrays["road_real_ptr"][number]
-            nx, ny, x, y, dx, dy = arrays["road_real"][first : first + 6].tolist()
+            first = arrays["road_parameter_ptr"][number]
+            nx, ny, x, y, dx, dy = arrays["road_parameter"][first : first + 6].tolist()
             grid = Place((x, y), (dx, dy), (int(nx), int(ny)))
         if grid is None:
             continue

@@ -32,7 +32,7 @@ from mbs.simulation.tolerance_messages import refused_error, stalled_error, warn
 Array = NDArray[np.float64]
 OTHER_METHOD_FAILURES = (
     Status.NOT_CONVERGED,
-    Status.TOO_DEAR,
+    Status.TOO_MUCH_WORK,
     Status.TOO_STIFF,
     Status.UNRESOLVED,
     Status.SINGULAR,

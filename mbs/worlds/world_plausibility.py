@@ -64,7 +64,7 @@ def _world_values(world: WorldDescription) -> list[Value]:
     x0, y0, x1, y1 = world.bounds
     sides = {"x": x1 - x0, "y": y1 - y0}
     values = [Value(QUANTITIES["size"], side, {"bounds": list(world.bounds)}, axis) for axis, side in sides.items()]
-    values += [*_ground_values(world), *_object_values(world)]
+    values += [*_ground_values(world), *_road_distance_values(world), *_size_values(world), *_density_values(world)]
     values += [_points_value(world, key, feature) for key, feature in _features(world)]
     return values + [_outside_value(world, key, places) for key, places in _scenery_points(world)]
 
@@ -105,8 +105,8 @@ def _centre_points(course: Course) -> Places:
     return [(x, y) for x, y in line.points.tolist()]
 
 
-def _object_values(world: WorldDescription) -> Iterator[Value]:
-    """Values of objects: distances from roads, sizes, slopes, details, and numbers of duplicates."""
+def _road_distance_values(world: WorldDescription) -> Iterator[Value]:
+    """Distances of objects from the edges of roads and from areas."""
     lines = [np.array(_centre_points(course), float) for course in world.courses]
     if all(map(len, lines)) and (lines or world.areas):
         for name, quantity in OBJECTS_BY_ROADS.items():
@@ -118,6 +118,10 @@ def _object_values(world: WorldDescription) -> Iterator[Value]:
                 ]
                 distances += [float(AreaLayer(area).near(*at)[0]) for area in world.areas]
                 yield Value(QUANTITIES[quantity], min(distances), {f"{name}.{k}.at": list(feature.at)}, f"{name}.{k}")
+
+
+def _size_values(world: WorldDescription) -> Iterator[Value]:
+    """Widths of courses and of strips beside them, slopes of areas, sides of buildings."""
     for k, course in enumerate(world.courses):
         yield Value(QUANTITIES["width"], course.width, {f"courses.{k}.width": course.width}, f"courses.{k}")
     strips = [(f"courses.{k}.shoulder", course.shoulder) for k, course in enumerate(world.courses)]
@@ -131,6 +135,10 @@ def _object_values(world: WorldDescription) -> Iterator[Value]:
     for k, house in enumerate(world.buildings):
         for side, axis in zip(house.size, ("length", "width", "height"), strict=True):
             yield Value(QUANTITIES["house"], side, {f"buildings.{k}.size": list(house.size)}, f"buildings.{k} {axis}")
+
+
+def _density_values(world: WorldDescription) -> Iterator[Value]:
+    """Details of obstacles per grid spacing, distances of trees, and numbers of duplicates."""
     for k, feature in enumerate(world.obstacles):
         name = "wavelength" if isinstance(feature, Washboard) else "face"
         if not isinstance(feature, Ramp):

@@ -120,9 +120,9 @@ def test_the_engine_in_fine_steps_moves_as_the_reference(family):
             continue
     n = round(case.span / INSTANTS / 1e-4)
     result = case.run(h=case.span / INSTANTS / n, every=n)
-    sensors = {name: sensor for name, sensor in compared_sensors(case.system).items() if name in case.truth}
-    for name, size in sizes_of(case.truth, sensors, length_of(case.system)).items():
-        assert np.abs(result.values[name] - case.truth[name]).max() < 2e-3 * size
+    sensors = {name: sensor for name, sensor in compared_sensors(case.system).items() if name in case.reference}
+    for name, size in sizes_of(case.reference, sensors, length_of(case.system)).items():
+        assert np.abs(result.values[name] - case.reference[name]).max() < 2e-3 * size
 
 
 @pytest.mark.slow

@@ -41,8 +41,8 @@ from hosts.study.folder import read_record
 from hosts.study.measures.user_function import read_user_function
 from hosts.study.points import table_points
 from hosts.study.study_file import read_study_file
+from hosts.view.result_record import read_record as read_result_record
 from hosts.view.result_tables import read_table as read_result
-from hosts.view.view_sources import _record as read_result_record
 from mbs.flexible.bulk_data import grid_points
 from mbs.flexible.calculix import calculix_matrices
 from mbs.flexible.foreign_file import read_foreign

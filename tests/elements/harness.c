@@ -32,10 +32,10 @@ EXPORT int32_t harness_conservative(int32_t type, const double *real, int32_t nr
 
 /* out: excess and rise; 0: the element has no verdict on starts */
 EXPORT int32_t harness_start(int32_t type, const int32_t sizes[5], const double *u, double raised, const double *real,
-                             const int32_t *integer, int32_t road_type, int32_t road_nreal, const double *road_real,
-                             double out[2]) {
+                             const int32_t *integer, int32_t road_type, int32_t road_nreal,
+                             const double *road_parameter, double out[2]) {
   const ali3_element_type *t = ali3_element_type_get(type);
-  const ali3_road road = {road_type, road_nreal, road_real, NULL, NULL};
+  const ali3_road road = {road_type, road_nreal, road_parameter, NULL, NULL};
   const ali3_element_args a = {
       .nsig = sizes[0], .nreal = sizes[1], .nint = sizes[2], .u = u, .real = real, .integer = integer, .roads = &road};
   if (!t->start) return 0;
@@ -48,10 +48,10 @@ EXPORT int32_t harness_start(int32_t type, const int32_t sizes[5], const double 
 EXPORT double harness_evaluate(int32_t type, int32_t accepted, int32_t discrete, const int32_t sizes[5],
                                const double *u, const double *ud, const double *y_old, double *y_new, double h,
                                double wC, double wK, double reach, const double *real, const int32_t *integer,
-                               const double *input, int32_t road_type, int32_t road_nreal, const double *road_real,
+                               const double *input, int32_t road_type, int32_t road_nreal, const double *road_parameter,
                                double *f, double *S, double *out) {
   const ali3_element_type *t = ali3_element_type_get(type);
-  const ali3_road road = {road_type, road_nreal, road_real, NULL, NULL};
+  const ali3_road road = {road_type, road_nreal, road_parameter, NULL, NULL};
   ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u, ud, y_old, y_new, h, reach, wC,
                          wK,       real,     integer,  input,    &road,    f, S,  out,   0.0,   0, 0};
   memset(f, 0, (size_t)sizes[0] * sizeof *f);

@@ -12,7 +12,6 @@ from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.scenes import prototype_car
 
-H = 0.005  # s
 STEPS = 60
 SPEED = 20.0  # m/s
 WITHOUT = 5.07  # iterations a step with the symmetric tangent alone; 3.00 with defect correction
@@ -24,31 +23,31 @@ def system() -> System:
     return compile(prototype_car.build(fidelity=3))
 
 
-def _driven(system: System, **settings: float) -> tuple[float, np.ndarray]:
-    """Iterations a step and the coordinates at the end of a turn of the steering wheel."""
+def _driven(system: System, h: float, inputs: np.ndarray, **settings: float) -> tuple[float, np.ndarray]:
+    """Iterations a step, and the coordinates at the end of a drive. `h`: step, s; `inputs`: one row a step."""
     instance = Instance(LoadedSystem(system.to_bytes()))
     instance.set_settings(**settings)
     instance.set_pose(0.0, 0.0, 0.0, 0.0, SPEED)
     instance.initialise()
+    instance.run(h, len(inputs), inputs)
+    return instance.report()["iterations"] / len(inputs), np.array(instance.get_state()[0])
+
+
+def _inputs(system: System, name: str, values: object) -> np.ndarray:
+    """Start values of the inputs, one of them with other values."""
     inputs = np.tile(system.arrays["input_start"], (STEPS, 1))
-    inputs[:, 0] = 0.6 * np.sin(2.0 * np.pi * H * np.arange(1, STEPS + 1))
-    instance.run(H, STEPS, inputs)
-    return instance.report()["iterations"] / STEPS, np.array(instance.get_state()[0])
+    inputs[:, [entry["name"] for entry in system.meta["inputs"]].index(name)] = values
+    return inputs
 
 
 def test_rolling_wheels_need_fewer_iterations(system: System) -> None:
-    iterations, q = _driven(system)
+    h = 0.005
+    steered = _inputs(system, "steering", 0.6 * np.sin(2.0 * np.pi * h * np.arange(1, STEPS + 1)))
+    iterations, q = _driven(system, h, steered)
     assert iterations < 0.7 * WITHOUT
-    exact = _driven(system, tolerance_r=1e-13)[1]
+    exact = _driven(system, h, steered, tolerance_r=1e-13)[1]
     np.testing.assert_allclose(q, exact, rtol=0, atol=1e-8)  # m; measured 1.0e-9
 
 
 def test_sliding_brakes_need_fewer_iterations(system: System) -> None:
-    h, steps = 0.01, 60
-    instance = Instance(LoadedSystem(system.to_bytes()))
-    instance.set_pose(0.0, 0.0, 0.0, 0.0, SPEED)
-    instance.initialise()
-    inputs = np.tile(system.arrays["input_start"], (steps, 1))
-    inputs[:, [entry["name"] for entry in system.meta["inputs"]].index("brake")] = 1.0
-    instance.run(h, steps, inputs)
-    assert instance.report()["iterations"] / steps < 0.93 * SECANT
+    assert _driven(system, 0.01, _inputs(system, "brake", 1.0))[0] < 0.93 * SECANT

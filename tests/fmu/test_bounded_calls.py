@@ -48,7 +48,7 @@ def test_where_nothing_is_left_the_kernel_ends(system: bytes, act: Callable[[Ins
     budget.value = 100
     with pytest.raises(KernelError) as ended:
         act(instance)
-    assert ended.value.status == Status.TOO_DEAR
+    assert ended.value.status == Status.TOO_MUCH_WORK
     assert -20 < budget.value <= 0
     instance.reset()
     budget.value = 10**9

@@ -19,7 +19,7 @@ from fmu_src.description.description import declared_types
 from fmu_src.description.probe import Dependencies
 from fmu_src.geometry.geometry import geometry
 from fmu_src.native.package import NativeContents
-from fmu_src.native.reference import reference_runs, with_other_names
+from fmu_src.native.reference_runs import reference_runs, with_other_names
 from fmu_src.variables.variables import Variable, by_name_in_system, variable_table
 from mbs.compiler.ports import map_followers
 from mbs.scenes import cart_pole, prototype_car

@@ -26,7 +26,7 @@ ELSEWHERE = {
     Status.BRANCH_CHANGED: "test_watch",
     Status.BAD_ROAD: "test_road_files",
     Status.ROAD_LOST: "test_road_files",
-    Status.TOO_DEAR: "test_bounded_calls",
+    Status.TOO_MUCH_WORK: "test_bounded_calls",
     Status.BAD_NORMAL: "test_road_answers",
     Status.BEYOND_TABLE: "test_refused_steps",
 }

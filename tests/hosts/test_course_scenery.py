@@ -13,7 +13,7 @@ from hosts.common.errors import HostError
 from hosts.common.world_files import world_beside
 from hosts.driving.course import course_of
 from hosts.driving.course_scenery import with_course
-from hosts.view.view_sources import _with_course
+from hosts.view.result_record import with_recorded_course
 from tests.viewer import hand_world
 
 WIDTH = 1.6
@@ -80,8 +80,8 @@ def test_the_world_of_a_road_file_lies_beside_it(tmp_path: Path) -> None:
 def test_the_record_of_a_run_brings_the_cones_of_its_driver(tmp_path: Path) -> None:
     """As `ali3 run` writes it: the track by its name in the standard."""
     record, file = {"course": {"track": COURSE.name, "vehicle_width": WIDTH}}, tmp_path / "run.json"
-    assert _with_course({"roads": [LEVEL]}, record, file) == with_course({"roads": [LEVEL]}, COURSE)
-    assert _with_course({"roads": [LEVEL]}, {"course": None}, file) == {"roads": [LEVEL]}
+    assert with_recorded_course({"roads": [LEVEL]}, record, file) == with_course({"roads": [LEVEL]}, COURSE)
+    assert with_recorded_course({"roads": [LEVEL]}, {"course": None}, file) == {"roads": [LEVEL]}
     for course in ({"track": "ISO 1"}, {"track": COURSE.name, "vehicle_width": -1.0}, "ISO 3888-1"):
         with pytest.raises(HostError, match="does not say by 'course' a track of ISO 3888 and a vehicle_width"):
-            _with_course({"roads": [LEVEL]}, {"course": course}, file)
+            with_recorded_course({"roads": [LEVEL]}, {"course": course}, file)

@@ -24,7 +24,7 @@ from hosts.driving.result import Result
 from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_source import FmuSource
-from hosts.view.view_sources import _with_marks
+from hosts.view.result_record import with_recorded_marks
 
 TIME = np.arange(0.0, 15.01, 0.01)
 PLANE = {"kind": "plane", "point": [1.0, 0.0, 0.5], "normal": [-0.1, 0.2, 1.0]}
@@ -163,4 +163,4 @@ def test_marks_lie_on_a_grid_of_heights_or_are_named() -> None:
 )
 def test_a_record_with_invalid_marks_is_refused(marks) -> None:
     with pytest.raises(HostError, match="does not say by 'marks' lanes, lines and circles"):
-        _with_marks({"roads": []}, {"marks": marks}, Path("run.json"))
+        with_recorded_marks({"roads": []}, {"marks": marks}, Path("run.json"))

@@ -245,7 +245,7 @@ class SystemBuilder:
         a["sig_const"] = [c for _, c in self.signals]
         e = self.elements
         a["el_type"] = [x.type for x in e]
-        for name, part in (("sig", "signals"), ("real", "real"), ("int", "integer")):
+        for name, part in (("sig", "signals"), ("parameter", "real"), ("int", "integer")):
             a[f"el_{name}_ptr"] = pointers([len(getattr(x, part)) for x in e])
             a[f"el_{name}"] = [v for x in e for v in getattr(x, part)]
         a["el_state_ptr"], a["y0"] = pointers([len(x.states) for x in e]), [v for x in e for v in x.states]
@@ -261,10 +261,10 @@ class SystemBuilder:
         for k, name in enumerate(("start", "min", "max")):
             a[f"input_{name}"] = [i[k] for i in self.inputs]
         a["guide_type"], a["guide_input"] = [g[0] for g in self.guides], [g[1] for g in self.guides]
-        a["guide_real_ptr"] = pointers([len(g[2]) for g in self.guides])
-        a["guide_real"] = [v for g in self.guides for v in g[2]]
+        a["guide_parameter_ptr"] = pointers([len(g[2]) for g in self.guides])
+        a["guide_parameter"] = [v for g in self.guides for v in g[2]]
         a["road_type"] = [r[0] for r in self.roads]
-        a["road_real_ptr"], a["road_real"] = (
+        a["road_parameter_ptr"], a["road_parameter"] = (
             pointers([len(r[1]) for r in self.roads]),
             [v for r in self.roads for v in r[1]],
         )
@@ -280,8 +280,8 @@ class SystemBuilder:
             pointers([len(s[1]) for s in self.sensors]),
             [v for s in self.sensors for v in s[1]],
         )
-        a["sen_real_ptr"] = pointers([len(s[2]) for s in self.sensors])
-        a["sen_real"] = [v for s in self.sensors for v in s[2]]
+        a["sen_parameter_ptr"] = pointers([len(s[2]) for s in self.sensors])
+        a["sen_parameter"] = [v for s in self.sensors for v in s[2]]
         a.update(self.pose)
         a["flex_mode_ptr"] = [0]
 

@@ -286,7 +286,12 @@ def test_a_map_of_ports_that_points_elsewhere_is_refused(changes: dict[str, list
                 "gterm_b": [-1],
                 "gterm_h": [1.0],
             }
-            | {"guide_type": [1], "guide_input": [0], "guide_real": [20.0, 0.5, 0.0], "guide_real_ptr": [0, 3]},
+            | {
+                "guide_type": [1],
+                "guide_input": [0],
+                "guide_parameter": [20.0, 0.5, 0.0],
+                "guide_parameter_ptr": [0, 3],
+            },
             "velocity row 2 also has a condition on positions",
         ),
         (

@@ -189,7 +189,7 @@ def test_a_step_has_a_largest_cost():
     before = simulation.state
     with pytest.raises(SimulationError, match="took more than 1000 iterations") as refused:
         simulation.step(1.0)
-    assert refused.value.status == Status.TOO_DEAR
+    assert refused.value.status == Status.TOO_MUCH_WORK
     assert "Worst" not in str(refused.value)
     assert 1000 < simulation.report.iterations <= 1000 + 2 * simulation.settings.max_iterations
     assert simulation.state.q.tolist() == before.q.tolist()

@@ -108,14 +108,14 @@ def test_the_kernel_refuses_a_guide_that_has_no_table():
     """Too few numbers, columns that do not rise, a function of itself, the slope of one without a table."""
     system = compile(lever())
     arrays = dict(system.arrays)
-    real, ptr = arrays["guide_real"], arrays["guide_real_ptr"]
+    real, ptr = arrays["guide_parameter"], arrays["guide_parameter_ptr"]
 
     def said(**changes):
         return refused(System(arrays | {k: np.asarray(v) for k, v in changes.items()}, system.meta).to_bytes())
 
     assert "which is by no table" in said(sen_int=_slope_of(arrays, 0))
-    assert "must rise" in said(guide_real=[*real[:3], *real[7:2:-1], *real[8:]])
-    assert "two points or more" in said(guide_real=real[:-1], guide_real_ptr=[*ptr[:-1], ptr[-1] - 1])
+    assert "must rise" in said(guide_parameter=[*real[:3], *real[7:2:-1], *real[8:]])
+    assert "two points or more" in said(guide_parameter=real[:-1], guide_parameter_ptr=[*ptr[:-1], ptr[-1] - 1])
     assert "'guide_input' is 1" in said(guide_input=[0, 1])
 
 

@@ -93,8 +93,8 @@ def test_an_axis_is_fixed_and_does_not_stand_upright():
     [
         ({"axis_signal": put(0, 1e6)}, "axis_signal"),
         ({"axis_signal": lambda v: v[::-1]}, "no room for all directions"),
-        ({"axis_real": put(1, 1.5)}, "must not stand upright"),
-        ({"axis_inertia": lambda v: v[:0]}, "axis_real"),
+        ({"axis_parameter": put(1, 1.5)}, "must not stand upright"),
+        ({"axis_inertia": lambda v: v[:0]}, "axis_parameter"),
         ({"axis_table": put(0, 0)}, "axis_table"),
         ({"par_fixed": put(0, 0)}, "the axis of a wheel and is not fixed"),
     ],

@@ -88,7 +88,7 @@ def test_systems_with_faults_are_refused():
     for name, change, text in (
         ("par_fixed", put(0, 0), "writes the inertia of a body and is not fixed"),
         ("inertia_gravity", lambda _: np.zeros(0), "inertia_gravity"),
-        ("inertia_real", put(0, -1.0), "mass of a body must be above 0"),
+        ("inertia_parameter", put(0, -1.0), "mass of a body must be above 0"),
     ):
         with pytest.raises(KernelError, match=text):
             LoadedSystem(altered(system, **{name: change}))

@@ -44,7 +44,7 @@ class DenseMechanism:
                 d0[row] = a["sig_const"][s]
                 for k in range(a["sig_ptr"][s], a["sig_ptr"][s + 1]):
                     B[row, a["sig_col"][k]] += a["sig_val"][k]
-            stiffness, damping, free_length = a["el_real"][a["el_real_ptr"][e] :][:3]
+            stiffness, damping, free_length = a["el_parameter"][a["el_parameter_ptr"][e] :][:3]
             self.springs.append((B, d0, stiffness, damping, free_length))
 
     def Phi(self, q):

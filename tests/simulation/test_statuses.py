@@ -125,7 +125,7 @@ PYTHON: dict[Status, Cause_] = {
     ).step(0.1, 50),
     Status.TOO_FAR: lambda _: Simulation(car(), pose=Pose(x=1e300)),
     Status.NO_EQUILIBRIUM: lambda _: Simulation(compile(hanging()), parameters={"k": 0.0, "payload": 1.0}),
-    Status.TOO_DEAR: lambda _: Simulation(system_of("flyball"), settings=Settings(max_halvings=16)).step(1.0),
+    Status.TOO_MUCH_WORK: lambda _: Simulation(system_of("flyball"), settings=Settings(max_halvings=16)).step(1.0),
     Status.BEYOND_TABLE: beyond,
     Status.BAD_INERTIA: lambda _: Simulation(thrown(DRAWN, True), parameters={"xx": 2.0}),
     Status.TURNS_TOO_FAR: turning,
@@ -159,7 +159,9 @@ REMEDIES: dict[Status, Cause_] = {
     Status.TOO_STIFF: lambda _: [by(method, sliding(1.0, 5000.0), 0.1) for method in ("ali3p", "radau_5")],
     Status.TOO_FAR: lambda _: Simulation(car(), pose=Pose(x=1e7)),
     Status.NO_EQUILIBRIUM: lambda _: Simulation(compile(hanging()), parameters={"k": 90.0, "payload": 1.0}),
-    Status.TOO_DEAR: lambda _: Simulation(system_of("flyball"), settings=Settings(max_halvings=16)).step(0.001, 1000),
+    Status.TOO_MUCH_WORK: lambda _: Simulation(system_of("flyball"), settings=Settings(max_halvings=16)).step(
+        0.001, 1000
+    ),
     Status.BEYOND_TABLE: in_the_table,
     Status.BAD_INERTIA: lambda _: Simulation(thrown(DRAWN, True), parameters={"xx": 0.35}),
     Status.TURNS_TOO_FAR: lambda _: Simulation(

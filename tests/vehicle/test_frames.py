@@ -105,7 +105,7 @@ def test_contact_with_the_ground_may_be_given_by_joints():
     by_place = PROTOTYPE.changed(
         {"chassis.ground_contact.points": [[0.45, 0.28, 0.19], [-1.1, 0.55, 0.16], [-1.1, 0.0, 0.16]]}
     )
-    a, b = (mbs.compile(car.model()).arrays["el_real"] for car in (by_name, by_place))
+    a, b = (mbs.compile(car.model()).arrays["el_parameter"] for car in (by_name, by_place))
     np.testing.assert_array_equal(a, b)
     with pytest.raises(ModelError, match=r"ground_contact\.points names 'XL'; the frame has no such joint"):
         PROTOTYPE.changed({"chassis.ground_contact.points": ["XL"]}).model()

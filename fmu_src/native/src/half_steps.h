@@ -59,7 +59,7 @@ static inline size_t compared_count(const slave_fidelity *f) {
 void slave_log_unchecked(slave *s, double time, const char *why);
 /* Logs the result when the second motion ends. Without a road and abrupt forces, also predicts when the error is large,
  * from its growth between two windows of a start as a power of time. */
-void slave_log_conclusion(slave *s, const slave_late_step *step, double difference);
+void slave_log_conclusion(slave *s, const slave_pending_step *step, double difference);
 /* Logs a shared error or a difference after SPAN, or at the end of the run, and a prediction at its time. */
 slave_status slave_report_motion(slave *s, double now, bool ended);
 

@@ -21,7 +21,7 @@ static void reset_difference(slave_half_steps *t) {
  * ALi3-P. */
 static double extrapolated_error(double difference, double n) { return difference * n * n / (n * n - 1.0); }
 
-void slave_log_conclusion(slave *s, const slave_late_step *step, double difference) {
+void slave_log_conclusion(slave *s, const slave_pending_step *step, double difference) {
   slave_half_steps *t = &s->half_steps;
   const double error = extrapolated_error(t->saved->late_difference, step->ratio);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
@@ -64,9 +64,10 @@ static slave_status report_difference(slave *s) {
       "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
       "%.*g%s, %.2g %% of the largest %s in its unit at communication points. Run again with a step_size of %.2g s%s. "
       "This is reported once.",
-      t->compared[worst].time, (double)t->saved->parts, v->name, t->n_late > 0 ? "at least" : "about", large ? 15 : 3,
-      large ? round(off) : off, v->unit, 100.0 * error, v->judged.kind & ALI3_JUDGED_LOAD ? "load" : "range",
-      h / ceil(error / (t->saved->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
+      t->compared[worst].time, (double)t->saved->parts, v->name, t->n_pending > 0 ? "at least" : "about",
+      large ? 15 : 3, large ? round(off) : off, v->unit, 100.0 * error,
+      v->judged.kind & ALI3_JUDGED_LOAD ? "load" : "range", h / ceil(error / (t->saved->ratio * ALI3_WRONG_ERROR)),
+      met ? ", as was tried" : ", which was not tried");
 }
 
 /* Logs the predicted error of a start. */

@@ -16,7 +16,7 @@ bool slave_requests_end(const slave *s) { return s->refusal.count > 1; }
 /* Remedy other than a smaller step_size; NULL: there is none. After a bad normal within the step, the last one is held
  * at its start. */
 static const char *remedy(const slave *s, ali3_status status, bool jumped) {
-  if (status == ALI3_TOO_DEAR && s->work_left <= 0) return "Take shorter communication steps.";
+  if (status == ALI3_TOO_MUCH_WORK && s->work_left <= 0) return "Take shorter communication steps.";
   if (jumped && status != ALI3_ROAD_LOST && status != ALI3_BAD_NORMAL)
     return "Set one that goes on from the last one, whatever the step_size.";
   return slave_is_of_step(status) ? NULL : ali3_status_remedy(status);

@@ -146,13 +146,13 @@ typedef struct { /* a communication step that the second motion has not computed
   double *values; /* inputs at its start, then compared outputs at its end */
   double *parameter;
   bool sloped, starts; /* inputs have slopes; the second motion may start here from `start` */
-} slave_late_step;
+} slave_pending_step;
 
 typedef struct { /* numbers of the second motion, which states have beside its snapshot; 8 bytes each */
   double remaining, spent, simulated; /* s: still to run by the second motion, 0: it rests; run by it; by the first */
   double scheduled; /* s: time up to which the second motion runs at least */
   double difference, time; /* largest unreported relative difference; its time, s */
-  double h, ratio; /* inner step, s, and ratio of the late step with `difference` */
+  double h, ratio; /* inner step, s, and ratio of the pending step with `difference` */
   int64_t parts; /* of that step in the second motion */
   double early_difference, late_difference; /* largest in the second quarter of a start, and after it; relative */
   double checked, predicted; /* s: end of the comparison of a start; time at which the growing error is large */
@@ -170,12 +170,12 @@ typedef struct { /* the second motion, with at most half the step, see half_step
   ali3_compared *compared;
   size_t *variable;
   double *output, *size;
-  slave_late_step *late; /* ring of n_late late steps; the oldest is `first` */
-  size_t first, n_late;
-  int64_t n_made; /* inner steps of the second motion in the first late step */
+  slave_pending_step *pending; /* ring of n_pending pending steps; the oldest is `first` */
+  size_t first, n_pending;
+  int64_t n_made; /* inner steps of the second motion in the first pending step */
   int64_t iterations, cost; /* of the first motion so far; of the last inner step of the second motion */
   int64_t abrupt, halvings; /* of the first motion so far: abrupt steps, halvings */
-  bool start_needed; /* a late step may use `start` */
+  bool start_needed; /* a pending step may use `start` */
 } slave_half_steps;
 
 typedef struct { /* times at which an input at a port was set */
@@ -415,7 +415,7 @@ slave_status slave_half_steps_advance(slave *s);
 void slave_half_steps_begin(slave *s);
 /* Whether the second motion may still follow the first one in a change of its assembly mode at `time`, s. */
 bool slave_half_steps_may_follow(const slave *s, double time);
-/* Before a state is saved and at the end: computes the late steps. */
+/* Before a state is saved and at the end: computes the pending steps. */
 void slave_half_steps_settle(slave *s);
 /* Bytes of `saved` that are part of a state, from which the second motion goes on as it was; writes it into bytes that
  * are zero, checks and reads it. */

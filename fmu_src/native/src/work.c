@@ -35,7 +35,7 @@ double slave_settling_left(const slave *s, double starts) {
 void slave_count_start(slave *s) { s->work_left -= START_WORK; }
 
 const char *slave_reason_text(const slave *s, ali3_status status) {
-  if (status != ALI3_TOO_DEAR || s->work_left > 0) return ali3_status_text(status);
+  if (status != ALI3_TOO_MUCH_WORK || s->work_left > 0) return ali3_status_text(status);
   return "the call has made as many inner steps, parts of them and iterations as one may, " TEXT_OF_VALUE(
       SLAVE_MAX_WORK) " together";
 }

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from ali3.html_elements import Content, element, table
 from ali3.units import typeset
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.report.numbers import NONE, difference_text, limit_element, with_unit
+from hosts.catalogue.standard_test import StandardTest, TestRecord
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described

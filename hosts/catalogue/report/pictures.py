@@ -12,8 +12,8 @@ from matplotlib.ticker import FuncFormatter
 
 from ali3.chart_style import COLOURS, STYLE
 from ali3.charts import Drawing, drawing
-from hosts.catalogue.record import Line, Plot
 from hosts.catalogue.report.numbers import number_text
+from hosts.catalogue.standard_test import Line, Plot
 from hosts.common.display_units import axis_shown
 from hosts.experiment.report import thinned_indices
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from ali3.html_elements import Content, element, table
 from ali3.units import typeset
-from hosts.catalogue.record import Setting, Standard, StandardTest, TestRecord
 from hosts.catalogue.report.numbers import NONE, limit_element, with_unit
+from hosts.catalogue.standard_test import Setting, Standard, StandardTest, TestRecord
 from hosts.experiment.report import FAINT, NOTE, Section, paragraph
 from hosts.measures.measure import Measure
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.report.overview import car_tables, overview_tables
 from hosts.catalogue.report.pictures import drawings_of
 from hosts.catalogue.report.section import make_section
+from hosts.catalogue.standard_test import StandardTest, TestRecord
 from hosts.experiment.report import Plots, Section, page
 
 _NOTHING: Mapping[str, Mapping[str, float]] = {}

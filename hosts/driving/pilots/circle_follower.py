@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import InitVar, dataclass, field
 
 from hosts.driving.ground_marks import Mark, circle
 from hosts.driving.pilots.speed_holder import SpeedHolder
@@ -10,21 +11,9 @@ OBSERVED = ("chassis.x", "chassis.y", "chassis.yaw", "sideslip", "speed")
 """Outputs without which a circle cannot be held."""
 
 
+@dataclass
 class CircleFollower:
     """Steers the centre of mass along a circle that begins where the car stands, in the direction it moves.
-
-    Parameters
-    ----------
-    radius : float
-        m, positive: to the left, negative: to the right.
-    speed : float or callable
-        Target speed, m/s, or as a function of the time, s.
-    wheelbase : float
-        m.
-    wheel_angle_max : float
-        Mean angle of the front wheels where the input is 1, rad.
-    horizon : float
-        Time constant of the correction of errors, s.
 
     Notes
     -----
@@ -33,26 +22,26 @@ class CircleFollower:
     The sideslip is part of the direction of travel: a car that drifts is on its circle.
     """
 
-    def __init__(
-        self,
-        radius: float,
-        speed: float | Callable[[float], float],
-        wheelbase: float,
-        wheel_angle_max: float,
-        name: str = "steering",
-        largest: float = 1.0,
-        horizon: float = 1.0,
-    ) -> None:
-        self.radius = radius
-        self.wheelbase = wheelbase
-        self.wheel_angle_max = wheel_angle_max
-        self.name = name
-        self.largest = largest
-        self.horizon = horizon
+    radius: float
+    """Radius, m, positive: to the left, negative: to the right."""
+    speed: InitVar[float | Callable[[float], float]]
+    """Target speed, m/s, or as a function of the time, s."""
+    wheelbase: float  # m
+    wheel_angle_max: float
+    """Mean angle of the front wheels where the input is 1, rad."""
+    name: str = "steering"
+    """Name of the input."""
+    largest: float = 1.0
+    """Largest magnitude of the input."""
+    horizon: float = 1.0
+    """Time constant of the correction of errors, s."""
+    speed_holder: SpeedHolder = field(init=False)
+    _centre: tuple[float, float] | None = field(default=None, init=False)
+    _integral: float = field(default=0.0, init=False)
+    _time: float = field(default=0.0, init=False)
+
+    def __post_init__(self, speed: float | Callable[[float], float]) -> None:
         self.speed_holder = SpeedHolder(speed)
-        self._centre: tuple[float, float] | None = None
-        self._integral = 0.0
-        self._time = 0.0
 
     def offset(self, observation: Mapping[str, float]) -> float:
         """Distance of the car to the left of the circle, m; zero before the first act."""

@@ -2,25 +2,14 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from hosts.driving.course import Course
 
 
+@dataclass(frozen=True)
 class LineFollower:
     """Steers the centre of mass along the line of a course.
-
-    Parameters
-    ----------
-    wheelbase : float
-        m.
-    wheel_angle_max : float
-        Mean angle of the front wheels where the input is 1, rad.
-    preview : float
-        Preview time of the curvature of the line, s, which compensates the delay of the car.
-    horizon : float
-        Time constant of the correction of errors, s.
-    lead : float
-        Errors are extrapolated by this time, s.
 
     Notes
     -----
@@ -29,21 +18,16 @@ class LineFollower:
     travel where the car reports it.
     """
 
-    def __init__(
-        self,
-        course: Course,
-        wheelbase: float,
-        wheel_angle_max: float,
-        preview: float = 0.2,
-        horizon: float = 0.5,
-        lead: float = 0.3,
-    ) -> None:
-        self.course = course
-        self.wheelbase = wheelbase
-        self.wheel_angle_max = wheel_angle_max
-        self.preview = preview
-        self.horizon = horizon
-        self.lead = lead
+    course: Course
+    wheelbase: float  # m
+    wheel_angle_max: float
+    """Mean angle of the front wheels where the input is 1, rad."""
+    preview: float = 0.2
+    """Preview time of the curvature of the line, s, which compensates the delay of the car."""
+    horizon: float = 0.5
+    """Time constant of the correction of errors, s."""
+    lead: float = 0.3
+    """Errors are extrapolated by this time, s."""
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`; steering only."""

@@ -27,7 +27,7 @@ class Status(IntEnum):
     FIXED_PARAMETER = 18
     BAD_ROAD = 19
     ROAD_LOST = 20
-    TOO_DEAR = 21
+    TOO_MUCH_WORK = 21
     WHEEL_IN_ROAD = 22
     BAD_NORMAL = 23
     BEYOND_TABLE = 24

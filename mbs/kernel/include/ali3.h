@@ -64,7 +64,7 @@
   X(ROAD_LOST, CALL, \
     "a part of the road cannot be read from its file", \
     "Restore the road file; no step length helps.") \
-  X(TOO_DEAR, STEP, \
+  X(TOO_MUCH_WORK, STEP, \
     "the step and its parts took more than 1000 iterations, the limit of a step", \
     "A shorter step may succeed.") \
   X(WHEEL_IN_ROAD, CALL, \
@@ -339,7 +339,7 @@ ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
 /* The parts that steps are made in from now on, their iterations, and for each step of ali3_settle ALI3_SETTLING_WORK,
  * as its forces and accelerations are found anew, are taken off *left, which outlives the instance; where nothing is
- * left steps and settlings end with ALI3_TOO_DEAR. NULL, as it begins: they have no bound together. */
+ * left steps and settlings end with ALI3_TOO_MUCH_WORK. NULL, as it begins: they have no bound together. */
 #define ALI3_SETTLING_WORK 8
 ALI3_API void ali3_count_work(ali3_instance *in, int64_t *left);
 /* After ali3_settle: the largest speed beside the held motion, m/s, of a point or, along the ground, of the end of a

@@ -64,7 +64,7 @@ typedef struct { /* outputs of an element that are forces of a contact or a stop
 
 typedef struct { /* data of an element */
   int32_t nsig, nreal, nint, nstate, nout; /* numbers of signals, reals, integers, states and outputs */
-  int32_t real, integer, state, out; /* indices of the first ones in el_real, el_int, y and the outputs */
+  int32_t real, integer, state, out; /* indices of the first ones in el_parameter, el_int, y and the outputs */
 } ali3_element_size;
 
 typedef struct ali3_element_type ali3_element_type; /* elements/element.h */

@@ -34,7 +34,7 @@
   X(n_write, par_target, 1, "numbers that parameters write") \
   X(n_payload, payload_mass, 1, "payloads") \
   X(n_armature, armature_ratio, 1, "armatures whose ratio parameters write") \
-  X(n_inertia, inertia_real, 10, "bodies whose inertia parameters write") \
+  X(n_inertia, inertia_parameter, 10, "bodies whose inertia parameters write") \
   X(n_axis, axis_inertia, 1, "wheels whose axis parameters write") \
   X(n_lookup, tabled_size, 3, "tables") \
   X(n_ported_ptr, ported_ptr, 1, "coordinates without ports, and 1") \
@@ -147,8 +147,8 @@
     "in the C file of its name, or in `_fields.h` beside it") \
   X(INTEGERS, el_sig_ptr, MUST, ne + 1, OFFSETS(el_sig), "signals of the element") \
   X(INTEGERS, el_sig, MUST, ANY, BELOW(nsig), "these, in the order its type defines") \
-  X(INTEGERS, el_real_ptr, MUST, ne + 1, OFFSETS(el_real), "its data: numbers") \
-  X(REALS, el_real, MUST, ANY, FINITE, "these; units by the element type") \
+  X(INTEGERS, el_parameter_ptr, MUST, ne + 1, OFFSETS(el_parameter), "its parameters") \
+  X(REALS, el_parameter, MUST, ANY, FINITE, "these; units by the element type") \
   X(INTEGERS, el_int_ptr, MUST, ne + 1, OFFSETS(el_int), "its data: integers") \
   X(INTEGERS, el_int, MUST, ANY, RELATED, "these") \
   X(INTEGERS, el_state_ptr, MUST, ne + 1, OFFSETS(y0), "its slots in y") \
@@ -168,15 +168,15 @@
   X(INTEGERS, guide_input, MUST, ng, RELATED, \
     "input of types 1 and 2; earlier driving function of type 3, which is not of type 3") \
   X(INTEGERS, guide_second, MAY, OR_NONE(ng), RELATED, "second input of type 2; may be missing if there is none") \
-  X(INTEGERS, guide_real_ptr, MUST, ng + 1, OFFSETS(guide_real), "numbers of a driving function") \
-  X(REALS, guide_real, MUST, ANY, FINITE, \
+  X(INTEGERS, guide_parameter_ptr, MUST, ng + 1, OFFSETS(guide_parameter), "parameters of a driving function") \
+  X(REALS, guide_parameter, MUST, ANY, FINITE, \
     "type 0: [n, b_0..b_n, then n*6 coefficients c0..c5 of (t-b_k)^j], clamped outside with zero rates; type 1: " \
     "s'' = w^2 (u*gain - s) - 2 w s', [w, gain, s0]; type 2: clamp(u*gain + u_2*gain_2, low, high) instead of " \
     "u*gain, [w, gain, s0, gain_2, low, high]; type 3: n values of the other driving function, n values and n " \
     "slopes, a cubic between two points and straight beyond the ends") \
   X(INTEGERS, road_type, MUST, nr, RELATED, "see `mbs/kernel/src/elements/road.h`") \
-  X(INTEGERS, road_real_ptr, MUST, nr + 1, OFFSETS(road_real), "reals of a road") \
-  X(REALS, road_real, MUST, ANY, FINITE, \
+  X(INTEGERS, road_parameter_ptr, MUST, nr + 1, OFFSETS(road_parameter), "parameters of a road") \
+  X(REALS, road_parameter, MUST, ANY, FINITE, \
     "these, m and earth axes; a plane of four numbers and a kerb of five have the friction factor 1") \
   /* Parameters */ \
   X(REALS, par_value, MUST, np, FINITE, "value of the parameter, in the unit that `meta` names") \
@@ -185,8 +185,8 @@
   X(INTEGERS, par_ptr, MUST, np + 1, OFFSETS(par_target), \
     "what the parameter writes: value*scale + offset to element `index` of the target") \
   X(INTEGERS, par_target, MUST, n_write, BELOW(ALI3_TARGET_COUNT), \
-    "0 el_real, 1 guide_real, 2 road_real, 3 payload_mass, 4 the switch `index`, 0 or 1 (fixed, as those of " \
-    "payloads), 5 armature_ratio (fixed), 6 inertia_real (fixed), 7 sen_real, 8 axis_real (fixed)") \
+    "0 el_parameter, 1 guide_parameter, 2 road_parameter, 3 payload_mass, 4 the switch `index`, 0 or 1 (fixed, as " \
+    "those of payloads), 5 armature_ratio (fixed), 6 inertia_parameter (fixed), 7 sen_parameter, 8 axis_parameter (fixed)") \
   X(INTEGERS, par_index, MUST, n_write, RELATED, "index in the target") \
   X(REALS, par_scale, MUST, n_write, FINITE, "scale") \
   X(REALS, par_offset, MAY, OR_NONE(n_write), FINITE, "offset, by default 0") \
@@ -207,13 +207,13 @@
   X(REALS, armature_inertia, MAY, n_armature, FINITE, \
     "inertia, kg m²; `mass_val` has inertia*ratio^2, an instance what its own ratio makes of it") \
   X(REALS, armature_ratio, MAY, n_armature, FINITE, "ratio of both speeds") \
-  X(REALS, inertia_real, MAY, 10 * n_inertia, FINITE, \
+  X(REALS, inertia_parameter, MAY, 10 * n_inertia, FINITE, \
     "bodies whose inertia fixed parameters write: mass, centre of mass, moments xx, yy, zz and entries xy, xz, yz" \
     " of the inertia tensor about it, as drawn, which `mass_val` has; an instance has what its own numbers change") \
   X(INTEGERS, inertia_signal, MAY, 12 * n_inertia, BELOW(nsig), \
     "signals of the centre of mass as drawn and of the axes; the pattern of `mass_col` has their places") \
   X(REALS, inertia_gravity, MAY, IF_ANY(n_inertia, 3), FINITE, "acceleration of gravity, m/s², earth axes") \
-  X(REALS, axis_real, MAY, 2 * n_axis, FINITE, \
+  X(REALS, axis_parameter, MAY, 2 * n_axis, FINITE, \
     "wheels whose axes fixed parameters write: azimuth and elevation as drawn, rad") \
   X(REALS, axis_vector, MAY, 9 * n_axis, FINITE, \
     "unit vectors f, g and the axis e = f x g in the drawing, earth axes") \
@@ -282,8 +282,8 @@
   X(INTEGERS, sen_type, MUST, ns, BELOW(ALI3_SENSOR_TYPE_COUNT), "type, see below") \
   X(INTEGERS, sen_int_ptr, MUST, ns + 1, OFFSETS(sen_int), "integers of a sensor") \
   X(INTEGERS, sen_int, MUST, ANY, RELATED, "these") \
-  X(INTEGERS, sen_real_ptr, MUST, ns + 1, OFFSETS(sen_real), "reals of a sensor") \
-  X(REALS, sen_real, MUST, ANY, FINITE, "these; meaning by the type") \
+  X(INTEGERS, sen_parameter_ptr, MUST, ns + 1, OFFSETS(sen_parameter), "parameters of a sensor") \
+  X(REALS, sen_parameter, MUST, ANY, FINITE, "these; meaning by the type") \
   /* Flexible bodies */ \
   X(INTEGERS, flex_mode_ptr, MUST, nb + 1, OFFSETS(flex_mode), \
     "modes of a body: n = flex_mode_ptr[b+1] - flex_mode_ptr[b] >= 1") \

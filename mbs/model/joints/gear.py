@@ -7,7 +7,7 @@ from mbs.model.carried_parts import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint
-from mbs.model.joints.transmission import rotation_from_drawn, turning_rate, wheel
+from mbs.model.joints.transmission import rotation_from_drawn, turning_rate
 
 
 def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
@@ -35,7 +35,7 @@ def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordin
         The ratio is zero, or the wheels are the same.
     """
     subject = f"gear '{name}'"
-    a, b = wheel(model, wheel_1, subject), wheel(model, wheel_2, subject)
+    a, b = (model.owned_coordinate(wheel, f"The {subject}") for wheel in (wheel_1, wheel_2))
     if a.index == b.index:
         raise ModelError(f"The {subject} couples '{a.name}' with itself; it needs two wheels.")
     i = not_zero(ratio, f"The ratio of {subject}")

@@ -11,7 +11,7 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joint_ends import different
 from mbs.model.joints.joint import Joint
-from mbs.model.joints.transmission import rotation_from_drawn, turning_rate, wheel
+from mbs.model.joints.transmission import rotation_from_drawn, turning_rate
 
 
 def rack(
@@ -52,7 +52,7 @@ def rack(
         The radius is zero, the carrier is a point mass, or the rack is the ground or the carrier.
     """
     subject = f"rack '{name}'"
-    wheel_coordinate = wheel(model, pinion, subject)
+    wheel_coordinate = model.owned_coordinate(pinion, f"The {subject}")
     different(body, carrier, subject)
     if model.owned(carrier, f"The {subject}").is_point:
         raise ModelError(f"The carrier of {subject} needs axes; '{carrier.name}' is a point mass.")

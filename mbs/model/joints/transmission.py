@@ -9,11 +9,6 @@ from mbs.model.equation import Product
 ONE = Affine({}, 1.0)
 
 
-def wheel(model: BodyVocabulary, coordinate: Coordinate, subject: str) -> Coordinate:
-    """The coordinate; raises `ModelError` unless it is a relative angle or a spin of this model."""
-    return model.owned_coordinate(coordinate, f"The {subject}")
-
-
 def rotation_from_drawn(model: BodyVocabulary, angle: Coordinate) -> Affine:
     """A relative angle minus its drawn value."""
     return angle.affine - model.coordinates[angle.index].reference

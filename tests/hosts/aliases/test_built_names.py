@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import TestRecord
+from hosts.catalogue.standard_test import TestRecord
 from hosts.catalogue.task import Task, perform_task, write_runs
 from hosts.common.options import FmuOptions
 from hosts.driving.manoeuvre import Manoeuvre

@@ -3,8 +3,8 @@
 from typing import Any, cast
 
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import read_test_file
+from hosts.catalogue.standard_test import TestRecord
 
 
 def values(record: TestRecord) -> dict[str, float]:

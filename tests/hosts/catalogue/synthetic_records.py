@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, StandardTest, TestRecord
+from hosts.catalogue.standard_test import Clause, Line, Plot, Setting, Standard, StandardTest, TestRecord
 from hosts.fmu.fmu_source import FmuSource
 from hosts.measures.measure import Limit, Measure
 

@@ -8,9 +8,9 @@ import pytest
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.circle_stop import Stop
 from hosts.catalogue.execution import perform
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.standard.braking_in_a_turn import add_stops
+from hosts.catalogue.standard_test import TestRecord
 from hosts.common.errors import HostError
 from hosts.measures.measure import Measure
 from tests.hosts.catalogue.made_turn import turn

@@ -9,10 +9,10 @@ import pytest
 from ali3.iso_3888 import Gate
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import perform, reason_against
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.standard import double_lane_change
 from hosts.catalogue.standard.double_lane_change import _COURSES, DRIVERS, Passage, add_limit, find_limit
+from hosts.catalogue.standard_test import TestRecord
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.result import Result

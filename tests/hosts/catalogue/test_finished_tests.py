@@ -9,8 +9,8 @@ from hosts.catalogue import campaign, command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import settings_of_test
 from hosts.catalogue.output import measures_csv
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.standard_test import TestRecord
 from hosts.catalogue.task import Task, find_record, perform_task, store_record, write_runs
 from hosts.experiment.store import ResultStore
 from hosts.fmu.fmu_source import FmuSource

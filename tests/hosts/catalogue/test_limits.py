@@ -11,8 +11,8 @@ from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import settings_of_test
 from hosts.catalogue.limits import GivenLimits
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import TESTS, read_test_file, standard_test
+from hosts.catalogue.standard_test import TestRecord
 from hosts.catalogue.task import Outcome, Task, store_record
 from hosts.common.errors import HostError
 from hosts.experiment.store import ResultStore

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.execution import perform, reason_against, settings_of_test
-from hosts.catalogue.record import Setting, StandardTest, TestRecord
+from hosts.catalogue.standard_test import Setting, StandardTest, TestRecord
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases

@@ -8,7 +8,7 @@ import psutil
 import pytest
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import TestRecord
+from hosts.catalogue.standard_test import TestRecord
 from hosts.catalogue.task import Task, perform_task, write_runs
 from hosts.experiment.pool import Pool
 from hosts.fmu.fmu_source import FmuSource

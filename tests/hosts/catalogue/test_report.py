@@ -14,10 +14,10 @@ from ali3.errors import FileError
 from ali3.units import typeset
 from hosts.catalogue.measure_sheet import mean_of_sides
 from hosts.catalogue.output import print_measures
-from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.report import write_report
 from hosts.catalogue.report.numbers import difference_text, number_text
 from hosts.catalogue.report.pictures import drawings_of
+from hosts.catalogue.standard_test import Line, Plot, TestRecord
 from hosts.experiment.report import MOST_POINTS, thinned_indices
 from hosts.measures.measure import Limit, Measure
 from tests.hosts.catalogue.synthetic_records import EVIL, record, synthetic

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 from hosts.catalogue.execution import perform
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.standard_test import TestRecord
 from hosts.common.errors import HostError
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 

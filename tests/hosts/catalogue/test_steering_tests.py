@@ -9,9 +9,9 @@ from scipy.signal import lsim
 
 from hosts.catalogue.execution import perform
 from hosts.catalogue.measure_sheet import asymmetry
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.standard.sine_with_dwell import sine_with_dwell_table
+from hosts.catalogue.standard_test import TestRecord
 from hosts.catalogue.steady_map import steady_map
 from hosts.catalogue.steered_run import Pedals, level_acceleration, steer
 from hosts.catalogue.steering import SteeringInput

@@ -8,8 +8,8 @@ import pytest
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import perform
-from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.standard_test import TestRecord
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 from tests.hosts.catalogue.measured import sheet_of, values

@@ -58,34 +58,34 @@ class FourBar:
 
     def wheel(self, travel):
         """Centre (y, z), m, rotation about x, rad, and contact (y, z), m, of the left wheel at a travel, m."""
-
-        def at(angle):
-            low, rotation = self.upright(angle)
-            gap = np.subtract((TRACK_HALF, CENTRE), self.lower_ball)
-            c, s = np.cos(rotation), np.sin(rotation)
-            return low + np.array([c * gap[0] - s * gap[1], s * gap[0] + c * gap[1]]), rotation
-
-        drawn = np.arctan2(*np.subtract(self.lower_ball, self.lower_pivot)[::-1])
-        angle = brentq(lambda a: at(a)[0][1] - CENTRE - travel, drawn - 0.8, drawn + 0.8, xtol=1e-14)
-        centre, rotation = at(angle)
-        return centre, rotation, centre - CENTRE * np.array([-np.sin(rotation), np.cos(rotation)])
+        low, rotation = self._upright_at(travel)
+        centre = low + _turned(np.subtract((TRACK_HALF, CENTRE), self.lower_ball), rotation)
+        return centre, rotation, centre + _turned((0.0, -CENTRE), rotation)
 
     def pole(self, travel):
         """Instantaneous centre (y, z) of the upright, m: the intersection of the lines of both arms. `travel`: m."""
-        drawn = np.arctan2(*np.subtract(self.lower_ball, self.lower_pivot)[::-1])
-        angle = brentq(lambda a: self._height(a) - CENTRE - travel, drawn - 0.8, drawn + 0.8, xtol=1e-14)
-        low, rotation = self.upright(angle)
-        post = np.subtract(self.upper_ball, self.lower_ball)
-        c, s = np.cos(rotation), np.sin(rotation)
-        head = low + np.array([c * post[0] - s * post[1], s * post[0] + c * post[1]])
+        low, rotation = self._upright_at(travel)
+        head = low + _turned(np.subtract(self.upper_ball, self.lower_ball), rotation)
         first, second = low - self.lower_pivot, head - self.upper_pivot
         share = np.linalg.solve(np.column_stack([first, -second]), np.subtract(self.upper_pivot, self.lower_pivot))
         return np.array(self.lower_pivot) + share[0] * first
 
-    def _height(self, angle):
-        low, rotation = self.upright(angle)
+    def _upright_at(self, travel):
+        """As `upright`, where the wheel centre has risen by a travel, m."""
         gap = np.subtract((TRACK_HALF, CENTRE), self.lower_ball)
-        return low[1] + np.sin(rotation) * gap[0] + np.cos(rotation) * gap[1]
+
+        def excess(angle):
+            low, rotation = self.upright(angle)
+            return (low + _turned(gap, rotation))[1] - CENTRE - travel
+
+        drawn = np.arctan2(*np.subtract(self.lower_ball, self.lower_pivot)[::-1])
+        return self.upright(brentq(excess, drawn - 0.8, drawn + 0.8, xtol=1e-14))
+
+
+def _turned(vector, angle):
+    """A vector (y, z), turned about x."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
 
 
 @cache

@@ -47,8 +47,8 @@ static ali3_status finish_start(ali3_instance *in, ali3_status status, double t0
 ali3_status ali3_initialise(ali3_instance *in, double t0) {
   const ali3_report empty = {0};
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
-  for (int64_t k = 0; k < in->system->n_inertia_real; k += ALI3_INERTIA_REALS)
-    if (!ali3_inertia_possible(in->parameters.inertia_real + k)) return ALI3_BAD_INERTIA;
+  for (int64_t k = 0; k < in->system->n_inertia_parameter; k += ALI3_INERTIA_REALS)
+    if (!ali3_inertia_possible(in->parameters.inertia_parameter + k)) return ALI3_BAD_INERTIA;
   in->report = empty;
   in->start.unsettled = 0.0;
   ali3_roads_clear_read_errors(in);

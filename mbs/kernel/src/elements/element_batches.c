@@ -42,7 +42,7 @@ static batch_places find_places(const ali3_instance *in, const ali3_force_call *
   for (int l = 0; l < ALI3_BATCH; l++) {
     const ali3_element_size *size = S->el_size + e[l];
     at.signal[l] = S->el_sig + S->el_sig_ptr[e[l]];
-    at.numbers[l] = in->parameters.el_real + size->real;
+    at.numbers[l] = in->parameters.el_parameter + size->real;
     at.y_old[l] = call->y_old + size->state;
     at.f[l] = in->element.force + S->el_sig_ptr[e[l]];
     at.S[l] = in->element.S + S->el_S_off[e[l]];

@@ -35,7 +35,7 @@ static void element_arguments(const ali3_instance *in, const ali3_force_call *ca
   a->ud = ud;
   a->y_old = call->y_old + size->state;
   a->y_new = call->y_new + size->state;
-  a->real = in->parameters.el_real + size->real;
+  a->real = in->parameters.el_parameter + size->real;
   a->integer = S->el_int + size->integer;
   a->f = f;
   a->S = tangent;

@@ -14,6 +14,18 @@ typedef struct {
   double *y_new, *out, *potential; /* ny; nout; ne, J */
 } ali3_force_call;
 
+/* Request at the position and velocity of v from the element states of in->now: forces to in->step.Q, states, outputs
+ * and potentials to v; without a step and without tangents. */
+static inline ali3_force_call ali3_forces_at(ali3_instance *in, ali3_vectors *v) {
+  return (ali3_force_call){.q = v->q,
+                           .qd = v->qd,
+                           .y_old = in->now.y,
+                           .Q = in->step.Q,
+                           .y_new = v->y,
+                           .out = v->out,
+                           .potential = v->potential};
+}
+
 /* Generalised forces of elements, gravity, and flexible and lookup-table bodies. */
 void ali3_forces(ali3_instance *in, const ali3_force_call *call);
 /* Evaluates the elements at the signals of the last ali3_forces. */

@@ -27,7 +27,7 @@ typedef struct {
 typedef struct {
   double *value, *work; /* np, in the units of the System: as set; scratch */
   /* lengths, meaning and units as the arrays of these names in system_arrays.h */
-  double *el_real, *guide_real, *road_real, *sen_real, *inertia_real, *axis_real;
+  double *el_parameter, *guide_parameter, *road_parameter, *sen_parameter, *inertia_parameter, *axis_parameter;
   double *payload_mass, *armature_ratio; /* likewise */
   double *switch_on; /* n_switch: 0 or 1 at the start */
 } ali3_parameters;

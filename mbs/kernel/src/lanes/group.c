@@ -126,7 +126,7 @@ static bool has_law(const ali3_element_type *type) {
 static void allocate_elements(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const ali3_sizes *z = &S->size;
-  g->el_real = lane_items(g, pool, (size_t)S->el_real_ptr[z->ne]);
+  g->el_parameter = lane_items(g, pool, (size_t)S->el_parameter_ptr[z->ne]);
   g->input = lane_items(g, pool, (size_t)z->nu);
   g->out = lane_items(g, pool, (size_t)S->el_out_ptr[z->ne]);
   g->potential = lane_items(g, pool, (size_t)z->ne);
@@ -239,7 +239,7 @@ void ali3_group_parameters(ali3_lane_group *g) {
   PUT(g, g->mass.gravity_const, 1, in, &in->mass.gravity_const);
   PUT(g, g->flexible.P, 3 * (int32_t)g->system->n_flex_mode, in, in->system->flex_P);
   PUT(g, g->flexible.c, 9 * (int32_t)g->system->n_flex_mode, in, in->system->flex_c);
-  PUT(g, g->el_real, g->system->el_real_ptr[z->ne], in, in->parameters.el_real);
+  PUT(g, g->el_parameter, g->system->el_parameter_ptr[z->ne], in, in->parameters.el_parameter);
   copy_roads(g);
 }
 

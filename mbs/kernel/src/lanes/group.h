@@ -74,7 +74,7 @@ struct ali3_lane_group {
     real *mean, *follows;
   } driving;
   real *ways; /* n_work_force: displacements of elements whose work is summed, see ../state/work.c */
-  real *el_real, *input, *out, *potential; /* as el_real of the System; nu; nout; ne, J */
+  real *el_parameter, *input, *out, *potential; /* as el_parameter of the System; nu; nout; ne, J */
   ali3_lane_road *road; /* nr */
   bool *by_law; /* ne: the element is evaluated in vectors */
   real *mean_a, *newton_lam; /* of the last step, for the history */

@@ -14,7 +14,7 @@ static void evaluate_law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals are not contiguous */
   for (int32_t i = 0; beside < 0 && i < n; i++) u[i] = g->element.u[signal[i]], ud[i] = g->element.ud[signal[i]];
   ali3_element_args a = {.nsig = n,
-                         .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
+                         .nreal = S->el_parameter_ptr[e + 1] - S->el_parameter_ptr[e],
                          .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
                          .nstate = S->el_state_ptr[e + 1] - S->el_state_ptr[e],
                          .nout = S->el_out_ptr[e + 1] - S->el_out_ptr[e],
@@ -26,7 +26,7 @@ static void evaluate_law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
                          .reach = *g->reach,
                          .wC = g->rule.wC,
                          .wK = g->rule.c,
-                         .real = g->el_real + S->el_real_ptr[e],
+                         .real = g->el_parameter + S->el_parameter_ptr[e],
                          .integer = S->el_int + S->el_int_ptr[e],
                          .input = g->input,
                          .roads = g->road,

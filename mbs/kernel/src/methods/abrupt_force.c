@@ -117,8 +117,8 @@ static bool beyond(const ali3_instance *in, const ali3_contact_forces_of *contac
   const ali3_system *S = in->system;
   const ali3_element_size *size = S->el_size + contact->element;
   const ali3_element_type *kind = S->el_kind[contact->element];
-  return kind->stops(in->parameters.el_real + size->real, in->next.out + size->out) ||
-         kind->stops(in->parameters.el_real + size->real, in->now.out + size->out);
+  return kind->stops(in->parameters.el_parameter + size->real, in->next.out + size->out) ||
+         kind->stops(in->parameters.el_parameter + size->real, in->now.out + size->out);
 }
 
 /* Largest change of a judged force in the step; without roads only of springs beyond their stops. */
@@ -160,8 +160,8 @@ bool ali3_divides_to_resolve(ali3_instance *in, const ali3_request *request, boo
 double ali3_table_resolved(const ali3_instance *in, int32_t element, double from, double to) {
   const ali3_system *S = in->system;
   const ali3_element_size *at = S->el_size + element;
-  return S->el_kind[element]->resolved(in->parameters.el_real + at->real, S->el_int + at->integer, from, to, ABRUPT,
-                                       in->report.largest_force);
+  return S->el_kind[element]->resolved(in->parameters.el_parameter + at->real, S->el_int + at->integer, from, to,
+                                       ABRUPT, in->report.largest_force);
 }
 
 double ali3_tables_resolved_step(const ali3_instance *in, double h) {

@@ -58,8 +58,8 @@ static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   const ali3_method *method = ali3_method_of(in);
   const bool limited = in->settings.step_iterations > 0;
   const int64_t iterations = in->report.iterations, divisions = in->report.divisions;
-  if (iterations - in->bound.iterations_before > MAX_ITERATIONS) return ALI3_TOO_DEAR;
-  if (in->bound.work_left != NULL && *in->bound.work_left <= 0) return ALI3_TOO_DEAR;
+  if (iterations - in->bound.iterations_before > MAX_ITERATIONS) return ALI3_TOO_MUCH_WORK;
+  if (in->bound.work_left != NULL && *in->bound.work_left <= 0) return ALI3_TOO_MUCH_WORK;
   in->parting.changed = -1.0;
   in->parting.event = 1.0;
   const ali3_status status = ali3_divides_ahead(in, part) ? ALI3_UNRESOLVED

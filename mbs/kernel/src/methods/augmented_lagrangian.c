@@ -26,26 +26,20 @@
 #include "predict.h"
 #include "steps.h"
 
-/* Arguments for the forces of the present iterate. */
-static ali3_force_call iterate_call(ali3_instance *in, double h, bool tangent) {
-  ali3_vectors *to = &in->next;
-  return (ali3_force_call){.q = to->q,
-                           .qd = to->qd,
-                           .y_old = in->now.y,
-                           .h = h,
-                           .wC = in->rule.wC,
-                           .wK = in->rule.c,
-                           .tangent = tangent,
-                           .iterate = true,
-                           .Q = in->step.Q,
-                           .y_new = to->y,
-                           .out = to->out,
-                           .potential = to->potential};
+/* Request for the forces at the end of the step, or of one of its iterates. */
+static ali3_force_call end_call(ali3_instance *in, double h, bool tangent, bool iterate) {
+  ali3_force_call call = ali3_forces_at(in, &in->next);
+  call.h = h;
+  call.wC = in->rule.wC;
+  call.wK = in->rule.c;
+  call.tangent = tangent;
+  call.iterate = iterate;
+  return call;
 }
 
 /* Positions, rates, rows, forces and residual of the present D. */
 ALI3_INLINED void evaluate(ali3_instance *in, double h, bool tangent) {
-  const ali3_force_call call = iterate_call(in, h, tangent);
+  const ali3_force_call call = end_call(in, h, tangent, true);
   place_iterate(in);
   ali3_forces(in, &call);
   find_residual(in);
@@ -155,7 +149,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
     accelerated = reused || !settles;
     last_residual = in->report.residual;
     if (reused) continue;
-    ali3_force_call call = iterate_call(in, h, true); /* again, now with tangents, as a tangent is needed */
+    ali3_force_call call = end_call(in, h, true, true); /* again, now with tangents, as a tangent is needed */
     if (settles) call.reach = REACH * in->rule.rate * in->report.residual;
     ali3_elements_forces(in, &call);
   }
@@ -226,16 +220,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
     ali3_alpha_accept(in, h);
   else
     to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_ALI3P;
-  const ali3_force_call call = {.q = to->q,
-                                .qd = to->qd,
-                                .y_old = from->y,
-                                .h = h,
-                                .wC = in->rule.wC,
-                                .wK = in->rule.c,
-                                .Q = in->step.Q,
-                                .y_new = to->y,
-                                .out = to->out,
-                                .potential = to->potential};
+  const ali3_force_call call = end_call(in, h, false, false);
   ali3_forces_accept(in, &call);
   if (ali3_contact_event(in, request, from, to) || ali3_divides(in, request, false)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);

@@ -7,8 +7,8 @@
 /* Whether element e has a potential and no loss with its present numbers. */
 static bool is_conservative(const ali3_instance *in, int32_t e) {
   const ali3_element_type *type = in->system->el_kind[e];
-  const int32_t first = in->system->el_real_ptr[e], n = in->system->el_real_ptr[e + 1] - first;
-  return type->conservative && !(type->lossy != NULL && type->lossy(in->parameters.el_real + first, n,
+  const int32_t first = in->system->el_parameter_ptr[e], n = in->system->el_parameter_ptr[e + 1] - first;
+  return type->conservative && !(type->lossy != NULL && type->lossy(in->parameters.el_parameter + first, n,
                                                                     in->system->el_int + in->system->el_int_ptr[e]));
 }
 

@@ -37,7 +37,7 @@ static double share_to_event(const ali3_instance *in, const double *from, const 
     const ali3_element_size *at = S->el_size + e;
     double share = 1.0;
     if (kind->event != NULL && stops)
-      share = kind->event(in->parameters.el_real + at->real, at->nreal, from + at->out, to + at->out, h);
+      share = kind->event(in->parameters.el_parameter + at->real, at->nreal, from + at->out, to + at->out, h);
     else if (kind->resolved != NULL)
       share = share_to_row(in, e, from + at->out, to + at->out, h);
     if (!(share < first)) continue;

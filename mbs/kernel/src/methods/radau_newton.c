@@ -42,17 +42,10 @@ void ali3_radau_set_stage(ali3_instance *in, double t, double h, int i) {
 
 /* Forces at in->next; tangents of elements for weights above 0. */
 static void evaluate_forces(ali3_instance *in, double wC, double wK) {
-  ali3_vectors *to = &in->next;
-  const ali3_force_call call = {.q = to->q,
-                                .qd = to->qd,
-                                .y_old = in->now.y,
-                                .wC = wC,
-                                .wK = wK,
-                                .tangent = wC + wK > 0.0,
-                                .Q = in->step.Q,
-                                .y_new = to->y,
-                                .out = to->out,
-                                .potential = to->potential};
+  ali3_force_call call = ali3_forces_at(in, &in->next);
+  call.wC = wC;
+  call.wK = wK;
+  call.tangent = wC + wK > 0.0;
   ali3_forces(in, &call);
 }
 

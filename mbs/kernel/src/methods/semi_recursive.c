@@ -97,13 +97,7 @@ static ali3_status accelerations(ali3_instance *in, const double *qd, double *qd
   if (S->size.ne > 0) {
     ali3_vectors *v = &in->next;
     ali3_tree_write(in, v->q, v->qd, NULL);
-    const ali3_force_call call = {.q = v->q,
-                                  .qd = v->qd,
-                                  .y_old = in->now.y,
-                                  .Q = in->step.Q,
-                                  .y_new = v->y,
-                                  .out = v->out,
-                                  .potential = v->potential};
+    const ali3_force_call call = ali3_forces_at(in, v);
     ali3_forces(in, &call);
     ali3_tree_load(in, in->step.Q);
   }

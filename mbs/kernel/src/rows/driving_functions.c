@@ -16,13 +16,13 @@ bool ali3_driving_filters(int32_t type) { return type == ALI3_DRIVING_OF_INPUT |
 
 double ali3_driving_demand(const ali3_instance *in, int32_t g, const double *input) {
   const ali3_system *S = in->system;
-  const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
+  const double *real = in->parameters.guide_parameter + S->guide_parameter_ptr[g];
   const double first = real[GAIN] * input[S->guide_input[g]];
   return S->guide_type[g] == ALI3_DRIVING_OF_INPUT ? first : first + real[GAIN_2] * input[S->guide_second[g]];
 }
 
 double ali3_driving_clamped(const ali3_instance *in, int32_t g, double demand) {
-  const double *real = in->parameters.guide_real + in->system->guide_real_ptr[g];
+  const double *real = in->parameters.guide_parameter + in->system->guide_parameter_ptr[g];
   if (in->system->guide_type[g] == ALI3_DRIVING_OF_INPUT) return demand;
   return demand < real[LOW] ? real[LOW] : demand > real[HIGH] ? real[HIGH] : demand;
 }
@@ -38,8 +38,8 @@ static ali3_cubic_table make_table(const double *real, int32_t nreal) {
 }
 
 double ali3_driving_slope(const ali3_instance *in, int32_t g, const double *s) {
-  const int32_t *at = in->system->guide_real_ptr + g;
-  const ali3_cubic_table table = make_table(in->parameters.guide_real + at[0], at[1] - at[0]);
+  const int32_t *at = in->system->guide_parameter_ptr + g;
+  const ali3_cubic_table table = make_table(in->parameters.guide_parameter + at[0], at[1] - at[0]);
   double slope;
   ali3_cubic_value(&table, s[in->system->guide_input[g]], &slope, NULL);
   return slope;
@@ -115,7 +115,7 @@ void ali3_driving_measure(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_DRIVING_OF_TIME) continue;
-    const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
+    const double *real = in->parameters.guide_parameter + S->guide_parameter_ptr[g];
     double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int32_t i = 0; i < (int32_t)real[0]; i++)
       for (int32_t part = 0; part <= QUARTERS; part++) {
@@ -148,7 +148,7 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_DRIVING_OF_TIME) continue;
-    const double *real = in->parameters.guide_real + S->guide_real_ptr[g], *breaks = real + 1;
+    const double *real = in->parameters.guide_parameter + S->guide_parameter_ptr[g], *breaks = real + 1;
     const int32_t n = (int32_t)real[0];
     if (end <= breaks[0] || t >= breaks[n]) continue;
     for (int32_t i = t < breaks[0] ? 0 : piece_at(real, t) + 1; i <= n && breaks[i] < end; i++)
@@ -192,7 +192,7 @@ double ali3_driving_resolved(const ali3_instance *in, double t, double end, doub
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_DRIVING_OF_TIME) continue;
-    const double *real = in->parameters.guide_real + S->guide_real_ptr[g], least = in->driving.least[3 * g];
+    const double *real = in->parameters.guide_parameter + S->guide_parameter_ptr[g], least = in->driving.least[3 * g];
     const double from = t + near, to = end - near;
     double part = next_quarter(real, from), next = part;
     if (part >= to || resolved(real, from, to, least, by_means)) continue;
@@ -210,8 +210,8 @@ double ali3_driving_break(const ali3_instance *in, double t, double end) { retur
 
 /* s = f(u): s' = f' u' and s'' = f' u'' + f'' u'^2. */
 static void driving_by_table(const ali3_instance *in, ali3_vectors *v, int32_t g) {
-  const int32_t *at = in->system->guide_real_ptr + g, u = in->system->guide_input[g];
-  const ali3_cubic_table table = make_table(in->parameters.guide_real + at[0], at[1] - at[0]);
+  const int32_t *at = in->system->guide_parameter_ptr + g, u = in->system->guide_input[g];
+  const ali3_cubic_table table = make_table(in->parameters.guide_parameter + at[0], at[1] - at[0]);
   double slope, curvature;
   v->s[g] = ali3_cubic_derivatives(&table, v->s[u], &slope, &curvature);
   v->sd[g] = slope * v->sd[u];
@@ -222,7 +222,7 @@ void ali3_driving_time(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++)
     if (S->guide_type[g] == ALI3_DRIVING_OF_TIME)
-      driving_of_time(in->parameters.guide_real + S->guide_real_ptr[g], t, &v->s[g], &v->sd[g], &v->sdd[g]);
+      driving_of_time(in->parameters.guide_parameter + S->guide_parameter_ptr[g], t, &v->s[g], &v->sd[g], &v->sdd[g]);
     else if (S->guide_type[g] == ALI3_DRIVING_BY_TABLE)
       driving_by_table(in, v, g);
 }
@@ -243,7 +243,7 @@ void ali3_driving_step(const ali3_instance *in, const ali3_vectors *from, ali3_v
     if (!ali3_driving_filters(S->guide_type[g])) continue;
     /* exact solution of s'' = w^2 (gain u - s) - 2 w s' for an input that goes straight from its value at the start of
      * the step to that at its end; held at the end it would lead by h/2, which is an error of first order */
-    const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
+    const double *real = in->parameters.guide_parameter + S->guide_parameter_ptr[g];
     const double w = real[0], target = target_of(in, g, in->inputs.set), before = target_of(in, g, in->inputs.begin),
                  slope = (target - before) / h, lag = 2.0 * slope / w;
     const double e = from->s[g] - before + lag, rate = from->sd[g] - slope + w * e, decay = ali3_exp(-w * h);

@@ -243,7 +243,7 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
   for (int32_t i = 0; i < S->size.ns; i++) {
     const int32_t type = S->sen_type[i], *v = S->sen_int + S->sen_int_ptr[i];
     known[i] = rate_known(type, v);
-    rates[i] = known[i] ? change_of[type](in, v, in->parameters.sen_real + S->sen_real_ptr[i]) : 0.0;
+    rates[i] = known[i] ? change_of[type](in, v, in->parameters.sen_parameter + S->sen_parameter_ptr[i]) : 0.0;
   }
   return ALI3_OK;
 }

@@ -189,8 +189,8 @@ static double value_mass(const ali3_instance *in, const int32_t *v, const double
   double sum = real[0];
   (void)v;
   for (int64_t k = 0; k < in->system->n_payload_mass; k++) sum += in->parameters.payload_mass[k];
-  for (int64_t k = 0; k < in->system->n_inertia_real; k += ALI3_INERTIA_REALS)
-    sum += in->parameters.inertia_real[k] - in->system->inertia_real[k];
+  for (int64_t k = 0; k < in->system->n_inertia_parameter; k += ALI3_INERTIA_REALS)
+    sum += in->parameters.inertia_parameter[k] - in->system->inertia_parameter[k];
   return sum;
 }
 
@@ -328,7 +328,8 @@ static sensor_function *const value_of[ALI3_SENSOR_TYPE_COUNT] = {
 /* Value of sensor i. */
 static double evaluate_sensor(const ali3_instance *in, int32_t i) {
   const ali3_system *S = in->system;
-  return value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->parameters.sen_real + S->sen_real_ptr[i]);
+  return value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i],
+                                  in->parameters.sen_parameter + S->sen_parameter_ptr[i]);
 }
 
 /* Evaluates lookup-table bodies in the present state, if there are any. */

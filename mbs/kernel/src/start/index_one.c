@@ -21,13 +21,7 @@ ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
   const int32_t nq = S->size.nq, nc = S->size.nc;
   ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
   ali3_constraint_gamma(in, v->q, v->qd, v, in->step.gamma);
-  const ali3_force_call call = {.q = v->q,
-                                .qd = v->qd,
-                                .y_old = in->now.y,
-                                .Q = in->step.Q,
-                                .y_new = v->y,
-                                .out = v->out,
-                                .potential = v->potential};
+  const ali3_force_call call = ali3_forces_at(in, v);
   ali3_forces(in, &call);
   ali3_mass_to_fronts(in, in->tangent.F);
   if (S->n_flexible + S->n_lookup > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);

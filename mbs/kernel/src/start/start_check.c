@@ -16,10 +16,10 @@ ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road 
   const int32_t first = S->el_sig_ptr[e];
   const ali3_element_args a = {
       .nsig = S->el_sig_ptr[e + 1] - first,
-      .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
+      .nreal = S->el_parameter_ptr[e + 1] - S->el_parameter_ptr[e],
       .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
       .u = u,
-      .real = in->parameters.el_real + S->el_real_ptr[e],
+      .real = in->parameters.el_parameter + S->el_parameter_ptr[e],
       .integer = S->el_int + S->el_int_ptr[e],
       .roads = roads,
   };
@@ -71,7 +71,7 @@ static const double NO_FORCE = 1e-6; /* factor on the largest weight on a coordi
 
 /* Depth of the tyre of element e at its hub, m: the limit on a road without faces. */
 static double hub_depth(const ali3_instance *in, int32_t e) {
-  return (1.0 - ALI3_TYRE_HUB) * in->parameters.el_real[in->system->el_real_ptr[e]];
+  return (1.0 - ALI3_TYRE_HUB) * in->parameters.el_parameter[in->system->el_parameter_ptr[e]];
 }
 
 /* The first wheel whose centre is deep in a grid road, with a message; on any road the deepest pressed rim is stored in

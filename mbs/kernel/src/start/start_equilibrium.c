@@ -58,7 +58,7 @@ static ali3_status prepare(ali3_instance *in) {
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
       if (S->par_target[k] == ALI3_TARGET_ROAD)
-        in->parameters.road_real[S->par_index[k]] = ali3_parameter_writes(S, k, S->par_value[p]);
+        in->parameters.road_parameter[S->par_index[k]] = ali3_parameter_writes(S, k, S->par_value[p]);
   memcpy(in->inputs.set, S->input_start, (size_t)S->size.nu * sizeof(double));
   return status;
 }

@@ -30,7 +30,8 @@ static double depth(const ali3_instance *in, const ali3_road *roads, const doubl
 static bool measure_drawn_depths(ali3_instance *in) {
   const ali3_system *S = in->system;
   bool touching = false;
-  if (S->n_road_real > 0) memcpy(in->parameters.road_real, S->road_real, (size_t)S->n_road_real * sizeof(double));
+  if (S->n_road_parameter > 0)
+    memcpy(in->parameters.road_parameter, S->road_parameter, (size_t)S->n_road_parameter * sizeof(double));
   for (int32_t e = 0; e < S->size.ne; e++) {
     double cosine;
     if (S->el_kind[e]->depth == NULL) continue;

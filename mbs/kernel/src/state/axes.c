@@ -10,13 +10,13 @@
 #include "axes.h"
 
 enum { X, Y, Z, AXES, REALS = ALI3_AXIS_REALS, SIGNALS = ALI3_AXIS_SIGNALS };
-enum { AZIMUTH, ELEVATION }; /* rad: indices of the numbers of an axis in axis_real */
+enum { AZIMUTH, ELEVATION }; /* rad: indices of the numbers of an axis in axis_parameter */
 enum { MOMENTS = 4 }; /* first of the second moments xx, yy, zz, yz, zx, xy in ali3_lookup.mass */
 
 void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool) {
   const ali3_system *T = s->turned;
   const size_t lookup = T != NULL ? (size_t)T->n_lookup : 0;
-  in->parameters.axis_real = ali3_pool_array(pool, (size_t)s->n_axis_real);
+  in->parameters.axis_parameter = ali3_pool_array(pool, (size_t)s->n_axis_parameter);
   in->axes.system = T != NULL ? ali3_pool_items(pool, 1, sizeof *in->axes.system) : NULL;
   in->axes.val = ali3_pool_array(pool, T != NULL ? (size_t)T->n_sig_val : 0);
   in->axes.constant = ali3_pool_array(pool, T != NULL ? (size_t)T->n_sig_const : 0);
@@ -38,8 +38,8 @@ static void axes_of(const double *angle, double R[AXES][AXES]) {
 /* Rotation matrix from the drawn axes of wheel k to those that its parameters give. */
 static void rotation_of(const ali3_instance *in, int64_t k, double Q[AXES][AXES]) {
   double now[AXES][AXES], drawn[AXES][AXES];
-  axes_of(in->parameters.axis_real + REALS * k, now);
-  axes_of(in->base->axis_real + REALS * k, drawn);
+  axes_of(in->parameters.axis_parameter + REALS * k, now);
+  axes_of(in->base->axis_parameter + REALS * k, drawn);
   for (int i = 0; i < AXES; i++)
     for (int j = 0; j < AXES; j++) {
       Q[i][j] = 0.0;
@@ -60,7 +60,7 @@ static bool equal(const double *one, const double *other, int64_t n) {
 }
 
 bool ali3_axis_as_drawn(const ali3_instance *in, int64_t k) {
-  return equal(in->parameters.axis_real + REALS * k, in->base->axis_real + REALS * k, REALS);
+  return equal(in->parameters.axis_parameter + REALS * k, in->base->axis_parameter + REALS * k, REALS);
 }
 
 void ali3_axis_moments(const ali3_instance *in, int64_t k, double change[3][3]) {
@@ -121,8 +121,8 @@ static void write_moments(ali3_instance *in, int64_t k) {
  * inclination. */
 static void write_speed(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->base;
-  const double *radius = S->axis_rolling + 2 * k, *drawn = S->axis_real + REALS * k,
-               *now = in->parameters.axis_real + REALS * k;
+  const double *radius = S->axis_rolling + 2 * k, *drawn = S->axis_parameter + REALS * k,
+               *now = in->parameters.axis_parameter + REALS * k;
   if (!S->size.has_pose || !(radius[0] > 0.0)) return;
   const double loaded_radius =
       radius[0] + radius[1] * (1.0 / ali3_cos(now[ELEVATION]) - 1.0 / ali3_cos(drawn[ELEVATION]));
@@ -132,7 +132,7 @@ static void write_speed(ali3_instance *in, int64_t k) {
 void ali3_axes_apply(ali3_instance *in) {
   const ali3_system *S = in->base, *T = S->turned;
   in->system = S;
-  if (T == NULL || equal(in->parameters.axis_real, S->axis_real, S->n_axis_real)) return;
+  if (T == NULL || equal(in->parameters.axis_parameter, S->axis_parameter, S->n_axis_parameter)) return;
   memcpy(in->axes.val, T->sig_val, (size_t)T->n_sig_val * sizeof(double));
   memcpy(in->axes.constant, T->sig_const, (size_t)T->n_sig_const * sizeof(double));
   if (T->n_pose_speed > 0) memcpy(in->axes.speed, T->pose_speed, (size_t)T->n_pose_speed * sizeof(double));
@@ -159,5 +159,5 @@ void ali3_axes_apply(ali3_instance *in) {
 }
 
 bool ali3_axes_same(const ali3_instance *one, const ali3_instance *other) {
-  return equal(one->parameters.axis_real, other->parameters.axis_real, one->base->n_axis_real);
+  return equal(one->parameters.axis_parameter, other->parameters.axis_parameter, one->base->n_axis_parameter);
 }

@@ -118,21 +118,22 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->inputs.set, S->input_start, S->size.nu);
   copy(in->now.used, S->input_start, S->size.nu);
   copy(in->parameters.value, S->par_value, S->size.np);
-  copy(in->parameters.el_real, S->el_real, S->n_el_real);
-  copy(in->parameters.guide_real, S->guide_real, S->n_guide_real);
+  copy(in->parameters.el_parameter, S->el_parameter, S->n_el_parameter);
+  copy(in->parameters.guide_parameter, S->guide_parameter, S->n_guide_parameter);
   ali3_driving_measure(in);
-  copy(in->parameters.road_real, S->road_real, S->n_road_real);
+  copy(in->parameters.road_parameter, S->road_parameter, S->n_road_parameter);
   copy(in->parameters.payload_mass, S->payload_mass, S->n_payload_mass);
   copy(in->parameters.armature_ratio, S->armature_ratio, S->n_armature_ratio);
-  copy(in->parameters.inertia_real, S->inertia_real, S->n_inertia_real);
-  copy(in->parameters.axis_real, S->axis_real, S->n_axis_real);
-  copy(in->parameters.sen_real, S->sen_real, S->n_sen_real);
+  copy(in->parameters.inertia_parameter, S->inertia_parameter, S->n_inertia_parameter);
+  copy(in->parameters.axis_parameter, S->axis_parameter, S->n_axis_parameter);
+  copy(in->parameters.sen_parameter, S->sen_parameter, S->n_sen_parameter);
   for (int32_t g = 0; g < S->size.ng; g++)
-    if (ali3_driving_filters(S->guide_type[g])) in->now.s[g] = in->parameters.guide_real[S->guide_real_ptr[g] + 2];
+    if (ali3_driving_filters(S->guide_type[g]))
+      in->now.s[g] = in->parameters.guide_parameter[S->guide_parameter_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {
     const ali3_road road = {.type = S->road_type[r],
-                            .nreal = S->road_real_ptr[r + 1] - S->road_real_ptr[r],
-                            .real = in->parameters.road_real + S->road_real_ptr[r],
+                            .nreal = S->road_parameter_ptr[r + 1] - S->road_parameter_ptr[r],
+                            .real = in->parameters.road_parameter + S->road_parameter_ptr[r],
                             .file = in->roads.used[r].file,
                             .input = &in->inputs.forces};
     in->roads.used[r] = in->roads.own[r] = road;

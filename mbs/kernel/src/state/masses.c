@@ -14,7 +14,7 @@
 
 /* Whether a parameter can change a mass. */
 static bool has_changes(const ali3_system *s) {
-  return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_real > 0 || s->n_axis_inertia > 0;
+  return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_parameter > 0 || s->n_axis_inertia > 0;
 }
 
 void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool) {
@@ -22,7 +22,7 @@ void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool)
   const size_t nq = changing ? (size_t)s->size.nq : 0;
   in->parameters.payload_mass = ali3_pool_array(pool, (size_t)s->n_payload_mass);
   in->parameters.armature_ratio = ali3_pool_array(pool, (size_t)s->n_armature_ratio);
-  in->parameters.inertia_real = ali3_pool_array(pool, (size_t)s->n_inertia_real);
+  in->parameters.inertia_parameter = ali3_pool_array(pool, (size_t)s->n_inertia_parameter);
   in->mass.own.val = ali3_pool_array(pool, changing ? (size_t)s->size.nnz_mass : 0);
   in->mass.own.front = ali3_pool_array(pool, changing ? (size_t)s->size.front_size : 0);
   in->mass.own.floor = ali3_pool_array(pool, nq);
@@ -71,8 +71,8 @@ static void add_moment(ali3_instance *in, int32_t one, int32_t other, double mom
   }
 }
 
-/* Moments of a body (an item of inertia_real) over (1, position from `origin`): mass, first moments, and second moments tr(I)/2 - I of its
- * inertia about the centre of mass, transferred to the origin. */
+/* Moments of a body (an item of inertia_parameter) over (1, position from `origin`): mass, first moments, and second
+ * moments tr(I)/2 - I of its inertia about the centre of mass, transferred to the origin. */
 static void moments(const double *inertia, const double *origin, double out[4][4]) {
   static const int product[3][3] = {{4, 7, 8}, {7, 5, 9}, {8, 9, 6}}; /* indices of the entries of the tensor */
   const double mass = inertia[0], half = 0.5 * (inertia[4] + inertia[5] + inertia[6]);
@@ -88,8 +88,8 @@ static void moments(const double *inertia, const double *origin, double out[4][4
 /* Adds the change of the inertia of body k to the mass matrix, if it differs from the System's. */
 static void apply_inertia(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->system;
-  const double *old = S->inertia_real + k * ALI3_INERTIA_REALS,
-               *now = in->parameters.inertia_real + k * ALI3_INERTIA_REALS;
+  const double *old = S->inertia_parameter + k * ALI3_INERTIA_REALS,
+               *now = in->parameters.inertia_parameter + k * ALI3_INERTIA_REALS;
   const int32_t *signal = S->inertia_signal + k * ALI3_INERTIA_SIGNALS;
   double before[4][4], after[4][4];
   if (memcmp(old, now, ALI3_INERTIA_REALS * sizeof(double)) == 0) return;
@@ -150,7 +150,7 @@ void ali3_masses_apply(ali3_instance *in) {
     if (in->parameters.payload_mass[i / 3] > 0.0)
       add_point_mass(in, S->payload_signal[i], in->parameters.payload_mass[i / 3], S->payload_gravity[i % 3]);
   for (int64_t k = 0; k < S->n_armature_ratio; k++) apply_armature(in, k);
-  for (int64_t k = 0; k < S->n_inertia_real / ALI3_INERTIA_REALS; k++) apply_inertia(in, k);
+  for (int64_t k = 0; k < S->n_inertia_parameter / ALI3_INERTIA_REALS; k++) apply_inertia(in, k);
   for (int64_t k = 0; k < S->n_axis_inertia; k++) apply_axis(in, k);
   in->mass.isotropic = ali3_mass_isotropic(S, own->val);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);

@@ -26,15 +26,15 @@ typedef struct {
 
 /* Arrays that parameters write. */
 static targets targets_of(const ali3_instance *in) {
-  return (targets){{[ALI3_TARGET_ELEMENT] = in->parameters.el_real,
-                    [ALI3_TARGET_DRIVING] = in->parameters.guide_real,
-                    [ALI3_TARGET_ROAD] = in->parameters.road_real,
+  return (targets){{[ALI3_TARGET_ELEMENT] = in->parameters.el_parameter,
+                    [ALI3_TARGET_DRIVING] = in->parameters.guide_parameter,
+                    [ALI3_TARGET_ROAD] = in->parameters.road_parameter,
                     [ALI3_TARGET_PAYLOAD] = in->parameters.payload_mass,
                     [ALI3_TARGET_SWITCH] = in->parameters.switch_on,
                     [ALI3_TARGET_ARMATURE] = in->parameters.armature_ratio,
-                    [ALI3_TARGET_INERTIA] = in->parameters.inertia_real,
-                    [ALI3_TARGET_SENSOR] = in->parameters.sen_real,
-                    [ALI3_TARGET_AXIS] = in->parameters.axis_real}};
+                    [ALI3_TARGET_INERTIA] = in->parameters.inertia_parameter,
+                    [ALI3_TARGET_SENSOR] = in->parameters.sen_parameter,
+                    [ALI3_TARGET_AXIS] = in->parameters.axis_parameter}};
 }
 
 /* Writes the value of parameter p to its targets. */

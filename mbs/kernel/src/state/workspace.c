@@ -49,12 +49,12 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->inputs.stage = ali3_pool_array(p, ALI3_RADAU * nu);
   in->parameters.value = ali3_pool_array(p, np);
   in->parameters.work = ali3_pool_array(p, np);
-  in->parameters.el_real = ali3_pool_array(p, (size_t)s->n_el_real);
-  in->parameters.sen_real = ali3_pool_array(p, (size_t)s->n_sen_real);
-  in->parameters.guide_real = ali3_pool_array(p, (size_t)s->n_guide_real);
+  in->parameters.el_parameter = ali3_pool_array(p, (size_t)s->n_el_parameter);
+  in->parameters.sen_parameter = ali3_pool_array(p, (size_t)s->n_sen_parameter);
+  in->parameters.guide_parameter = ali3_pool_array(p, (size_t)s->n_guide_parameter);
   in->driving.least = ali3_pool_array(p, 3 * (size_t)s->size.ng);
   in->parameters.switch_on = ali3_pool_array(p, (size_t)s->size.n_switch);
-  in->parameters.road_real = ali3_pool_array(p, (size_t)s->n_road_real);
+  in->parameters.road_parameter = ali3_pool_array(p, (size_t)s->n_road_parameter);
   ali3_masses_place(s, in, p);
   ali3_axes_place(s, in, p);
 }

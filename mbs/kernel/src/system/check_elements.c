@@ -27,7 +27,8 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
   const int32_t ne = s->size.ne;
   for (int32_t e = 0; e < ne; e++) {
     const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
-    const int32_t nsig = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], nreal = s->el_real_ptr[e + 1] - s->el_real_ptr[e],
+    const int32_t nsig = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e],
+                  nreal = s->el_parameter_ptr[e + 1] - s->el_parameter_ptr[e],
                   nint = s->el_int_ptr[e + 1] - s->el_int_ptr[e], nout = s->el_out_ptr[e + 1] - s->el_out_ptr[e],
                   nstate = s->el_state_ptr[e + 1] - s->el_state_ptr[e];
     if (type == NULL) return ali3_bad(m, "element %d has the unknown type %d", (int)e, (int)s->el_type[e]);

@@ -24,7 +24,7 @@ ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
 }
 
 ali3_status ali3_check_inertias(const ali3_system *s, ali3_message m) {
-  const int64_t n = s->n_inertia_real / ALI3_INERTIA_REALS;
+  const int64_t n = s->n_inertia_parameter / ALI3_INERTIA_REALS;
   for (int64_t i = 0; i < ALI3_INERTIA_SIGNALS * n; i++)
     CHECK(ali3_check_independent(s, s->inertia_signal[i], "a body whose inertia parameters write", m));
   /* each signal of a body with the same component of its four vectors */

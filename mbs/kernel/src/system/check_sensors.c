@@ -62,7 +62,8 @@ static int64_t limit(const ali3_system *s, char letter, const int32_t *v) {
 static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m) {
   const ali3_sensor_type *type = &ali3_sensor_types[s->sen_type[i]];
   const int32_t *v = s->sen_int + s->sen_int_ptr[i];
-  const int32_t n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i], n_real = s->sen_real_ptr[i + 1] - s->sen_real_ptr[i];
+  const int32_t n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i],
+                n_real = s->sen_parameter_ptr[i + 1] - s->sen_parameter_ptr[i];
   const int32_t head = (int32_t)strcspn(type->integers, "("), all = (int32_t)strlen(type->integers);
   const int32_t each = all > head ? all - head - 2 : 0; /* letters in the brackets */
   int64_t items = 0;

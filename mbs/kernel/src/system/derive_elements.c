@@ -78,11 +78,11 @@ void ali3_elements_derive(ali3_system *s) {
     const int32_t n = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
     s->el_kind[e] = ali3_element_type_get(s->el_type[e]);
     s->el_size[e] = (ali3_element_size){.nsig = n,
-                                        .nreal = s->el_real_ptr[e + 1] - s->el_real_ptr[e],
+                                        .nreal = s->el_parameter_ptr[e + 1] - s->el_parameter_ptr[e],
                                         .nint = s->el_int_ptr[e + 1] - s->el_int_ptr[e],
                                         .nstate = s->el_state_ptr[e + 1] - s->el_state_ptr[e],
                                         .nout = s->el_out_ptr[e + 1] - s->el_out_ptr[e],
-                                        .real = s->el_real_ptr[e],
+                                        .real = s->el_parameter_ptr[e],
                                         .integer = s->el_int_ptr[e],
                                         .state = s->el_state_ptr[e],
                                         .out = s->el_out_ptr[e]};

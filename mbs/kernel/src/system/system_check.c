@@ -101,11 +101,11 @@ static ali3_status check_fixed_parameters(const ali3_system *s, ali3_message m) 
 static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int32_t np = s->size.np;
   const int64_t length[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = s->n_el_real,      [ALI3_TARGET_DRIVING] = s->n_guide_real,
-      [ALI3_TARGET_ROAD] = s->n_road_real,       [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
-      [ALI3_TARGET_SWITCH] = s->n_switch_start,  [ALI3_TARGET_ARMATURE] = s->n_armature_ratio,
-      [ALI3_TARGET_INERTIA] = s->n_inertia_real, [ALI3_TARGET_SENSOR] = s->n_sen_real,
-      [ALI3_TARGET_AXIS] = s->n_axis_real};
+      [ALI3_TARGET_ELEMENT] = s->n_el_parameter,      [ALI3_TARGET_DRIVING] = s->n_guide_parameter,
+      [ALI3_TARGET_ROAD] = s->n_road_parameter,       [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
+      [ALI3_TARGET_SWITCH] = s->n_switch_start,       [ALI3_TARGET_ARMATURE] = s->n_armature_ratio,
+      [ALI3_TARGET_INERTIA] = s->n_inertia_parameter, [ALI3_TARGET_SENSOR] = s->n_sen_parameter,
+      [ALI3_TARGET_AXIS] = s->n_axis_parameter};
   for (int64_t k = 0; k < s->n_par_target; k++)
     CHECK(ali3_check_indices(m, "par_index", s->par_index + k, 1, 0, length[s->par_target[k]]));
   for (int32_t p = 0; s->n_par_inverse != 0 && p < np; p++)
@@ -118,27 +118,28 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   return check_fixed_parameters(s, m);
 }
 
-/* NULL, or what is wrong with the data of element e; el_real: numbers of all elements. */
-static const char *check_element(const ali3_system *s, int32_t e, const double *el_real) {
+/* NULL, or what is wrong with the data of element e; el_parameter: numbers of all elements. */
+static const char *check_element(const ali3_system *s, int32_t e, const double *el_parameter) {
   const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
-  const int32_t real = s->el_real_ptr[e], integer = s->el_int_ptr[e];
-  return ali3_element_check(type, s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], el_real + real, s->el_real_ptr[e + 1] - real,
-                            s->el_int + integer, s->el_int_ptr[e + 1] - integer, s->size.nu, s->nr);
+  const int32_t real = s->el_parameter_ptr[e], integer = s->el_int_ptr[e];
+  return ali3_element_check(type, s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], el_parameter + real,
+                            s->el_parameter_ptr[e + 1] - real, s->el_int + integer, s->el_int_ptr[e + 1] - integer,
+                            s->size.nu, s->nr);
 }
 
 /* NULL, or what is wrong with the numbers of driving function g. */
-static const char *check_driving_function(const ali3_system *s, int32_t g, const double *guide_real) {
-  const int32_t real = s->guide_real_ptr[g];
-  return ali3_driving_check(s->guide_type[g], guide_real + real, s->guide_real_ptr[g + 1] - real);
+static const char *check_driving_function(const ali3_system *s, int32_t g, const double *guide_parameter) {
+  const int32_t real = s->guide_parameter_ptr[g];
+  return ali3_driving_check(s->guide_type[g], guide_parameter + real, s->guide_parameter_ptr[g + 1] - real);
 }
 
 /* NULL, or what is wrong with the numbers of road k. */
-static const char *check_road(const ali3_system *s, int32_t k, const double *road_real) {
-  const int32_t real = s->road_real_ptr[k];
-  const int32_t n = s->road_real_ptr[k + 1] - real;
-  const char *text = ali3_road_check(s->road_type[k], road_real + real, n);
+static const char *check_road(const ali3_system *s, int32_t k, const double *road_parameter) {
+  const int32_t real = s->road_parameter_ptr[k];
+  const int32_t n = s->road_parameter_ptr[k + 1] - real;
+  const char *text = ali3_road_check(s->road_type[k], road_parameter + real, n);
   for (int32_t i = 1; text == NULL && s->road_type[k] == ALI3_ROAD_PORT && i < n; i++) {
-    const double first = road_real[real + i];
+    const double first = road_parameter[real + i];
     if (!(first >= 0.0 && first <= s->size.nu - ALI3_ROAD_INPUTS && first == floor(first)))
       text = "a road at a port names inputs that do not exist";
   }
@@ -183,9 +184,9 @@ const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_
   for (int32_t k = 0; text == NULL && k < s->nr; k++) text = check_road(s, k, data[ALI3_TARGET_ROAD]);
   for (int64_t k = 0; text == NULL && k < s->n_payload_mass; k++) text = check_payload(data[ALI3_TARGET_PAYLOAD][k]);
   for (int64_t k = 0; text == NULL && k < s->n_armature_ratio; k++) text = check_ratio(data[ALI3_TARGET_ARMATURE][k]);
-  for (int64_t k = 0; text == NULL && k < s->n_inertia_real; k += ALI3_INERTIA_REALS)
+  for (int64_t k = 0; text == NULL && k < s->n_inertia_parameter; k += ALI3_INERTIA_REALS)
     text = check_inertia(data[ALI3_TARGET_INERTIA] + k);
-  for (int64_t k = 0; text == NULL && k < s->n_axis_real; k += ALI3_AXIS_REALS)
+  for (int64_t k = 0; text == NULL && k < s->n_axis_parameter; k += ALI3_AXIS_REALS)
     text = ali3_check_axis(data[ALI3_TARGET_AXIS] + k);
   const double *on = data[ALI3_TARGET_SWITCH]; /* NULL: of a file, whose values are checked with its arrays */
   for (int32_t k = 0; text == NULL && on != NULL && k < s->size.n_switch; k++) text = check_switch(on[k]);
@@ -208,10 +209,10 @@ static int32_t find_owner(const int32_t *ptr, int32_t n, int32_t index) {
 const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]) {
   const int32_t index = s->par_index[k], family = s->par_target[k];
   if (family == ALI3_TARGET_ELEMENT)
-    return check_element(s, find_owner(s->el_real_ptr, s->size.ne, index), data[family]);
+    return check_element(s, find_owner(s->el_parameter_ptr, s->size.ne, index), data[family]);
   if (family == ALI3_TARGET_DRIVING)
-    return check_driving_function(s, find_owner(s->guide_real_ptr, s->size.ng, index), data[family]);
-  if (family == ALI3_TARGET_ROAD) return check_road(s, find_owner(s->road_real_ptr, s->nr, index), data[family]);
+    return check_driving_function(s, find_owner(s->guide_parameter_ptr, s->size.ng, index), data[family]);
+  if (family == ALI3_TARGET_ROAD) return check_road(s, find_owner(s->road_parameter_ptr, s->nr, index), data[family]);
   if (family == ALI3_TARGET_PAYLOAD) return check_payload(data[family][index]);
   if (family == ALI3_TARGET_SENSOR) return NULL;
   if (family == ALI3_TARGET_INERTIA)
@@ -244,10 +245,10 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(ali3_check_start(s, m));
   CHECK(ali3_check_ported(s, m));
   const double *const data[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = s->el_real,         [ALI3_TARGET_DRIVING] = s->guide_real,
-      [ALI3_TARGET_ROAD] = s->road_real,          [ALI3_TARGET_PAYLOAD] = s->payload_mass,
-      [ALI3_TARGET_ARMATURE] = s->armature_ratio, [ALI3_TARGET_INERTIA] = s->inertia_real,
-      [ALI3_TARGET_AXIS] = s->axis_real};
+      [ALI3_TARGET_ELEMENT] = s->el_parameter,    [ALI3_TARGET_DRIVING] = s->guide_parameter,
+      [ALI3_TARGET_ROAD] = s->road_parameter,     [ALI3_TARGET_PAYLOAD] = s->payload_mass,
+      [ALI3_TARGET_ARMATURE] = s->armature_ratio, [ALI3_TARGET_INERTIA] = s->inertia_parameter,
+      [ALI3_TARGET_AXIS] = s->axis_parameter};
   const char *text = ali3_check_data(s, data);
   return text == NULL ? ALI3_OK : ali3_bad(m, "%s", text);
 }

@@ -1,32 +1,22 @@
-"""Reference results in the layered standard fmi-ls-ref, with which an importer can check itself.
-
-Manifest: modelica/fmi-ls-ref, 1.0.0-alpha.1; experiments: the draft of modelica/ma-hs-experiments.
-"""
+"""Reference results of an FMU: its default experiment, and the same with each input in turn."""
 
 import contextlib
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
-from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from ali3.parameter_set import ParameterSet
-from ali3.write_parameter_set import parameter_set_bytes
-from fmu_src.description.description import number, to_bytes
-from fmu_src.description.layered_standards import manifest
 from fmu_src.variables.variables import Variable
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.simulation.refusal import refusal
 
-FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
-EXPERIMENTS = "experiments.exp"
-_ROWS = 100
-_PART = 0.2
+_ROWS = 100  # about as many in a run
+_PART = 0.2  # of the way of an input to the end of its range
 Column = NDArray[np.float64]
 
 
@@ -128,68 +118,9 @@ def _run(
 
 
 def with_other_names(run: ReferenceRun, named: Mapping[str, Variable]) -> ReferenceRun:
-    """The run with its columns and inputs as the FMU calls them, in its units; `named`: the variables by their names in
-    the System.
-    """
+    """The run with the names and units of the FMU. `named`: its variables by their names in the System."""
 
-    def called(columns: Mapping[str, Column]) -> dict[str, Column]:
+    def renamed(columns: Mapping[str, Column]) -> dict[str, Column]:
         return {named[key].name: column * named[key].scale for key, column in columns.items()}
 
-    return replace(run, columns=called(run.columns), inputs=called(run.inputs))
-
-
-def reference_files(
-    name: str, runs: Sequence[ReferenceRun], stop_time: float, step: float, parameters: ParameterSet
-) -> dict[str, bytes]:
-    """Manifest, experiments, their parameters, inputs and results.
-
-    `runs`: result of `reference_runs`; `stop_time`, `step`: default experiment, s; `parameters`: their values.
-    Result: by path in the FMU.
-    """
-    references = manifest(
-        "fmiReferences",
-        name="org.fmi-standard.fmi-ls-ref",
-        version="1.0.0-alpha.1",
-        description="Layered Standard providing information on related files included in an FMU.",
-    )
-    experiments = ElementTree.Element("Experiments", name=f"Default experiment of {name}")
-    files = {}
-
-    def related(source: str, kind: str, role: str, words: str) -> None:
-        ElementTree.SubElement(references, "Related", source=source, type=kind, role=role, description=words)
-
-    related(EXPERIMENTS, "application/x-ma-hs-experiments", "experiment/smoke-test", "The experiments")
-    given_parameters = f"{name}.ssv"
-    if parameters.entries:
-        related(given_parameters, "application/x-ssp-parameter-set", "parameter", "All parameters with their defaults")
-        files[f"{FOLDER}/{given_parameters}"] = parameter_set_bytes(parameters, as_built=True)
-    for run in runs:
-        label, words = ("in_turn", "each input in turn") if run.inputs else ("default", "no input touched")
-        experiment = ElementTree.SubElement(
-            experiments, "Experiment", name=label, description=f"Default experiment, {words}"
-        )
-        times = {"startTime": "0.0", "stopTime": number(stop_time), "stepSize": number(step)}
-        ElementTree.SubElement(experiment, "TransientSimulation", times)
-        if parameters.entries:
-            ElementTree.SubElement(experiment, "Parameters", source=given_parameters)
-        source = f"{name}_out.csv" if label == "default" else f"{name}_{label}_out.csv"
-        if run.inputs:
-            inputs_file = f"{name}_{label}_in.csv"
-            ElementTree.SubElement(experiment, "Stimuli", source=inputs_file)
-            # the standard has no role for inputs
-            related(inputs_file, "text/csv", "other", "Inputs, straight between rows, held over each step")
-            files[f"{FOLDER}/{inputs_file}"] = _csv(run.corners, run.inputs)
-        ElementTree.SubElement(experiment, "References", source=source)
-        related(source, "text/csv", "result", f"Outputs of the default experiment, {words}")
-        files[f"{FOLDER}/{source}"] = _csv(run.t, run.columns)
-    return {
-        f"{FOLDER}/fmi-ls-manifest.xml": to_bytes(references),
-        f"{FOLDER}/{EXPERIMENTS}": to_bytes(experiments),
-        **files,
-    }
-
-
-def _csv(t: Column, columns: Mapping[str, Column]) -> bytes:
-    head = ",".join(['"time"', *(f'"{column}"' for column in columns)])
-    rows = np.column_stack([t, *columns.values()])
-    return ("\n".join([head, *(",".join(number(v) for v in row) for row in rows)]) + "\n").encode()
+    return replace(run, columns=renamed(run.columns), inputs=renamed(run.inputs))
