@@ -201,7 +201,7 @@ def _ends(places: JointPlaces, group_of: dict[int, Group]) -> tuple[Group, Group
 
 
 def _attach(group: Group, parent: Group, places: JointPlaces, side: int, slides: bool) -> None:
-    """Attach a group to its parent by a joint; `side`: index of the group in `places`."""
+    """Attach a group of welded bodies to its parent in the tree by a joint; `side`: index of the group in `places`."""
     own_axis, parent_axis = (None, None) if places.axes is None else (places.axes[side], places.axes[1 - side])
     group.parent, group.depth, group.slides = parent, parent.depth + 1, slides
     group.origin, group.axes = in_space(places.points[side]), frame_along(own_axis)
