@@ -72,14 +72,24 @@ def check_writable(file: str | os.PathLike[str]) -> None:
     """Raise the `FileError` that writing a file would raise, before its content is computed."""
     target = Path(os.path.realpath(file))
     _check_file(file, target)
-    nearest_parent = next(parent for parent in target.parents if parent.exists())
-    if not nearest_parent.is_dir():
-        raise FileError(f"The folder {target.parent} cannot be made: {nearest_parent} is a file.")
+    _check_nearest_folder(target.parent, str(file))
+
+
+def check_output_folder(folder: Path) -> None:
+    """Raise the `FileError` that making a folder or writing in it would raise, before its content is computed."""
+    _check_nearest_folder(folder, str(folder))
+
+
+def _check_nearest_folder(folder: Path, name: str) -> None:
+    """Refuse a folder that cannot be made or written in; `name`: what is written, for the message."""
+    nearest = next(path for path in (folder, *folder.parents) if path.exists())
+    if not nearest.is_dir():
+        raise FileError(f"The folder {folder} cannot be made: {nearest} is a file.")
     try:
-        with tempfile.TemporaryFile(dir=nearest_parent):
+        with tempfile.TemporaryFile(dir=nearest):
             pass
     except OSError as error:
-        raise FileError(f"{file} cannot be written: {reason(error)}.") from None
+        raise FileError(f"{name} cannot be written: {reason(error)}.") from None
 
 
 def _check_file(file: str | os.PathLike[str], target: Path) -> None:

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ali3.alias_file import alias_file
-from ali3.errors import FileError, UserError
-from ali3.files import check_writable
+from ali3.errors import UserError
+from ali3.files import check_output_folder, check_writable
 from ali3.read_parameter_set import read_parameter_set
 from ali3.reading import LARGEST_IN_PARTS, check_file, is_file_or_folder, missing_file_text
 
@@ -49,12 +49,6 @@ def _check_road(road: Path) -> None:
         _check_input(road)
 
 
-def _check_output_folder(folder: Path) -> None:
-    nearest = next(path for path in (folder, *folder.parents) if path.exists())
-    if not nearest.is_dir():
-        raise FileError(f"The folder {folder} cannot be made: {nearest} is a file.")
-
-
 _CHECKS: dict[str, Callable[[Path], object]] = {
     **dict.fromkeys(("log", "limits", "log_aliases"), _check_input),
     **dict.fromkeys(("reference", "geometry"), _check_input_or_folder),
@@ -62,5 +56,5 @@ _CHECKS: dict[str, Callable[[Path], object]] = {
     **dict.fromkeys(("parameters", "variant", "diff"), read_parameter_set),
     "road": _check_road,
     **dict.fromkeys(("json", "picture", "png", "mp4", "gltf", "junit", "sarif", "save_parameters"), check_writable),
-    "out": _check_output_folder,
+    **dict.fromkeys(("out", "record"), check_output_folder),
 }
