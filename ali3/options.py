@@ -76,8 +76,17 @@ def folder(text: str) -> Path:
 
 def count(text: str) -> int:
     """A whole number of at least 1."""
-    if not re.fullmatch(r"[0-9]{1,9}", text, re.ASCII) or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a whole number of at least 1")
+    return _whole(text, 1)
+
+
+def level(text: str) -> int:
+    """A whole number of at least 0, as FMUs number their levels of detail."""
+    return _whole(text, 0)
+
+
+def _whole(text: str, least: int) -> int:
+    if not re.fullmatch(r"[0-9]{1,9}", text, re.ASCII) or int(text) < least:
+        raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a whole number of at least {least}")
     return int(text)
 
 
@@ -86,14 +95,6 @@ def duration(text: str) -> float:
     value = quantity("s")(text)
     if not 0.0 < value < math.inf:
         raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a positive, finite time in s")
-    return value
-
-
-def level(text: str) -> float:
-    """A whole number of at least 0, as FMUs number their levels of detail."""
-    value = number(text)
-    if not (value >= 0.0 and value.is_integer()):
-        raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a whole number of at least 0")
     return value
 
 

@@ -61,7 +61,7 @@ NUMBERS = {
 @pytest.mark.parametrize(
     ("name", "option"), [(name, option) for name, options in NUMBERS.items() for option in options]
 )
-@pytest.mark.parametrize("value", ["-1", "nan", "inf", ""])
+@pytest.mark.parametrize("value", ["-1", "1e400", "nan", "inf", ""])
 def test_a_wrong_number_is_refused_with_the_name_of_its_option(command, capsys, name, option, value):
     with pytest.raises(SystemExit) as end:
         command(name, f"{option}={value}")
