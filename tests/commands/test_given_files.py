@@ -51,7 +51,7 @@ def test_a_wrong_file_is_one_sentence(command, capsys, name, option, file):
 NUMBERS = {
     "run": ("--step", "--interval", "--stop-time", "--fidelity"),
     "check": ("--step", "--stop-time", "--fidelity", "--time-limit"),
-    "view": ("--step", "--stop-time"),
+    "view": ("--step", "--stop-time", "--most"),
     "catalogue": ("--step",),
     "compare": ("--step", "--windows", "--window-every", "--fit-step"),
     "simulator": ("--step", "--interval", "--stop-time", "--fidelity"),
