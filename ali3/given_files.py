@@ -56,5 +56,5 @@ _CHECKS: dict[str, Callable[[Path], object]] = {
     **dict.fromkeys(("parameters", "variant", "diff"), read_parameter_set),
     "road": _check_road,
     **dict.fromkeys(("json", "picture", "png", "mp4", "gltf", "junit", "sarif", "save_parameters"), check_writable),
-    "out": check_folder,
+    **dict.fromkeys(("out", "record"), check_folder),
 }

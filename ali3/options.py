@@ -1,6 +1,7 @@
 """Command-line options that several commands share."""
 
 import argparse
+import math
 import re
 import sys
 from collections.abc import Callable, Sequence
@@ -20,6 +21,7 @@ class Parser(argparse.ArgumentParser):
         # without abbreviations, as reports look for options in the command that they repeat
         defaults: dict[str, Any] = {"formatter_class": argparse.RawDescriptionHelpFormatter, "allow_abbrev": False}
         super().__init__(**defaults | options)
+        self.register("type", Path, named_path)  # Path("") would be the current folder
         # argparse knows no negative values other than plain decimals, such as -30mm, -1e3 or -1:1
         self._negative_number_matcher = re.compile(rf"-{DECIMAL}")
 
@@ -57,9 +59,16 @@ class Option(NamedTuple):
     other_names: tuple[str, ...] = ()
 
 
+def named_path(text: str) -> Path:
+    """A path. Raises `argparse.ArgumentTypeError`: it is empty, as of an unset variable of a shell."""
+    if not text:
+        raise argparse.ArgumentTypeError("'' is given; it must be a path, such as . for the current folder")
+    return Path(text)
+
+
 def folder(text: str) -> Path:
     """Path of an output folder. Raises `argparse.ArgumentTypeError`: the name has the suffix of a file."""
-    path = Path(text)
+    path = named_path(text)
     if path.suffix.lower() in _FILE_SUFFIXES:
         raise argparse.ArgumentTypeError(f"{text} is the name of a file; --out names the output folder")
     return path
@@ -67,9 +76,26 @@ def folder(text: str) -> Path:
 
 def count(text: str) -> int:
     """A whole number of at least 1."""
-    if not re.fullmatch(r"[0-9]{1,9}", text, re.ASCII) or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a whole number of at least 1")
+    return _whole(text, 1)
+
+
+def level(text: str) -> int:
+    """A whole number of at least 0, as FMUs number their levels of detail."""
+    return _whole(text, 0)
+
+
+def _whole(text: str, least: int) -> int:
+    if not re.fullmatch(r"[0-9]{1,9}", text, re.ASCII) or int(text) < least:
+        raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a whole number of at least {least}")
     return int(text)
+
+
+def duration(text: str) -> float:
+    """A positive, finite time in s, which may be written in another unit of time."""
+    value = quantity("s")(text)
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a positive, finite time in s")
+    return value
 
 
 def name_and_text(text: str) -> tuple[str, str]:
@@ -100,10 +126,10 @@ SHARED: dict[str, Option] = {
     "--no-open": Option("", "do not open a browser"),
     "--show-parameters": Option("", "print the parameters"),
     "--jobs": Option("N", "number of parallel processes", count),
-    "--fidelity": Option("N", "level of detail of the model, if there is a choice", number),
-    "--step": Option("H", "communication step, s", quantity("s")),
-    "--interval": Option("T", "time between recorded rows, a whole multiple of the step, s", quantity("s")),
-    "--stop-time": Option("T", "duration of a run, s", quantity("s")),
+    "--fidelity": Option("N", "level of detail of the model, if there is a choice", level),
+    "--step": Option("H", "communication step, s", duration),
+    "--interval": Option("T", "time between recorded rows, a whole multiple of the step, s", duration),
+    "--stop-time": Option("T", "duration of a run, s", duration),
     "--from": Option("T", "time from which the record is used, s", quantity("s")),
     "--to": Option("T", "use the record up to this time, s", quantity("s")),
     "--seed": Option("S", "a random driver moves the inputs; the same number gives the same drive", int),

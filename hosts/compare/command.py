@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.command_run import run_command
-from ali3.options import Parser, add_option, count
+from ali3.options import Parser, add_option, count, duration
 from ali3.units import quantity
 from hosts.common.options import add_fmu, add_setting_options
 from hosts.fmu.fmu_file import fmu_file
@@ -44,9 +44,9 @@ def parser_of(prog: str = "ali3 compare") -> Parser:
         "--seconds", metavar="A:B,...", help="compare and fit only these seconds of the log, such as 0:80,160:240"
     )
     parser.add_argument(
-        "--windows", type=_SECONDS, metavar="T", help="drive windows of this length, each from its measured state, s"
+        "--windows", type=duration, metavar="T", help="drive windows of this length, each from its measured state, s"
     )
-    parser.add_argument("--window-every", type=_SECONDS, metavar="T", help="from one window to the next, s; default: T")
+    parser.add_argument("--window-every", type=duration, metavar="T", help="from one window to the next, s; default: T")
     parser.add_argument("--skip", type=_SECONDS, default=0.0, metavar="T", help="first seconds, which are not compared")
     add_option(parser, "--step", "that of the FMU")
     parser.add_argument(
@@ -70,7 +70,7 @@ def parser_of(prog: str = "ali3 compare") -> Parser:
         "each)",
     )
     parser.add_argument("--starts", type=count, default=1, metavar="N", help="start points of the fit; default 1")
-    parser.add_argument("--fit-step", type=_SECONDS, metavar="T", help="inner step of the FMU during the fit, s")
+    parser.add_argument("--fit-step", type=duration, metavar="T", help="inner step of the FMU during the fit, s")
     add_option(parser, "--jobs", "the number of available cores, for windows of a minute and more")
     parser.add_argument("--anyway", action="store_true", help="fit even if a signal seems to have a wrong unit")
     add_option(parser, "--out", "out/compare", default=Path("out", "compare"))

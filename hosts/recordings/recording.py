@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ali3.extras import missing_package
-from ali3.files import check_writable, make_folder, write_bytes, write_text
+from ali3.files import make_folder, write_bytes, write_text
 from ali3.scene.scene_columns import all_columns
 from hosts.common.closable import Closable
 from hosts.common.numbers import Value
@@ -57,12 +57,6 @@ def recorded_columns(
 
 _MOST_ROWS = 2000  # in memory
 _LONGEST_WAIT = 2.0  # s of wall time between writes
-
-
-def check_folder(folder: Path) -> None:
-    """Make the folder of a recording. Raises `HostError` or `FileError` if it has a recording or cannot be written."""
-    check_new(folder)
-    check_writable(make_folder(folder) / DESCRIPTION)
 
 
 def recording_meta(

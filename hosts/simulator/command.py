@@ -112,8 +112,8 @@ def _check_options(options: argparse.Namespace) -> None:
             from ali3.extras import missing_package
 
             raise HostError(missing_package(package))
-    if not 0.0 < options.step <= 1.0:
-        raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
+    if options.step > 1.0:
+        raise HostError(f"--step is {options.step:g} s; it must be at most 1 s.")
     recording_options = {"--replay": options.replay or None, "--save-manoeuvre": options.save_manoeuvre}
     recording_options |= {"--from": options.begin, "--to": options.end}
     if misplaced := [name for name, value in recording_options.items() if value is not None]:
@@ -131,8 +131,8 @@ def _check_options(options: argparse.Namespace) -> None:
         )
     if options.headless and options.stop_time is None and options.manoeuvre is None:
         raise HostError("A run without a page needs its length: --headless --stop-time T, or a --manoeuvre.")
-    if options.stop_time is not None and not 0.0 < options.stop_time <= _MAX_RUN_TIME:
-        raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_MAX_RUN_TIME:g}.")
+    if options.stop_time is not None and options.stop_time > _MAX_RUN_TIME:
+        raise HostError(f"--stop-time is {options.stop_time:g} s; it must be at most {_MAX_RUN_TIME:g} s.")
     if options.manoeuvre is not None and options.seed is not None:
         raise HostError("Inputs are given by --manoeuvre and by --seed; give one of them.")
 

@@ -22,7 +22,7 @@ from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables, check_co_simulation
-from hosts.recordings.recording import check_folder
+from hosts.recordings.format import check_new
 
 ITERATIONS = "solver.step_iterations"
 _MAX_ITERATIONS = 6
@@ -97,7 +97,7 @@ def prepare(request: DriveRequest, tell: Callable[[str], None]) -> Prepared:
     Raises `HostError` with a remedy if something is wrong or cannot be used.
     """
     if request.record is not None:
-        check_folder(request.record)
+        check_new(request.record)
     if request.world is not None:
         check_world(request.world)
     with ThreadPoolExecutor() as pool:

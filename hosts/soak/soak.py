@@ -5,7 +5,6 @@ roll-overs, resets and rewinds, all in one process. The same seed gives the same
 """
 
 import argparse
-import math
 import shlex
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
@@ -109,11 +108,6 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     """
     seconds = SECONDS if options.stop_time is None else options.stop_time
     step = STEP if options.step is None else options.step
-    if not 0.0 < seconds < math.inf or not 0.0 < step < math.inf:
-        raise HostError(f"A drive of {seconds:g} s in steps of {step:g} s; both must be positive and finite.")
-    fraction = next((n for n in options.fidelity if not float(n).is_integer()), None)
-    if fraction is not None:
-        raise HostError(f"--fidelity is {fraction:g}; it must be a whole number.")
     path, out = fmu_file(options.fmu).absolute(), make_folder(options.out or OUT).absolute()
     with Fmu(path) as fmu:
         start = settings_of(fmu.table, fmu_options(options)).start

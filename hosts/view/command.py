@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ali3.command_run import run_command
 from ali3.decimal_number import number
-from ali3.options import Parser, add_option, options_given
+from ali3.options import Parser, add_option, count, options_given
 from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options
@@ -60,7 +60,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     shown.add_argument("--geometry", type=Path, metavar="FILE", help="FMU (or scene) with which results are drawn")
     add_option(shown, "--from", dest="begin")
     add_option(shown, "--to", dest="end")
-    shown.add_argument("--most", type=int, default=5001, metavar="N", help="times in the page at most; default: 5001")
+    shown.add_argument("--most", type=count, default=5001, metavar="N", help="times in the page at most; default: 5001")
     shown.add_argument("--camera", metavar="NAME", help="camera at the start, and of pictures")
     shown.add_argument("--at", type=quantity("s"), metavar="T", help="time at the start, and of the picture, s")
     shown.add_argument("--arrows", action="store_true", help="draw forces as arrows")

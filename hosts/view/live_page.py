@@ -169,8 +169,8 @@ def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict
     """Checked options of the page: whether it runs at once, step and plots."""
     results: dict[str, Any] = {"run": not options.paused}
     if options.step is not None:
-        if not 0.0 < options.step <= 1.0:
-            raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
+        if options.step > 1.0:
+            raise HostError(f"--step is {options.step:g} s; it must be at most 1 s.")
         results["step"] = options.step
     plottable = {n for fmu in fmus for n in fmu.variables.names if fmu.variables[n].causality in ("input", "output")}
     for name in options.plot:

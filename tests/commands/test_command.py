@@ -253,7 +253,8 @@ def test_files_of_the_user_cannot_break_a_command(script, crowded):
     assert done.returncode == 0, done.stderr
     assert (crowded / "out" / "pendulum.csv").is_file()
     done = ran([script, "run", "dist/Pendulum.fmu", "--stop-time", -1], crowded)
-    assert (done.returncode, done.stderr) == (2, "error: The stop time is -1 s; it must be positive and finite.\n")
+    assert done.returncode == 2
+    assert "argument --stop-time: '-1' is given; it must be a positive, finite time in s" in done.stderr
     done = ran([script, "check", "dist/Pendulum.fmu", "--steps", 3], crowded)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "nothing bad found" in done.stdout

@@ -13,9 +13,9 @@ FILES = {
     "view": ("--road", "--parameters", "--geometry", "--png", "--mp4", "--gltf"),
     "catalogue": ("--aliases", "--variant", "--limits"),
     "compare": ("--aliases", "--log-aliases", "--road", "--parameters", "--json"),
-    "simulator": ("--aliases", "--parameters", "--json"),
+    "simulator": ("--aliases", "--parameters", "--json", "--record"),
 }
-WRITTEN = ("--out", "--json", "--png", "--mp4", "--gltf", "--junit", "--sarif", "--save-parameters")
+WRITTEN = ("--out", "--record", "--json", "--png", "--mp4", "--gltf", "--junit", "--sarif", "--save-parameters")
 
 
 @pytest.fixture
@@ -46,6 +46,43 @@ def test_a_wrong_file_is_one_sentence(command, capsys, name, option, file):
     assert error.startswith("error: ")
     assert error.count("\n") == 1
     assert file.removesuffix("/x") in error
+
+
+NUMBERS = {
+    "run": ("--step", "--interval", "--stop-time", "--fidelity"),
+    "check": ("--step", "--stop-time", "--fidelity", "--time-limit"),
+    "view": ("--step", "--stop-time", "--most"),
+    "catalogue": ("--step",),
+    "compare": ("--step", "--windows", "--window-every", "--fit-step"),
+    "simulator": ("--step", "--interval", "--stop-time", "--fidelity"),
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "option"), [(name, option) for name, options in NUMBERS.items() for option in options]
+)
+@pytest.mark.parametrize("value", ["-1", "1e400", "nan", "inf", ""])
+def test_a_wrong_number_is_refused_with_the_name_of_its_option(command, capsys, name, option, value):
+    with pytest.raises(SystemExit) as end:
+        command(name, f"{option}={value}")
+    assert end.value.code == 2
+    last_line = capsys.readouterr().err.splitlines()[-1]
+    assert f"error: argument {option}: {value!r} is" in last_line or f"the value is {value}" in last_line
+
+
+@pytest.mark.parametrize(
+    ("name", "option"), [("run", "--out"), ("run", "--aliases"), ("simulator", "--record"), ("check", "--junit")]
+)
+def test_an_empty_path_is_not_the_current_folder(command, capsys, name, option):
+    with pytest.raises(SystemExit):
+        command(name, f"{option}=")
+    assert f"argument {option}: '' is given; it must be a path" in capsys.readouterr().err
+
+
+def test_the_folder_of_a_recording_is_not_made_before_the_car_is_built(command, tmp_path):
+    with pytest.raises(AssertionError, match="the car is built"):
+        command("simulator", "--headless", "--stop-time=1", "--record=drive")
+    assert not (tmp_path / "drive").exists()
 
 
 @pytest.mark.parametrize("words", [["--aliases=carsim"], ["--road=plane.road"], ["--manoeuvre=log.csv"]])

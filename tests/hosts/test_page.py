@@ -235,7 +235,7 @@ def test_wrong_wishes(tuned, tmp_path, capsys):
     fmu = changed(tuned, tmp_path)
     for more, message in (
         (("--set", "spring.damping=50"), "its range is 0 to 20 N·s/m"),
-        (("--step", "0"), "The step is 0 s; it must be positive"),
+        (("--step", "3"), "--step is 3 s; it must be at most 1 s"),
         (("--plot", "bob.z"), "'bob.z' is not an input or output of Tuned"),
         (("--name", "a", "--name", "b"), "--name is given 2 times for 1 FMUs"),
     ):

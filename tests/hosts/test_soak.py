@@ -295,8 +295,6 @@ def test_bad_wishes_are_refused(prototype_fmu, tmp_path, capfd):
         assert main([str(prototype_fmu), "--soak", "--out", str(tmp_path), *arguments]) == 2
         return capfd.readouterr().err
 
-    assert "both must be positive" in refused("--stop-time", "-1")
-    assert "both must be positive" in refused("--step", "0")
     assert "has no choice of fidelity" in refused("--fidelity", "2")
     assert "no parameter or input 'initial.sped'" in refused("--set", "initial.sped=1")
 
