@@ -8,8 +8,8 @@
 
 static const double ABRUPT = 0.1; /* change of a force in a step, of the largest force */
 /* 1/s: change of a force in a part that is halved, of the largest force, over the requested step, if it is less than
- * ABRUPT. So parts decrease with the step: of stops below 2 ms, of contacts below 20 ms (docs/force_laws.md). */
-static const double STOP_RATE = 50.0, CONTACT_RATE = 5.0;
+ * ABRUPT. So parts decrease with the step: of stops below 2 ms, of tyres below 7 ms, of contacts below 20 ms. */
+static const double STOP_RATE = 50.0, TYRE_RATE = 15.0, CONTACT_RATE = 5.0;
 enum { MAX_DEPTH = 2 }; /* depth to which a step is halved at such a change */
 enum { MIN_ITERATIONS = 4 }; /* iterations of a half for which the whole was not tried, with a limit of iterations */
 
@@ -86,7 +86,7 @@ static double change_over_limit(const ali3_instance *in, double *changed) {
   }
   *changed = fmax(fmax(changes[TYRE], changes[CONTACT]), changes[STOP]);
   largest_force = fmax(largest_force, largest_load);
-  const double load = relative_change(changes[TYRE], ABRUPT * in->settings.part_ratio * largest_load),
+  const double load = relative_change(changes[TYRE], change_limit(in, TYRE_RATE) * largest_load),
                force = relative_change(changes[CONTACT], change_limit(in, CONTACT_RATE) * largest_force),
                stop = relative_change(changes[STOP], change_limit(in, STOP_RATE) * largest_force);
   return fmax(fmax(load, force), stop);
