@@ -77,7 +77,7 @@ def check_writable(file: str | os.PathLike[str]) -> None:
 
 def check_folder(folder: str | os.PathLike[str]) -> None:
     """Raise the `FileError` that making a folder, and writing to it, would raise."""
-    _check_place(Path(os.path.realpath(folder)), f"The folder {folder} cannot be written to")
+    _check_place(Path(os.path.realpath(folder)), f"{folder} cannot be written")
 
 
 def _check_place(folder: Path, refusal: str) -> None:

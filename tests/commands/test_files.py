@@ -110,7 +110,7 @@ def test_a_folder_that_cannot_be_made_is_named_before_the_work(
     check_folder(tmp_path / "new" / "folder")
     assert not (tmp_path / "new").exists()
     for folder, reason in ((tmp_path / "file", "is a file"), (tmp_path / ("x" * 5000), "file name too long")):
-        with pytest.raises(FileError, match=f"^The folder .* cannot be .*{reason}\\.$"):
+        with pytest.raises(FileError, match=f" cannot be .*{reason}\\.$"):
             check_folder(folder)
         assert build.main(["prototype", "--out", str(folder)]) == 2
         printed = capsys.readouterr()

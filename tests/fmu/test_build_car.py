@@ -148,8 +148,11 @@ def test_a_car_that_cannot_be_compiled_is_named(car, monkeypatch):
 
 def test_an_invalid_fidelity_is_refused_in_one_sentence(tmp_path, capsys):
     for word in ("nan", "-inf", "0.5"):
-        assert build_fmu.main([*command("prototype", tmp_path / "out"), f"--fidelity={word}"]) == 2
-        assert f"The fidelity of the car is {word}; it must be one of: 0 rigid" in capsys.readouterr().err
+        with pytest.raises(SystemExit, match="2"):
+            build_fmu.main([*command("prototype", tmp_path / "out"), f"--fidelity={word}"])
+        assert f"argument --fidelity: '{word}' is given; it must be a whole number" in capsys.readouterr().err
+    assert build_fmu.main([*command("prototype", tmp_path / "out"), "--fidelity=9"]) == 2
+    assert "The fidelity of the car is 9; it must be one of: 0 rigid" in capsys.readouterr().err
 
 
 def test_a_folder_of_the_name_of_a_car_is_reported(tmp_path, monkeypatch):
