@@ -173,14 +173,16 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   if (status != ALI3_OK) return status;
   double force = 0.0;
   const double longest_c = S->fine * MAX_C;
+  const bool complete =
+      S->size.ny == 0 || h > 0.0; /* undeflected friction may hold what falls by the stiffness alone */
   /* of a stable equilibrium T is positive from some penalty on, which grows with the stiffness of flexible bodies */
-  for (double penalty = PENALTY; penalty <= MAX_PENALTY; penalty *= 10.0) {
+  for (double penalty = PENALTY; complete && penalty <= MAX_PENALTY; penalty *= 10.0) {
     evaluate_residual(in, longest_c, h, &force);
     status = factorise(in, longest_c, penalty, ROUND_OFF * PENALTY / penalty);
     if (status != ALI3_SINGULAR) break;
   }
   if (status != ALI3_OK && status != ALI3_SINGULAR) return status;
-  const int32_t negative_pivots = in->report.negative_pivots;
+  const int32_t negative_pivots = complete ? in->report.negative_pivots : 0;
   if (h > 0.0) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
