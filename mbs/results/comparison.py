@@ -161,7 +161,8 @@ class Comparison:
 def compared_sensors(system: System) -> Mapping[str, Compared]:
     """Sensors of the System that can be compared, by name.
 
-    Gears, energies and accelerations are excluded: they jump, and a small shift in time makes a large difference.
+    Gears, energies and accelerations are excluded: they jump, and a small shift in time makes a large difference. So are
+    section forces and stresses on roads: what the frame of a car vibrates counts after a low-pass.
     """
     if system not in _COMPARED:
         _COMPARED[system] = _find_compared_sensors(system)
@@ -183,7 +184,7 @@ def _find_compared_sensors(system: System) -> dict[str, Compared]:
         output = kind == SensorType.ELEMENT_OUTPUT
         if ((signal or kind in ANGLES) and unit in ("m", "rad")) or (output and unit == "m"):
             compared[sensor["name"]] = Compared(unit, place=True, wrapped=kind in ANGLES, **own)
-        elif kind == SensorType.SIGNAL and unit in ("N", "N m", "Pa"):
+        elif kind == SensorType.SIGNAL and unit in ("N", "N m", "Pa") and not len(arrays["road_type"]):
             compared[sensor["name"]] = Compared(unit, load=True, recovered=True, **own)
         elif output and unit == "N":
             compared[sensor["name"]] = Compared(unit, load=True, **own)

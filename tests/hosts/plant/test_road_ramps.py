@@ -7,10 +7,10 @@ from tests.vehicle.test_road_port import Waves
 
 
 @pytest.mark.slow
-def test_loads_are_those_of_the_closed_car_to_a_fifth_of_a_per_cent_at_40_m_s() -> None:
+def test_loads_are_those_of_the_closed_car_to_a_quarter_of_a_per_cent_at_40_m_s() -> None:
     """They were 1.5 % off where each answer held over its step."""
     load, messages = loads_of_fmu(Waves("hatchback", 2.0, 0.015), 40.0)
-    assert load < 2.1e-3
+    assert load < 2.5e-3
     assert not messages
 
 
