@@ -161,8 +161,8 @@ class Comparison:
 def compared_sensors(system: System) -> Mapping[str, Compared]:
     """Sensors of the System that can be compared, by name.
 
-    Gears, energies and accelerations are excluded: they jump, and a small shift in time makes a large difference. So are
-    section forces and stresses on roads: what the frame of a car vibrates counts after a low-pass.
+    Gears, energies and accelerations are excluded: they jump, and a small shift in time makes a large difference.
+    Section forces and stresses are excluded with roads: those of the frame of a car count after a low-pass.
     """
     if system not in _COMPARED:
         _COMPARED[system] = _find_compared_sensors(system)
